@@ -107,6 +107,15 @@ def of_tree(values: Floats, /) -> tuple[list[Bytes], list[Bytes]]:
     return smaller(values[:1]), spread(coarser[1], coarser[0, ..., 3], LEVELS - COARSER.bit_length() + 1)
 
 
+def on_cards(layers: Bytes, /) -> Bytes:
+    """Return what cards are drawn with of a twig's pictures (2 n, rows, columns, 4): tone, normal across, along, cover.
+
+    Leaves face out of their card, so that part of the normal is told by the others.
+    """
+    shows, faces = layers[::2], layers[1::2]
+    return np.ascontiguousarray(np.concatenate([shows[..., :1], faces[..., :2], shows[..., 3:]], axis=-1))
+
+
 def _halved(values: NDArray[np.generic]) -> Floats:
     wide = np.uint16 if values.dtype == np.uint8 else np.float32
     rows = np.add(values[:, ::2], values[:, 1::2], dtype=wide)

@@ -9,7 +9,6 @@ flat in float picture;
 flat in vec4 relief;
 flat in vec3 darkest;
 flat in vec3 brightest;
-flat in vec3 barked;
 
 out vec4 pixel;
 
@@ -17,5 +16,5 @@ void main() {
     Pictured leaf = pictured(on, picture);
     must_cover(leaf.cover);
     float brighter = dot(leaf.lies, relief.xyz) + relief.w;
-    pixel = covered(max(brighter, 0.0) * mix(mix(darkest, brightest, leaf.tone), barked, leaf.wood), leaf.cover);
+    pixel = covered(max(brighter, 0.0) * mix(darkest, brightest, leaf.tone), leaf.cover);
 }

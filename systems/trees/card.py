@@ -56,7 +56,7 @@ class ModelOnCard:
     def __init__(self, ctx: moderngl.Context, model: Model) -> None:
         self.model = model
         self.numbers: Numbers = {
-            "tall": (model.height,), "trunk_hertz": (model.hertz,), "twigs": (len(model.twigs),),
+            "tall": (model.height,), "twigs": (len(model.twigs),),
             "ball": (model.middle, model.half), "slim": (model.slim,), "lawn_shade": model.shade,
             "column": (COLUMN * model.radius,),
         }  # fmt: skip
@@ -132,6 +132,7 @@ class ModelOnCard:
         self.told[id(stream)].room(len(rows))
         self.placed[name] = placed = np.zeros(len(rows), PLACED)
         placed["root"], placed["crown_at"] = rows["root"], rows["scale"] * np.float32(self.model.middle)
+        placed["phase"], placed["hertz"] = rows["phase"], self.model.hertz / np.sqrt(rows["scale"])
 
     def _write(self, name: str, rows: NDArray[np.void]) -> None:
         self._send(name, rows)

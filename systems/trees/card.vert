@@ -16,9 +16,8 @@ uniform vec4 card;              // as twig.glsl has it
 out vec2 on;
 flat out float picture;   // which one its card shows
 flat out vec4 relief;     // by how much it is brighter where leaves lie that way, in the card's own axes, and anyway
-flat out vec3 darkest;    // the colours of what it shows: of its darkest and brightest leaves, and of its bark
+flat out vec3 darkest;    // the colours of what it shows: of its darkest and brightest leaves
 flat out vec3 brightest;
-flat out vec3 barked;
 
 void main() {
     on = corners[gl_VertexID];
@@ -27,7 +26,6 @@ void main() {
     relief = hung.relief;
     darkest = hung.darkest;
     brightest = hung.brightest;
-    barked = hung.barked;
     vec3 place = hung_at.xyz + hung_at.w * (on.x * card.x * hung.aside + mix(card.y, card.z, on.y) * hung.along);
     gl_Position = hung_at.w > 0.0 ? stood(place) : vec4(0.0, 0.0, 2.0, 1.0);
 }

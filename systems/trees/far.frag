@@ -9,7 +9,6 @@
 uniform sampler2DArray tree_far;  // tone, wood, how thick that is, cover
 uniform sampler2DArray tree_met;  // how many leaves light has met, by direction and in all, with larger texels
 uniform float moment;
-uniform float slim;    // as far.vert has it
 
 in vec3 on;            // as far.vert has it
 flat in vec4 tiles;

@@ -14,7 +14,6 @@
 in float columns;   // of a forest far off, how many trees stand side by side in its place
 in float shows;     // how much of it is shown
 
-uniform float slim; // how many times as high as wide its model's pictures are
 #ifdef CAST
 uniform vec4 tile;  // of the map: middle (across, up) [m], half the side [m], which one it is
 uniform vec3 lawn_shade; // of its model: how far it shades grass [m]; leaves that light meets, times area [m²]; at its foot
@@ -118,7 +117,7 @@ vec4 over_ground(vec3 seen_at, float under, float front) {
 void light_up(vec3 middle_of, vec3 ray) {
     Light light = light_in_crown(middle_of, vec4(0.0), 1.0);
     meets = meets_by(turned_back(sun), foliage);
-    below = from_below() * (1.0 - haze_at(middle_of));
+    below = lawn_sends * (1.0 - haze_at(middle_of));
     Seen seen = seen_of(mat3(turned(vec3(1.0, 0.0, 0.0)), vec3(0.0, 1.0, 0.0), turned(vec3(0.0, 0.0, 1.0))), ray, light, below);
     sunlit = vec4(light.sun * seen.sends, clamp(gone * shows * COMES, 0.0, 1.0));
     wooden = vec4(light.sun * wood_sends(ray) - sunlit.rgb, THICKEST * scale);
@@ -152,9 +151,8 @@ void main() {
 #ifdef CAST
     told.w += CAST_COARSER;
 #else
-    vec2 aside = trunk_sways(message);
     told.y = SHIMMER * LIMB_SWINGS * length(message);
-    told.z = columns > 1.0 ? 0.0 : 0.5 * dot(aside, across.xz) * tall * scale / half_tall;
+    told.z = columns > 1.0 ? 0.0 : 0.5 * dot(sways, across.xz) * tall * scale / half_tall;
 #endif
     on = vec3(corner_here(pictures, max(texels, 1.0)), 0.0);
     if (columns > 1.0) {
@@ -175,7 +173,7 @@ void main() {
     if (columns > 1.0)
         seen_at.y += height_at(seen_at.xz) - root.y;  // a row of trees goes up and down with the ground
     on.z = (seen_at.y - root.y) / (tall * scale);
-    seen_at.xz += aside * (seen_at.y - root.y);  // its corners go along a line, and pixels from that to the trunk's
+    seen_at.xz += sways * (seen_at.y - root.y);  // its corners go along a line, and pixels from that to the trunk's
     light_up(middle_of, -to);
     gl_Position = just_behind(over_ground(seen_at, under, half_tall));
 #endif

@@ -34,11 +34,11 @@ void tell_leaves(int number, vec3 along, vec3 aside, float turns, Light above, v
 
 const bool LEAF_BY_LEAF = false;
 
-vec3 shows(float tone, float wood, Light light) {
-    return shown_of(shade(Surface(pigment_of(tone, wood, 0.0), 1.0, AMONG_LEAVES), light));
+vec3 shows(float tone, Light light) {
+    return shown_of(shade(Surface(pigment_of(tone, 0.0, 0.0), 1.0, AMONG_LEAVES), light));
 }
 
-void tell_card(vec3 along, vec3 aside, vec3 facing, vec4 chance, Light light, vec3 below) {
+void tell_card(vec3 along, vec3 aside, vec3 facing, vec4 chance, float picture, Light light, vec3 below) {
     mat3 own = mat3(aside, along, facing);
     vec3 ray = normalize(hung_at.xyz + 0.5 * hung_at.w * along - eye);
     Seen seen = seen_of(own, ray, light, below);
@@ -46,8 +46,7 @@ void tell_card(vec3 along, vec3 aside, vec3 facing, vec4 chance, Light light, ve
     light.sky = mix(below, light.sky, 0.5 + 0.5 * seen.up);
     vec3 towards = sun * own * (dot(facing, ray) > 0.0 ? -seen.turns : seen.turns);
     vec4 relief = seen.darker * vec4(towards, 1.0 - dot(towards, seen.faces));
-    vec3 brightest = shows(CARD_TONES.x + CARD_TONES.y * chance.z, 0.0, light);
-    pack(HungCard(along, aside, relief, shows(0.0, 0.0, light), brightest, shows(0.0, 1.0, light), picture_of(chance.y)), hung_axes, hung_light, hung_haze);
+    pack(HungCard(along, aside, relief, shows(0.0, light), shows(CARD_TONES.x + CARD_TONES.y * chance.z, light), picture), hung_axes, hung_light, hung_haze);
 }
 #endif
 
@@ -59,7 +58,7 @@ void main() {
 #endif
     Twig one = twig_of(number);
     vec4 chance = random(number, 0, 3);
-    float size = size_of((float(number) + 0.5) / float(twigs));
+    float picture = LEAF_BY_LEAF ? 0.0 : picture_of(chance.y), size = size_of((float(number) + 0.5) / float(twigs), int(picture));
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
     hung_at = vec4(root, 0.0);
     hung_axes = hung_light = uvec4(0u);
@@ -75,10 +74,10 @@ void main() {
     vec3 facing = normalize(turned(one.face + turned_by(one.along, aside, turns)));
     vec3 along = turned(LEAF_BY_LEAF ? one.along : one.along + fluttered(one.face, aside, turns));
     Light above = light_in_crown(hung_at.xyz + 0.5 * hung_at.w * along, one.shading, 1.0);
-    vec3 below = sky_on(vec3(0.0), from_below(), sky_through(one.shading, foliage), -1.0) * tint * (1.0 - misty.a);
+    vec3 below = sky_on(vec3(0.0), lawn_sends, sky_through(one.shading, foliage), -1.0) * tint * (1.0 - misty.a);
 #ifdef LEAVES
     tell_leaves(number, along, turned(aside), turns, above, below);
 #else
-    tell_card(along, turned(aside), facing, chance, above, below);
+    tell_card(along, turned(aside), facing, chance, picture, above, below);
 #endif
 }

@@ -38,25 +38,24 @@ struct HungCard {
     vec4 relief;
     vec3 darkest;
     vec3 brightest;
-    vec3 barked;
     float picture;
 };
 
 void pack(HungCard told, out uvec4 axes, out uvec4 colors, out uvec2 others) {
     vec3 along = packed_axis(told.along), aside = packed_axis(told.aside);
-    vec3 dark = packed_light(told.darkest), bright = packed_light(told.brightest), bark_of = packed_light(told.barked);
+    vec3 dark = packed_light(told.darkest), bright = packed_light(told.brightest);
     vec4 relief = clamp(vec4(packed_axis(told.relief.xyz), packed_axis(told.relief.www).x), 0.0, 1.0);
     axes = uvec4(two(along.xy), two(vec2(along.z, aside.x)), two(aside.yz), two(relief.xy));
     colors = uvec4(two(relief.zw), two(dark.xy), two(vec2(dark.z, bright.x)), two(bright.yz));
-    others = uvec2(two(bark_of.xy), two(vec2(bark_of.z, told.picture / MOST_PICTURES)));
+    others = uvec2(two(vec2(told.picture / MOST_PICTURES, 0.0)), 0u);
 }
 
 HungCard hung_card(uvec4 axes, uvec4 colors, uvec2 others) {
-    vec2 second = two_of(axes.y), seventh = two_of(colors.z), fifth = two_of(colors.x), last = two_of(others.y);
+    vec2 second = two_of(axes.y), seventh = two_of(colors.z), fifth = two_of(colors.x);
     vec3 along = axis_of(vec3(two_of(axes.x), second.x)), aside = axis_of(vec3(second.y, two_of(axes.z)));
     vec4 relief = vec4(axis_of(vec3(two_of(axes.w), fifth.x)), axis_of(fifth.yyy).x);
     vec3 dark = light_of(vec3(two_of(colors.y), seventh.x)), bright = light_of(vec3(seventh.y, two_of(colors.w)));
-    return HungCard(along, aside, relief, dark, bright, light_of(vec3(two_of(others.x), last.x)), floor(last.y * MOST_PICTURES + 0.5));
+    return HungCard(along, aside, relief, dark, bright, floor(two_of(others.x).x * MOST_PICTURES + 0.5));
 }
 
 // What is the same all over a twig whose leaves are drawn each by itself.

@@ -13,7 +13,7 @@ from ...engine.gl.shaders import Due, due, due_all, tell_asked, tell_due
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
 from . import told as told_of
-from .bake import CARD, covers, filtered, from_around, of_tree, on_card, pictures, smaller
+from .bake import CARD, covers, filtered, from_around, of_tree, on_card, on_cards, pictures, smaller
 from .card import LEAVES, PICTURED, QUAD, WOOD, ModelOnCard, Numbers
 from .far import COLUMNS, ROWS, TALL
 from .habit import HABITS, NEEDLES, Leaf
@@ -23,7 +23,7 @@ from .model import models_of
 from .noise import bark_noise
 from .outline import BOX, around, outline, pairs
 from .programs import Programs
-from .twig import FINER_EACH, HANGING_OFF, SHOOTS_LONG, SHOOTS_OFF
+from .twig import FINER_EACH, HANGING_OFF, SHOOTS_LONG, SHOOTS_OFF, TWIGS_EACH
 from .twig import PICTURES as OF_TWIGS
 
 ASIDE, TURNED, BACK, ON = 0.95, 0.25, 0.3, 1.2
@@ -56,6 +56,8 @@ class KindOnCard:
         self.outline = pairs(BOX)
         """Corners about what its card shows."""
         self._lies = Lies()
+        self._hides: tuple[float, ...] = (1.0,) * OF_TWIGS
+        """How much its card covers on each of its pictures, of what it does on the first."""
         self.bark = mipmapped(ctx, bark_noise())
         self.bark.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         leaf, usual = self.habit.leaf, self.habit.twigs.length
@@ -85,19 +87,21 @@ class KindOnCard:
     def _use(self, twig: list[Bytes]) -> None:
         """Show twigs as in this picture."""
         if self.card is None:
-            self.card = filtered(self.ctx, twig)
+            self.card = filtered(self.ctx, [on_cards(each) for each in twig])
             self.outline = pairs(outline(twig[0][::2, ..., 3].max(axis=0)))
             self._lies = lies_of(twig[0][:2])
+            cover = twig[0][::2, ..., 3].mean(axis=(1, 2))
+            self._hides = tuple((cover / cover[0]).tolist())
 
     def _twig_pictures(self, programs: Programs) -> list[Bytes]:
-        """Return the pictures of its twig, with ever more and smaller leaves; a depth test is set meanwhile."""
-        each = [self._twig_picture(programs, FINER_EACH**number) for number in range(OF_TWIGS)]
+        """Return the pictures of its twig, with the leaves of ever more twigs; a depth test is set meanwhile."""
+        each = [self._twig_picture(programs, TWIGS_EACH**number, FINER_EACH**number) for number in range(OF_TWIGS)]
         return [np.concatenate(layers) for layers in zip(*each, strict=True)]
 
-    def _twig_picture(self, programs: Programs, finer: float) -> list[Bytes]:
-        """Return its picture with leaves so many times as small, and as many more as cover as much."""
+    def _twig_picture(self, programs: Programs, twigs: int, finer: float) -> list[Bytes]:
+        """Return its picture with the leaves of so many twigs, so many times as small."""
         twig = programs.array(LEAVES, self.models[0].bare, baked=True)
-        matrix, leaf = on_card(self.reach, self.habit.twigs.length), self.habit.leaf.finer(finer)
+        matrix, leaf = on_card(self.reach, self.habit.twigs.length), self.habit.leaf.fuller(twigs, finer)
         off = SHOOTS_OFF if self.habit.leaf.shoots > 1 else HANGING_OFF
         numbers = {**_leaves(leaf, self.habit.twigs.length), "finer": (finer,), "shoots_off": (off,)}
 
@@ -152,6 +156,7 @@ class KindOnCard:
         if key not in program.extra:  # the model is kept with it: so no other one is taken for it
             told = due(program, self._numbers, model.numbers)
             lies = model.lies if "tree_far" in tell_asked(program) else self._lies
+            told += due(program, {"hides": self._hides})
             told += due_all(program, told_of.NAME, self._told_of[key]) + due_all(program, "lies", lies)
             program.extra[key] = model, told
         found: Due = program.extra[key][1]

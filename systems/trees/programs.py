@@ -34,7 +34,7 @@ STAND, HANG, HANG_LEAVES = "stand", "hang", "hang leaves"
 _HUNG = HUNG.names or ()
 
 MADE: Mapping[str, tuple[str, tuple[str, ...], Mapping[str, str | int]]] = {
-    STAND: ("stand", ("told", "open", "veil", "stands_in"), {}),
+    STAND: ("stand", ("moved", "veil", "among", "sent_up"), {}),
     HANG: ("hang", _HUNG, {"STANDS": 1}),
     HANG_LEAVES: ("hang", _HUNG, {"STANDS": 1, "LEAVES": 1}),
 }

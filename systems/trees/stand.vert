@@ -1,16 +1,35 @@
 // What is the same all over a tree: what the wind tells it, how much of the sun is seen past all but trees, the haze before it, the
-// grass that it stands in.
+// grass that it stands in, how far its trunk is bent.
 #include "systems/trees/tree.glsl"
 
 uniform sampler2D tree_air;   // by patch around the viewer, wrapping round: what the wind tells it
 uniform sampler2D tree_mean;  // their mean
 uniform vec2 middle;          // of the patch that the viewer stands on [m]
 in float crown_at;            // height of its crown's middle over its root [m]
+in float hertz;               // how fast its trunk swings [Hz]
 
-out vec2 told;
-out float open;
+out vec4 moved;  // as tree.glsl has all of it
 out vec4 veil;
-out vec2 stands_in;
+out vec4 among;
+out vec3 sent_up;
+
+const vec3 TRUNK_ASIDE = vec3(0.5, TRUNK_ACROSS, 0.37);  // across the wind: how far it swings and how fast, of along it; turns apart
+const vec2 LAWN = vec2(0.5, 0.55);  // what grass sends up of the sun's light on it and of the sky's, with its gaps
+const float LAWN_AT = 0.7;  // the part of its blades whose pigment is seen from above
+const float LOWEST_LIGHT = 0.12;  // sine of the sun's elevation that counts at least for it
+
+// How far the trunk's top is blown aside, of its height.
+vec2 trunk_sways(vec2 message) {
+    vec2 aside = vec2(-message.y, message.x);
+    float across = swing(hertz * TRUNK_ASIDE.y, phase + TRUNK_ASIDE.z);
+    return message * (TRUNK_LEANS + TRUNK_SWINGS * swing(hertz, phase)) + aside * (TRUNK_ASIDE.x * TRUNK_SWINGS * across);
+}
+
+// The light that the grass about a tree sends up, as radiance of a white face that looks down.
+vec3 from_below() {
+    vec3 grass = pigment_at(0, LAWN_AT);
+    return grass * grass * (LAWN.x * sunlight * max(sun.y, LOWEST_LIGHT) + LAWN.y * skylight);
+}
 
 // What the wind tells the place where it stands, as the carpet is told.
 vec2 message_here() {
@@ -22,13 +41,14 @@ vec2 message_here() {
 
 void main() {
     vec3 place = root + vec3(0.0, crown_at, 0.0);
-    told = message_here();
-    open = sun_seen(place, lie_at(root.xz).past);
+    vec2 told = message_here();
+    moved = vec4(told, trunk_sways(told));
     veil = vec4(haze_light(place), haze_at(place));
     ByKind area = areas(grows_at(root.xz));
     float leaves = total(area), high = 0.0;
     for (int group = 0; group < GROUPS; group++)
         high += dot(area[group], crown[group]);
-    stands_in = vec2(max(high / max(leaves, LEAST_PART), LOWEST_CROWN), leaves);
+    among = vec4(max(high / max(leaves, LEAST_PART), LOWEST_CROWN), leaves, sun_way(0, sun.y), sun_seen(place, lie_at(root.xz).past));
+    sent_up = from_below();
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 }

@@ -7,7 +7,7 @@ import numpy as np
 MODEL = np.dtype(
     [
         ("dark", "3f4"), ("tall", "f4"),  # pigments of leaves; height [m]
-        ("bright", "3f4"), ("trunk_hertz", "f4"),  # frequency of its trunk
+        ("bright", "3f4"), ("slim", "f4"),  # how many times as high as wide its pictures are
         ("bark", "3f4"), ("rough", "f4"),  # pigment of old bark; how deeply it is furrowed, below 0 it has bands across
         ("young_bark", "3f4"), ("column", "f4"),  # in a row of trees, from one to the next [m]
         # Radius of a stem on which bark begins to be as on old ones [m], and 1 by how much thicker those are on which

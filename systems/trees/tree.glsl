@@ -15,21 +15,23 @@ in float gone;    // share of those that are left to what is drawn of it far off
 in float foliage; // how many of its leaves it has
 #ifdef STANDS
 // What is made out of them once a tree.
-in vec2 message;  // what the wind tells it
-in float past;    // how much of the sun is seen past all but trees
+in vec4 blown;    // what the wind tells it; how far that blows its trunk's top aside, of its height
 in vec4 misty;    // radiance of the haze before it, and how much that hides
-in vec2 lawn;     // how high the grass stands about its foot [m], and its leaf area
+in vec4 stands_in; // of the grass about its foot: how high it stands [m], its leaf area, how many of its leaves the sun's light meets, of
+                   // those above; and how much of the sun is seen past all but trees
+in vec3 lawn_sends; // the light that grass sends up, as radiance of a white face that looks down
+vec2 message = blown.xy, sways = blown.zw;
 #else
 const vec2 message = vec2(0.0);
-const float past = 0.0;
 const vec4 misty = vec4(0.0);
-const vec2 lawn = vec2(1.0, 0.0);
+const vec4 stands_in = vec4(1.0, 0.0, 0.0, 0.0);
+const vec2 sways = vec2(0.0);
+const vec3 lawn_sends = vec3(0.0);
 #endif
 
 uniform float moment;  // time, within PERIOD [s]
 
-const vec3 TRUNK_ASIDE = vec3(0.5, TRUNK_ACROSS, 0.37);  // across the wind: how far it swings and how fast, of along it; turns apart
-const vec3 LIMB_ASIDE = vec3(0.7, LIMB_ACROSS, 1.7);  // the same of limbs; how many times as far they are apart
+const vec3 LIMB_ASIDE = vec3(0.7, LIMB_ACROSS, 1.7);  // across the wind: how far limbs swing and how fast, of along it; turns apart, as a factor
 const float OVER_TOP = 1.2;  // height up to which a tree bends, of its model's: twigs and pictures go beyond that
 const float LOWEST_ARC = 0.5;  // twice the height that counts at least, for how far down what is bent aside comes [m]
 
@@ -49,23 +51,15 @@ vec3 turned_back(vec3 world) {
     return vec3(turn.x * world.x + turn.y * world.z, world.y, turn.x * world.z - turn.y * world.x);
 }
 
-// How far the trunk's top is blown aside, of its height.
-vec2 trunk_sways(vec2 message) {
-    float hertz = trunk_hertz * inversesqrt(scale);
-    vec2 aside = vec2(-message.y, message.x);
-    float across = swing(hertz * TRUNK_ASIDE.y, phase + TRUNK_ASIDE.z);
-    return message * (TRUNK_LEANS + TRUNK_SWINGS * swing(hertz, phase)) + aside * (TRUNK_ASIDE.x * TRUNK_SWINGS * across);
-}
-
 // How far a trunk of a length [m] is blown aside at a part of it [m].
-vec2 trunk_bends(float high, float of, vec2 message) {
-    return trunk_sways(message) * (of * cantilever(clamp(high, 0.0, OVER_TOP)));
+vec2 trunk_bends(float high, float of) {
+    return sways * (of * cantilever(clamp(high, 0.0, OVER_TOP)));
 }
 
 // Where a point of its model is, with the trunk bent, and a limb swung about its foot on that.
 vec3 swayed(vec3 own, vec3 pivot, float limb, float hertz, vec2 message) {
     vec3 at = turned(own);
-    vec2 bent = trunk_bends(own.y / tall, tall, message);
+    vec2 bent = trunk_bends(own.y / tall, tall);
     float out_by = distance(own, pivot), loose = out_by * out_by / (out_by + LIMB_STIFF);
     vec3 to = vec3(message, 0.0).xzy;
     float first = swing(hertz, limb + phase), second = swing(hertz * LIMB_ASIDE.y, limb * LIMB_ASIDE.z + phase);
@@ -77,16 +71,6 @@ vec3 swayed(vec3 own, vec3 pivot, float limb, float hertz, vec2 message) {
     return root + scale * at;
 }
 
-const vec2 LAWN = vec2(0.5, 0.55);  // what grass sends up of the sun's light on it and of the sky's, with its gaps
-const float LAWN_AT = 0.7;  // the part of its blades whose pigment is seen from above
-const float LOWEST_LIGHT = 0.12;  // sine of the sun's elevation that counts at least for it
-
-// The light that the grass about a tree sends up, as radiance of a white face that looks down.
-vec3 from_below() {
-    vec3 grass = pigment_at(0, LAWN_AT);
-    return grass * grass * (LAWN.x * sunlight * max(sun.y, LOWEST_LIGHT) + LAWN.y * skylight);
-}
-
 const float FAINTEST_SUN = 0.02;  // part of the sun's light that others' shade makes no difference to
 
 // The light at a place in its crown before a face is asked how it lies: the sun's and lamps', the sky's and the lawn's, the haze.
@@ -94,11 +78,11 @@ Light light_in_crown(vec3 place, vec4 shading, float up) {
 #ifdef BAKED
     return Light(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, vec2(0.0));
 #else
-    float seen = past * through_crown(shading, turned_back(sun), foliage);
+    float seen = stands_in.w * through_crown(shading, turned_back(sun), foliage);
     if (seen > FAINTEST_SUN)
         seen *= past_trees_beyond(place, OWN_CROWN * tall * scale);
     Light light = light_at(place, Sender(FACE, vec2(0.0), vec3(0.0, 1.0, 0.0), 1.0), 1.0, seen);
-    light.sky = sky_on(light.sky, from_below(), sky_through(shading, foliage), up);
+    light.sky = sky_on(light.sky, lawn_sends, sky_through(shading, foliage), up);
     light.sun *= tint * (1.0 - misty.a);
     light.sky *= tint * (1.0 - misty.a);
     light.haze = misty.rgb * misty.a;

@@ -33,16 +33,16 @@ void main() {
 #endif
 #ifdef BAKED
 #ifdef LEAVES
-    float cover = inside.y > 0.5 ? inside.z : leaf, shows = inside.x * mix(RIBBED, 1.0, beside), wood = 0.0;
+    float cover = inside.y > 0.5 ? inside.z : leaf, shows = inside.x * mix(RIBBED, 1.0, beside);
     second = vec4(0.5 + 0.5 * normalize(facing), 1.0);
 #else
     Pictured seen = pictured(on, picture);
-    float cover = seen.cover, shows = seen.tone * tone, wood = seen.wood;
+    float cover = seen.cover, shows = seen.tone * tone;
     second = packed_shading(inside);
 #endif
     if (cover <= threshold_of(APART * (tone + inside.x)))
         discard;
-    pixel = vec4(clamp(shows, 0.0, 1.0), wood, 0.0, 1.0);
+    pixel = vec4(clamp(shows, 0.0, 1.0), 0.0, 0.0, 1.0);
 #else
     float cover = covers < 0.0 ? leaf : covers;
     must_cover(cover);

@@ -7,6 +7,7 @@
 uniform int form;         // of its leaves
 uniform int twigs;        // of its model
 uniform vec4 card;        // how far it reaches: left and right, from its foot back, and along [of a twig's usual length]
+uniform vec3 hides;       // by picture of its card: how much that covers, of what the first does
 uniform float usual;      // usual length of a twig [m]
 uniform vec3 leaf_shape;  // length, half the greatest width, angle from the twig [of a twig's usual length; rad]
 #ifdef BAKED
@@ -26,17 +27,17 @@ vec4 random(int twig, int leaf, int number) {
     return vec4(uvec4(hash3(twig, leaf, number)) >> BYTES_AT & uint(BYTE)) / BYTE;
 }
 
-// How large a twig is drawn: 0 where it is left out.
-float size_of(float rank) {
-    float shown = min(keep * (1.0 - gone), 1.0) * foliage;
-    float dwindles = clamp((shown - rank) * RANKS + 0.5, 0.0, 1.0) * min(foliage * RANKS, 1.0);  // without leaves, none is left
-    return dwindles * inversesqrt(max(keep, LEAST_KEPT));
+// Which picture its card shows: where it stands for several twigs, one with the leaves of as many.
+float picture_of(float chance) {
+    float more = -log(max(keep, LEAST_KEPT)) / log(TWIGS_EACH);
+    return clamp(floor(more + chance), 0.0, float(PICTURES) - 1.0);
 }
 
-// Which picture its card shows: where it is larger than it has grown, one with more and smaller leaves.
-float picture_of(float chance) {
-    float larger = -0.5 * log(max(keep, LEAST_KEPT)) / log(FINER_EACH);
-    return clamp(floor(larger + chance), 0.0, float(PICTURES) - 1.0);
+// How large a twig is drawn that shows such a picture, as much of them all: 0 where it is left out.
+float size_of(float rank, int picture) {
+    float shown = min(keep * (1.0 - gone), 1.0) * foliage;
+    float dwindles = clamp((shown - rank) * RANKS + 0.5, 0.0, 1.0) * min(foliage * RANKS, 1.0);  // without leaves, none is left
+    return dwindles * inversesqrt(max(keep, LEAST_KEPT) * hides[picture]);
 }
 
 // Which way a twig's card faces: needles stand all around theirs, so that turns to the eye.

@@ -123,9 +123,9 @@ void main() {
 #else
     Twig one = twig_of(number);
     vec4 chance = random(number, 0, 3);
-    float size = size_of((float(number) + 0.5) / float(twigs));
     tone = CARD_TONES.x + CARD_TONES.y * chance.z;
     picture = picture_of(chance.y);
+    float size = size_of((float(number) + 0.5) / float(twigs), int(picture));
     shape = vec3(on.x * card.x, mix(card.y, card.z, on.y), 0.0);
     inside = one.shading;
     one.face = face_of(one);

@@ -66,8 +66,8 @@ void main() {
     float ends = max(half_width, pixel_at) + fading.x * pixel_at, corners = 1.0 + (1.0 - rounds) * fading.x * (2.0 * side.w - 1.0);
     fading.y = corners;
     seen_at = middle_at + ends * corners * facing;
-    stands = (seen_at.y - root.y) / lawn.x;
-    among_grass = vec2(lawn.y, sun_way(0, sun.y));
+    stands = (seen_at.y - root.y) / stands_in.x;
+    among_grass = stands_in.yz;
     Light light = light_in_crown(seen_at, shading, facing.y);
     sunlit = light.sun;
     skylit = light.sky;

@@ -106,6 +106,7 @@ def test_w4_near_and_far_it_bends_as_far_and_swings_in_the_same_time(
             prairie.advance(0.25)
         return np.convolve(found, np.full(4, 0.25), "valid")  # limbs, which swing once a second, are left out
 
+    monkeypatch.setattr(standing, "FEWEST", 0.25)  # of a tree that is high enough for twigs
     seen = []
     for gone in (1.0, 1e5):
         monkeypatch.setattr(standing, "GONE", gone)

@@ -219,8 +219,8 @@ def test_f10_a_tree_is_darker_in_the_shade_of_a_games_own_thing(
 def test_far_off_it_looks_as_it_does_near_by(
     stage: Stage, prairie: Prairie, plant: Callable[..., int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    bare = shot(stage, prairie, AHEAD)
-    seen = []
+    monkeypatch.setattr(standing, "FEWEST", 0.25)  # of a tree that is high enough for twigs
+    bare, seen = shot(stage, prairie, AHEAD), []
     for gone in (1.0, 1e5):
         monkeypatch.setattr(standing, "GONE", gone)
         monkeypatch.setattr(standing, "BEGINS", 2.0 * gone)
