@@ -45,8 +45,8 @@ LEAFY = np.dtype([*SHOWN.descr, ("first", "f4")])
 """Of a twig that is drawn leaf by leaf, that of its tree, and the twig's number."""
 
 PLACED = np.dtype([("root", "3f4"), ("crown_at", "f4"), ("phase", "f4"), ("hertz", "f4")])
-"""Where a tree stands, and how high above that the middle of its crown is [m]; what sets it apart in the wind, and how fast
-its trunk swings [Hz]: what `stand.vert` asks of it."""
+"""Where a tree stands, and how high above that the middle of its crown is [m]; what sets it apart in the wind, and how
+fast its trunk swings [Hz]: what `stand.vert` asks of it."""
 
 TOLD = np.dtype([("blown", "4f4"), ("misty", "4f4"), ("stands_in", "4f4"), ("lawn_sends", "3f4")])
 """What they make out of it once a tree: `stand.vert` writes it."""
@@ -57,8 +57,8 @@ HUNG = np.dtype([("hung_at", "4f4"), ("hung_axes", "4u4"), ("hung_light", "4u4")
 WHOLE, FEWER_BY = 620.0, 1.4
 """Height from which on all twigs of a tree are drawn [pixels], and the power of lower ones' height by which fewer are.
 
-Those that are left stand for several, so that they hide as much (Cook and others, Stochastic Simplification of Aggregate
-Detail, 2007)."""
+Those that are left stand for several, so that they hide as much (Cook and others, Stochastic Simplification of
+Aggregate Detail, 2007)."""
 
 FEWEST = 0.08
 """Share of them that is drawn at least."""

@@ -39,11 +39,11 @@ HANGING_OFF = 0.3
 """That angle of twigs that hang side by side, where a card stands for several of those without side shoots [rad]."""
 
 PICTURES, TWIGS_EACH, FINER_EACH = 3, 2, 1.1
-"""Pictures of a twig's card; how many times as many twigs each stands for as the one before, and how many times as small
-leaves are on it.
+"""Pictures of a twig's card; how many times as many twigs each stands for as the one before, and how many times as
+small leaves are on it.
 
-A card that stands for several twigs shows all their leaves, as large as they are, and closer together. All that lies in
-its outline is asked for, and of a single twig's three quarters are empty."""
+A card that stands for several twigs shows all their leaves, as large as they are, and closer together. All that lies
+in its outline is asked for, and of a single twig's three quarters are empty."""
 
 GLSL = looked_up("Twig", TWIG, "tree_twigs", ROW) + emitted(
     {
