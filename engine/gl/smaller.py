@@ -110,8 +110,7 @@ class Smaller:
         if not is_alone:
             self._find(host, buffers)
         with aside(self._ctx, host, alike=True):
-            if not is_alone:
-                self._read(buffers)
+            if not is_alone:  # where it is read, it is still bound
                 self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + PLACES["before"])
                 self._gl.glCopyTexSubImage2D(NUMBERS["TEXTURE_2D"], 0, 0, 0, x, y, width, height)
             buffers.target.depth_mask = True
