@@ -165,6 +165,11 @@ float before_rim(float slope) {
     return min(met / max(1.0 - comes_through(leaves), TINY), 1.0);
 }
 
+// How much of what is seen there is carpet's.
+float shares_here() {
+    return carpet > 0.0 ? share_at(ivec2(floor(place.xz * patches_a_metre))) : 0.0;
+}
+
 #ifdef EDGED
 // Where the line of sight comes to grass, from the mesh on, is the place of the pixel; how much that hides of what is behind.
 float comes_to_grass() {
@@ -193,38 +198,21 @@ void meet(float slope, float left) {
 }
 #endif
 
-void main() {
-#ifdef EDGED
-    float hidden = comes_to_grass(), left = left_here(place.xz);
-    vec2 dx = dFdx(over.xz), dy = dFdy(over.xz);
-    float slope = viewing_slope(rise, place), ahead = 0.0;
-    work_out(slope);
-    meet(slope, left);
-#else
-    vec2 dx = dFdx(place.xz), dy = dFdy(place.xz);
-    if (KINDS > 4 || anything_is_cut())
-        grown = grows_at(place.xz);
-#if KINDS > 4
-    rise = rise_at(place.xz);
-#endif
-    float slope = viewing_slope(rise, place), left = left_seen(place.xz), ahead = rises_ahead(place.xz, tall);
-    work_out(slope);
-#endif
-    vec3 ground = met_at(0.0, slope);
-    vec3 pigment = pigment_lying(ground.xz, comes_through(dense / max(slope, LOWEST)), lush, left);
+// Show what is seen there, where a line of sight has this slope and the carpet this share, and return whether anything is: of what is
+// behind, grass hides `hidden` of what outlines say. To the next pixel it is so far (x, z) [m], and so far on the ground between.
+bool show(float slope, float ahead, float left, float share, float hidden, vec2 dx, vec2 dy, vec3 ground, vec2 soil_dx, vec2 soil_dy) {
+    vec3 pigment = pigment_lying(ground.xz, soil_dx, soil_dy, comes_through(dense / max(slope, LOWEST)), lush, left);
     vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way, soil_through), ground, left);
     vec3 color = shown_of(soil_light * pigment * pigment + lit[2].rgb);
-    float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz * patches_a_metre))) : 0.0, cover = 0.0;
+    float cover = 0.0;
     if (over_hosts > 0.0)
         color = vec3(0.0);  // the game's ground is seen there
     float top = slope + carpet * ahead, hides = min(share / SHOWN_FROM, 1.0);
     float covered = mix(1.0, hides_behind(top, standing_out(TALLER, 1.0)), hides);
     // It writes its depth: where strips still stand on the patch, the thin edge of an outline would hide them.
     if (covered < max(NOTHING, STANDING * (1.0 - share)))
-        discard;
+        return false;
 #ifdef EDGED
-    if (hidden < NOTHING || share <= 0.0)
-        discard;
     vec3 before = over_hosts > 0.0 ? before_hosts(place, carpet * tall, slope) : place;
     gl_FragDepth = gl_FragCoord.z + deeper(before, over);
 #endif
@@ -236,12 +224,37 @@ void main() {
         if (covered < WHOLE)
             covered = mix(1.0, hides_behind(top, seen.a), hides);
     }
-#ifdef EDGED
     covered *= hidden;
-#endif
     if (mesh_high.x < EVERYWHERE)
         covered *= before_rim(slope);
     pixel = vec4(color, over_hosts > 0.0 ? cover : 1.0) * covered;
-    if (over_hosts > 0.0 && pixel.a < NOTHING || part != 0 && pixel.a < HALF == (part == 1))
+    return true;
+}
+
+void main() {
+#ifndef EDGED
+    vec2 dx = dFdx(place.xz), dy = dFdy(place.xz);
+    if (KINDS > 4 || anything_is_cut())
+        grown = grows_at(place.xz);
+#if KINDS > 4
+    rise = rise_at(place.xz);
+#endif
+    float slope = viewing_slope(rise, place), left = left_seen(place.xz), ahead = rises_ahead(place.xz, tall), share = shares_here();
+    work_out(slope);
+    vec3 ground = met_at(0.0, slope);
+    bool shown = show(slope, ahead, left, share, 1.0, dx, dy, ground, dFdx(ground.xz), dFdy(ground.xz));
+#else
+    vec2 dx = dFdx(over.xz), dy = dFdy(over.xz);
+    float hidden = comes_to_grass(), left = left_here(place.xz), share = shares_here();
+    float slope = viewing_slope(rise, place);
+    bool shown = false;
+    // Of the tiles' pixels, most meet no grass. They are not discarded at once: in loops behind that, Mesa asks at each turn.
+    if (hidden >= NOTHING && share > 0.0) {
+        work_out(slope);
+        meet(slope, left);
+        shown = show(slope, 0.0, left, share, hidden, dx, dy, met_at(0.0, slope), dx, dy);
+    }
+#endif
+    if (!shown || over_hosts > 0.0 && pixel.a < NOTHING || part != 0 && pixel.a < HALF == (part == 1))
         discard;
 }

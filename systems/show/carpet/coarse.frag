@@ -119,7 +119,7 @@ void main() {
     float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz * patches_a_metre))) : 0.0, covered = 1.0;
     float sunny = any_casters() ? past_casters(place) : 1.0;
     vec3 soil = any_casters() ? mix(soil_shaded, soil_seen, sunny) : soil_seen;
-    vec3 color = soil * lying_seen(place.xz, share > 0.0 ? 0.0 : 1.0).x;
+    vec3 color = soil * lying_seen(place.xz, dFdx(place.xz), dFdy(place.xz), share > 0.0 ? 0.0 : 1.0).x;
     if (share > 0.0) {
         vec3 ray = place - eye;
         float nearness = inversesqrt(max(dot(ray.xz, ray.xz), TINY * TINY)), slope = max((dot(rise, ray.xz) - ray.y) * nearness, 0.0);

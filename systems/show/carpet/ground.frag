@@ -27,7 +27,7 @@ void main() {
     Soil soil = Soil(soil_seen, sunlit, skylit, soil_way, soil_through);
 #endif
     float left = left_seen(place.xz);
-    vec3 pigment = pigment_lying(place.xz, 1.0, lush, left);
+    vec3 pigment = pigment_lying(place.xz, dFdx(place.xz), dFdy(place.xz), 1.0, lush, left);
     vec3 ground = soil_between(soil, place, left);
     pixel = vec4(shown_of(ground * pigment * pigment + haze), 1.0);
 #ifdef EDGED

@@ -30,11 +30,13 @@ vec2 after(float left, vec2 at) {
 }
 
 // The pigment of what lies there, of that of the ground between low leaves, where grass is left to stand so high [m]; or that of
-// a game's own ground.
-vec3 pigment_lying(vec2 at, float bare, vec3 lush, float left) {
+// a game's own ground. To the next pixel across and up it is so far over the ground [m].
+vec3 pigment_lying(vec2 at, vec2 dx, vec2 dy, float bare, vec3 lush, float left) {
 #ifndef PLAIN
-    if (earth_side != 0.0)
-        return earth_pigment(texture(earth, on_earth(at)));
+    if (earth_side != 0.0) {
+        vec2 scale = 1.0 / (earth_side > 0.0 ? vec2(earth_side) : terrain_size);
+        return earth_pigment(textureGrad(earth, on_earth(at), dx * scale, dy * scale));
+    }
 #endif
-    return lying_pigment(lying_seen(at, bare) * after(left, at), lush);
+    return lying_pigment(lying_seen(at, dx, dy, bare) * after(left, at), lush);
 }

@@ -19,8 +19,7 @@ vec2 taken_from(vec2 at) {
 const float SHARPENED = exp2(-LITTER_SHARPER) / LITTER_SIDE;
 
 // From a low angle a pixel is a long stripe of ground: the sampler is anisotropic.
-vec2 lying_seen(vec2 at, float bare) {
-    vec2 dx = dFdx(at), dy = dFdy(at);
+vec2 lying_seen(vec2 at, vec2 dx, vec2 dy, float bare) {
     return textureGrad(repeating, taken_from(at), dx * SHARPENED, dy * SHARPENED).gb;
 }
 #else
@@ -31,8 +30,8 @@ const float ONE_PART = 0.1;      // a stripe counts as longer than so many parts
 // From a low angle a pixel is a long stripe of ground. Anisotropic filtering costs a processor too much: parts of the stripe are
 // read that lie one behind another along the line of sight, fewer where little of the ground is `bare`, seen between the
 // grass. Each part is read at the one level that fits best; where one part is enough, two levels share it.
-vec2 lying_seen(vec2 at, float bare) {
-    vec2 dx = dFdx(at), dy = dFdy(at), along = dot(dx, dx) > dot(dy, dy) ? dx : dy, sum = vec2(0.0);
+vec2 lying_seen(vec2 at, vec2 dx, vec2 dy, float bare) {
+    vec2 along = dot(dx, dx) > dot(dy, dy) ? dx : dy, sum = vec2(0.0);
     float parts = min(1.0 / narrowed(dx, dy), mix(1.0, LITTER_PARTS, min(bare / BARE_ENOUGH, 1.0)));
     float count = max(ceil(parts - ONE_PART), 2.0);
     float level = log2(length(along) * float(textureSize(repeating, 0).x) / (LITTER_SIDE * parts)) - LITTER_SHARPER;
