@@ -182,6 +182,7 @@ class Trees(Feature):
         Those that a game has made others stay where they are among the entities `kept`.
         """
         self._rows, self._there = self._rows[:0], []  # what a saved game has not is not felled now
+        self._heights = -1  # look again, though the entities may be the same
         self._going.forget()
         if self.wild is not None:
             self.wild.fell(wild, kept)

@@ -137,6 +137,17 @@ LARGE = LITTLE.replace("size: [60, 60]", "size: [6000, 6000]") + (
 )
 
 
+def test_where_a_state_changes_no_tree_all_stand_as_before() -> None:
+    with little_prairie(scene=WOOD) as prairie:
+        trees = one(Trees, prairie.features)
+        trees.step("main", (0.0, 2.0, 0.0), time=0.0)
+        before = trees.standing.rows
+        prairie.restore(prairie.state())
+        trees.step("main", (0.0, 2.0, 0.0), time=0.0)
+        assert len(before) > 0
+        np.testing.assert_array_equal(trees.standing.rows, before)
+
+
 def test_of_a_large_forest_trees_near_viewers_are_entities_and_those_farther_off_are_fewer_by_rings() -> None:
     with little_prairie(scene=LARGE) as prairie:
         trees = one(Trees, prairie.features)
