@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Bytes, Doubles, Floats
 from ...engine.gl.mipmaps import mipmapped
 from ...engine.gl.stream import release_all
-from .far import COARSER, COLUMNS, EACH_ROW, FINER, FIRST_ROW, ROWS, TALL
+from .far import COARSER, COLUMNS, EACH_ROW, FINER, FIRST_ROW, LINES, ROWS
 
 CARD = 256
 """Pixels of a twig's card across and up."""
@@ -28,9 +28,14 @@ Draw = Callable[[int], None]
 """Draws the picture of a number into the viewport that is set."""
 
 
-def wide_of(breadth: float, /) -> int:
-    """Return the texels across of a tree's pictures where it is so broad, of their height."""
-    return -(-ceil(TALL * breadth) // WHOLE) * WHOLE
+def lines_of(height: float, /) -> int:
+    """Return the texels up of a tree's pictures where they are so high, of its height."""
+    return _whole(LINES * height)
+
+
+def wide_of(breadth: float, lines: int, /) -> int:
+    """Return those across where it is so broad, of their height."""
+    return _whole(lines * breadth)
 
 
 def pictures(ctx: moderngl.Context, columns: int, rows: int, wide: int, tall: int, draw: Draw, /) -> Floats:
@@ -72,11 +77,10 @@ def filtered(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureArr
 
 def smaller(values: Floats, levels: int = LEVELS, /) -> list[Bytes]:
     """Return layers (n, rows, columns, 4) at so many sizes."""
-    found = []
-    for _ in range(levels):
-        found.append(np.ascontiguousarray(np.round(values).astype(np.uint8)))
-        values = _halved(values)
-    return found
+    each = [values]
+    for _ in range(levels - 1):
+        each.append(_halved(each[-1]))
+    return [np.ascontiguousarray(np.round(one).astype(np.uint8)) for one in each]
 
 
 def spread(values: Floats, cover: Floats, levels: int, /) -> list[Bytes]:
@@ -116,6 +120,10 @@ def on_cards(layers: Bytes, /) -> Bytes:
     return np.ascontiguousarray(np.concatenate([shows[..., :1], faces[..., :2], shows[..., 3:]], axis=-1))
 
 
+def _whole(texels: float) -> int:
+    return -(-ceil(texels) // WHOLE) * WHOLE
+
+
 def _halved(values: NDArray[np.generic]) -> Floats:
     wide = np.uint16 if values.dtype == np.uint8 else np.float32
     rows = np.add(values[:, ::2], values[:, 1::2], dtype=wide)
@@ -123,10 +131,10 @@ def _halved(values: NDArray[np.generic]) -> Floats:
     return np.asarray(np.float32(0.25) * np.add(pairs[..., 0, :], pairs[..., 1, :], dtype=np.float32))
 
 
-def covers(texels: Bytes, wide: int, /) -> Bytes:
-    """Return how much of it each picture of a tree from all around covers, shape (pictures, TALL, wide)."""
-    cover = texels[0, ..., 3].reshape(ROWS, TALL, COLUMNS, wide)
-    return np.asarray(cover.transpose(0, 2, 1, 3).reshape(ROWS * COLUMNS, TALL, wide))
+def covers(texels: Bytes, wide: int, lines: int, /) -> Bytes:
+    """Return how much of it each picture of a tree from all around covers, shape (pictures, lines, wide)."""
+    cover = texels[0, ..., 3].reshape(ROWS, lines, COLUMNS, wide)
+    return np.asarray(cover.transpose(0, 2, 1, 3).reshape(ROWS * COLUMNS, lines, wide))
 
 
 def from_around(number: int, middle: float, half: float, slim: float, /) -> Doubles:

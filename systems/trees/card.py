@@ -57,7 +57,8 @@ class ModelOnCard:
         self.model = model
         self.numbers: Numbers = {
             "tall": (model.height,), "twigs": (len(model.twigs),),
-            "ball": (model.middle, model.half), "slim": (model.slim,), "lawn_shade": model.shade,
+            "ball": (model.middle, model.half), "slim": (model.slim,), "lines": (model.lines,),
+            "lawn_shade": model.shade,
             "column": (COLUMN * model.radius,),
         }  # fmt: skip
         """What programs are told of it."""

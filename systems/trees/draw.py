@@ -339,7 +339,7 @@ class TreePart(Part):
                         opaque = SOLID if hard else CLOSED if sort == FAR else OPAQUE
                         told = kind.due(array.program, model)
                         told = told + told_of_call(array.program, corners, around, opaque)
-                        reads = kind.reads(array.program, model, wood=sort == WOOD)
+                        reads = kind.reads(array.program, model, noise=sort in (WOOD, FAR))
                         form = moderngl.TRIANGLE_STRIP if name in CARDS or sort == FAR else moderngl.TRIANGLES
                         calls.append(Call(nearest, array, first, vertices, stream.count, form, told, reads))
         return in_turn(sorted(calls, key=lambda call: call.nearest))

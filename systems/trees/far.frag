@@ -4,11 +4,18 @@
 #include "systems/trees/far.py"
 #include "systems/trees/leaf.glsl"
 #include "systems/trees/motion.py"
+#include "systems/trees/noise.py"
 #include "systems/trees/shown.glsl"
 
 uniform sampler2DArray tree_far;  // tone, wood, how thick that is, cover
 uniform sampler2DArray tree_met;  // how many leaves light has met, by direction and in all, with larger texels
+#ifndef CAST
+uniform sampler2DArray tree_cards;  // in place of twigs' cards: noise that repeats
+#endif
 uniform float moment;
+uniform float lines;   // as far.vert has it
+
+vec2 sides = lines * vec2(1.0 / slim, 1.0);  // of its model's pictures, across and up [texels]
 
 in vec3 on;            // as far.vert has it
 flat in vec4 tiles;
@@ -56,7 +63,7 @@ vec2 on_picture() {
 
 // A place on one that is nowhere its neighbours'.
 vec2 within(vec2 at) {
-    vec2 edge = vec2(slim, 1.0) * TILE_EDGE;
+    vec2 edge = TILE_EDGE / sides;
     return clamp(at, edge, 1.0 - edge);
 }
 
@@ -100,14 +107,18 @@ vec2 blown_from(vec2 at) {
     return within(at);
 }
 
-const mat2 CLUMPS = mat2(197.0, 121.0, -137.0, 203.0);  // waves over a picture's height, two ways [rad]
+const float CLUMP = 7.0;       // a clump of leaves across [texels]
+const mat2 CLUMPS = mat2(0.857, 0.515, -0.515, 0.857) / CLUMP;  // of noise over texels: they lie askew, cells two ways
+const float CLUMPS_FINER = log2(CLUMP / NOISE_FINER);  // levels by which texels of noise are larger than a picture's
+const float EVENLY = 1.6;      // how far noise is spread, whose values lie about the middle: as many clumps give way at each step
 const float GIVES_WAY = 0.25;  // part of the way from one picture to the next on which a clump of leaves gives way to another
 const float BLENDS = 2.0;      // how many times as much more that is on each level, until a pixel is many clumps
 
 // How much of the second picture a place shows: clumps of leaves give way one after another, as two views blended are a blur.
 vec2 clump_by_clump(vec2 at) {
-    vec2 waves = sin(CLUMPS * (at * vec2(1.0 / slim, 1.0)));
-    float turn = 0.5 + 0.5 * (0.5 * (waves.x + waves.y)), way = GIVES_WAY + GIVES_WAY * BLENDS * told.w;
+    vec2 cell = CLUMPS * (at * sides) + told.x * NOISE_CELLS;
+    float noise = textureLod(tree_cards, vec3(cell / NOISE_CELLS, 0.0), max(told.w - CLUMPS_FINER, 0.0)).r;
+    float turn = clamp(0.5 + EVENLY * (noise - 0.5), 0.0, 1.0), way = GIVES_WAY + GIVES_WAY * BLENDS * told.w;
     return clamp(((1.0 + way) * mixed - turn) / way, 0.0, 1.0);
 }
 
@@ -116,7 +127,7 @@ void main() {
     vec2 at = blown_from(on_own());
     mix_pictures(at, clump_by_clump(at), texel, shading);
     float whole = 1.0 / max(texel.a, LEAST_COVER), wood = texel.g * whole, left = mix(foliage_of(meets), 1.0, wood);
-    float cover = texel.a * sunlit.a * left;
+    float cover = 1.0 - pow(max(1.0 - texel.a * left, 0.0), sunlit.a);  // twigs that are left cover the rest of what all leaves do
     wood /= max(left, LEAST_COVER);  // of what is left with fewer leaves
     must_cover(cover);
     shading *= whole;

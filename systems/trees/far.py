@@ -8,9 +8,9 @@ COLUMNS, ROWS = 12, 3
 FIRST_ROW, EACH_ROW = radians(4.0), radians(38.0)
 """Elevation of the lowest ones, and how much higher each row is [rad]."""
 
-TALL = 192
-"""Texels of a picture up: as many as there are pixels where a tree is all drawn so, and half as many again, as outlines
-are smoothed where a texel is a pixel."""
+LINES = 180
+"""Texels of a picture over the tree's height: as many as there are pixels where it begins to be drawn so. The picture
+of a broad tree has more of them up, as that is broad from above too."""
 
 COARSER = 2
 """How many times as large texels are of how light has come to what a picture shows: that changes from twig to twig."""
@@ -18,8 +18,8 @@ COARSER = 2
 FINER = 2
 """Each texel is the mean of so many by so many pixels."""
 
-TILE_EDGE = 0.5 / TALL
-"""What of a picture is its neighbours' at its edge, of its height."""
+TILE_EDGE = 0.5
+"""What of a picture is its neighbours' at its edge [texels]."""
 
 FINER_BY = -0.6
 """Level at which one is shown, from that of its pixels: it is read between texels, which blurs it."""
@@ -29,5 +29,5 @@ THICKEST = 0.6
 
 GLSL = {
     "COLUMNS": COLUMNS, "ROWS": ROWS, "FIRST_ROW": FIRST_ROW, "EACH_ROW": EACH_ROW, "TILE_EDGE": TILE_EDGE,
-    "TALL": TALL, "COARSER": COARSER, "FINER_BY": FINER_BY, "THICKEST": THICKEST,
+    "COARSER": COARSER, "FINER_BY": FINER_BY, "THICKEST": THICKEST,
 }  # fmt: skip

@@ -14,6 +14,7 @@
 in float columns;   // of a forest far off, how many trees stand side by side in its place
 in float shows;     // how much of it is shown
 
+uniform float lines; // texels of its model's pictures up
 #ifdef CAST
 uniform vec4 tile;  // of the map: middle (across, up) [m], half the side [m], which one it is
 uniform vec3 lawn_shade; // of its model: how far it shades grass [m]; leaves that light meets, times area [m²]; at its foot
@@ -26,7 +27,7 @@ uniform vec4 high;     // of the corners about what its pictures show: how high 
 uniform vec4 reaches[2 * COLUMNS * ROWS];  // by picture: how far out they are left and right, of half their height
 
 flat out vec4 meets;   // by how much of what pictures tell of light's way its leaves meet, along its axes and in all
-flat out vec4 sunlit;  // what its leaves send of the sun's light; how many of them are still to be seen
+flat out vec4 sunlit;  // what its leaves send of the sun's light; the share of them that is drawn so
 flat out vec4 wooden;  // how much more its wood sends of that; how thick THICKEST is, of it [m]
 flat out vec4 skylit;  // the sky's light; and how far up what is seen of its leaves looks, -1 to 1
 flat out vec3 below;
@@ -45,7 +46,6 @@ const float OVERHEAD = 0.999;  // sine of the elevation from which on a tree cou
 
 const float SHIMMER = 0.12;  // how far its limbs seem to swing, of how far they do, of a picture
 const float CAST_COARSER = 0.6;  // levels more for the map, which is read between texels: the mean of many leaves and none shades too much
-const float COMES = 1.5;  // how much sooner it is all there than twigs are left to it
 const float UPRIGHT_SENDS = 0.25;  // what an upright stem sends of level light from behind the eye, of what faces it, over half a turn [1/rad]
 
 #ifdef CAST
@@ -79,7 +79,7 @@ vec2 corner_here(ivec4 pictures, float texels) {
     if (columns > 1.0)
         return vec2(to.x, corner == 0 ? -1.0 : 1.0);
     float moved = told.y + LEANS_OFF * abs(told.z);
-    return vec2(to.x * (reach_of(pictures, side, corner) + 2.0 * moved), high[corner]) + to * (SPREADS * 2.0 * texels / float(TALL));
+    return vec2(to.x * (reach_of(pictures, side, corner) + 2.0 * moved), high[corner]) + to * (SPREADS * 2.0 * texels / lines);
 }
 
 // What white wood sends to the eye of the sun's light: the mean over the side of an upright stem that is seen.
@@ -119,7 +119,7 @@ void light_up(vec3 middle_of, vec3 ray) {
     meets = meets_by(turned_back(sun), foliage);
     below = lawn_sends * (1.0 - haze_at(middle_of));
     Seen seen = seen_of(mat3(turned(vec3(1.0, 0.0, 0.0)), vec3(0.0, 1.0, 0.0), turned(vec3(0.0, 0.0, 1.0))), ray, light, below);
-    sunlit = vec4(light.sun * seen.sends, clamp(gone * shows * COMES, 0.0, 1.0));
+    sunlit = vec4(light.sun * seen.sends, gone * shows);
     wooden = vec4(light.sun * wood_sends(ray) - sunlit.rgb, THICKEST * scale);
     skylit = vec4(light.sky, seen.up);
     hazy = light.haze;
@@ -146,7 +146,7 @@ void main() {
     to = normalize(to);
     ivec4 pictures = choose(turned_back(to));
     vec3 across = normalize(abs(to.y) > OVERHEAD ? vec3(turn.x, 0.0, turn.y) : vec3(to.z, 0.0, -to.x)), up = cross(to, across);
-    float half_tall = scale * ball.y, texels = float(TALL) * pixel_at(middle_of) / (2.0 * half_tall);
+    float half_tall = scale * ball.y, texels = lines * pixel_at(middle_of) / (2.0 * half_tall);
     told = vec4(phase, 0.0, 0.0, max(log2(max(texels, LEAST_PART)) + (columns > 1.0 ? 0.0 : FINER_BY), 0.0));
 #ifdef CAST
     told.w += CAST_COARSER;

@@ -23,7 +23,7 @@ from ...engine.kept import (
     write_whole,
 )  # fmt: skip
 from .bake import CARD, LEVELS
-from .far import COARSER, COLUMNS, ROWS, TALL
+from .far import COARSER, COLUMNS, ROWS
 from .twig import PICTURES as OF_TWIGS
 
 SUFFIX = ".trees"
@@ -41,10 +41,10 @@ def kind_key(habit: str, seed: int, renderer: str, /) -> str:
     return blake2b(json.dumps(depends, sort_keys=True).encode(), digest_size=20).hexdigest()
 
 
-def kept_pictures(key: str, wide: list[int], /) -> list[Picture] | None:
+def kept_pictures(key: str, sides: list[tuple[int, int]], /) -> list[Picture] | None:
     """Return a twig's pictures and those of a kind's models, as they were kept; None where they are not, or broken.
 
-    Of each model there are two, as `of_tree` has them; they are so many texels `wide`.
+    Of each model there are two, as `of_tree` has them; they have so many texels across and up.
     """
     folder = cache_folder()
     if folder is None:
@@ -56,7 +56,7 @@ def kept_pictures(key: str, wide: list[int], /) -> list[Picture] | None:
         if data[:DIGEST] != checksum(told, key):
             return None
         with np.load(io.BytesIO(told), allow_pickle=False) as archive:
-            sizes = sizes_of(wide)
+            sizes = sizes_of(sides)
             found = [[archive[f"{one}.{level}"] for level in range(len(each))] for one, each in enumerate(sizes)]
         if all(
             texels.dtype == np.uint8 and texels.shape == size
@@ -84,12 +84,12 @@ def keep_pictures(key: str, pictures: list[Picture], /) -> None:
         tell_nothing_is_kept(str(folder), error.strerror or "it cannot be written to")
 
 
-def sizes_of(wide: list[int], /) -> list[list[tuple[int, int, int, int]]]:
+def sizes_of(sides: list[tuple[int, int]], /) -> list[list[tuple[int, int, int, int]]]:
     """Return the shapes of all pictures of a kind, at each of their sizes."""
     coarser = COARSER.bit_length() - 1
     each = [(2 * OF_TWIGS, CARD, CARD, range(LEVELS))]
-    for one in wide:
-        each += [(1, ROWS * TALL, COLUMNS * one, levels) for levels in (range(LEVELS), range(coarser, LEVELS))]
+    for wide, lines in sides:
+        each += [(1, ROWS * lines, COLUMNS * wide, levels) for levels in (range(LEVELS), range(coarser, LEVELS))]
     return [
         [(layers, rows >> level, columns >> level, 4) for level in levels] for layers, rows, columns, levels in each
     ]

@@ -15,7 +15,7 @@ from ..light.materials import pigment
 from . import told as told_of
 from .bake import CARD, covers, filtered, from_around, of_tree, on_card, on_cards, pictures, smaller
 from .card import LEAVES, PICTURED, QUAD, WOOD, ModelOnCard, Numbers
-from .far import COLUMNS, ROWS, TALL
+from .far import COLUMNS, ROWS
 from .habit import HABITS, NEEDLES, Leaf
 from .kept import keep_pictures, kept_pictures, kind_key
 from .lies import Lies, lies_of, lies_on
@@ -70,8 +70,7 @@ class KindOnCard:
     def bake(self, programs: Programs) -> None:
         """Draw its twig, and then its models from all around, unless that was done in a run before."""
         key = kind_key(self.declared.habit, self._seed, self.ctx.info["GL_RENDERER"])
-        wide = [model.model.wide for model in self.models]
-        found = kept_pictures(key, wide)
+        found = kept_pictures(key, [(model.model.wide, model.model.lines) for model in self.models])
         if found is None:
             found = [self._twig_pictures(programs)]
             for model in self.models:
@@ -82,7 +81,7 @@ class KindOnCard:
         for model, shows, met in zip(self.models, found[1::2], found[2::2], strict=True):
             model.far, model.met = filtered(self.ctx, shows), filtered(self.ctx, met)
             model.lies = lies_on(model.model.twigs, self._lies, turn=self.habit.leaf.form == NEEDLES)
-            model.around = around(covers(shows[0], model.model.wide))
+            model.around = around(covers(shows[0], model.model.wide, model.model.lines))
 
     def _use(self, twig: list[Bytes]) -> None:
         """Show twigs as in this picture."""
@@ -127,7 +126,7 @@ class KindOnCard:
                 _matrix(array.program, matrix)
                 array.render(moderngl.TRIANGLES, vertices=count, instances=1)
 
-        return of_tree(pictures(self.ctx, COLUMNS, ROWS, model.model.wide, TALL, draw_tree))
+        return of_tree(pictures(self.ctx, COLUMNS, ROWS, model.model.wide, model.model.lines, draw_tree))
 
     def _told(self) -> Numbers:
         """Return what programs are told of the kind, whichever of its models they draw."""
@@ -162,9 +161,9 @@ class KindOnCard:
         found: Due = program.extra[key][1]
         return found
 
-    def reads(self, program: moderngl.Program, model: ModelOnCard, *, wood: bool = False) -> list[Read]:
-        """Return what a program reads of the kind and a model, or what one of wood does."""
-        cards = self.bark if wood else self.card
+    def reads(self, program: moderngl.Program, model: ModelOnCard, *, noise: bool = False) -> list[Read]:
+        """Return what a program reads of the kind and a model, or what one does that reads noise in place of cards."""
+        cards = self.bark if noise else self.card
         textures = {
             "tree_twigs": model.twigs.texture,
             "tree_far": model.far,

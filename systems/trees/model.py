@@ -8,10 +8,9 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 from ...engine.declared.tree import HabitName
-from .bake import wide_of
+from .bake import lines_of, wide_of
 from .bark import Wood, bark_of
 from .crown import leaf_area, shade_of, shading
-from .far import TALL
 from .grow import Tree, grown
 from .habit import HABITS, Habit
 from .motion import limb_hertz, trunk_hertz
@@ -47,8 +46,11 @@ class Model:
     half: float
     """Half the height of those [m]."""
 
+    lines: int
+    """Texels of each up."""
+
     wide: int
-    """Texels of each across, as large as those up."""
+    """Those across, as large."""
 
     radius: float
     """How far its crown reaches from the trunk [m]."""
@@ -62,7 +64,7 @@ class Model:
     @property
     def slim(self) -> float:
         """How many times as high as wide its pictures are."""
-        return TALL / self.wide
+        return self.lines / self.wide
 
     @property
     def shade(self) -> tuple[float, float, float]:
@@ -87,8 +89,9 @@ def _model(habit: Habit, height: float, *, seed: int) -> Model:
     radius = float(np.hypot(ends[:, 0], ends[:, 2]).max())
     top = float(ends[:, 1].max())
     half = MARGIN * max(0.5 * top, radius)  # from above it is as high as it is broad
+    lines = lines_of(2.0 * half / height)
     return Model(
-        habit, height, twigs, vertices, wood, 0.5 * top, half, wide_of(MARGIN * radius / half), radius,
+        habit, height, twigs, vertices, wood, 0.5 * top, half, lines, wide_of(MARGIN * radius / half, lines), radius,
         trunk_hertz(height, habit.slender * height), float(area.sum()),
     )  # fmt: skip
 

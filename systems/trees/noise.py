@@ -15,7 +15,7 @@ FINER = 4
 
 SEED = 7
 
-GLSL = {"NOISE_CELLS": float(NOISE_CELLS)}
+GLSL = {"NOISE_CELLS": float(NOISE_CELLS), "NOISE_FINER": float(FINER)}
 
 
 @lru_cache(maxsize=1)

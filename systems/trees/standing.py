@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles
 from ...engine.declared.scene import MOST_TREES
 from ...engine.random import hash3, stream, unit
+from .far import LINES
 from .model import MODELS
 
 STANDING = np.dtype(
@@ -63,8 +64,11 @@ Aggregate Detail, 2007)."""
 FEWEST = 0.08
 """Share of them that is drawn at least."""
 
-GONE, BEGINS = 140.0, 200.0
-"""Height at which a tree is all drawn as it is far off, and below which it begins to be [pixels]."""
+BEGINS = float(LINES)
+"""Height below which a tree begins to be drawn as it is far off: no texel of that is larger than a pixel [pixels]."""
+
+GONE = 0.75 * BEGINS
+"""Height at which it is all drawn so: the change takes a third of the way there [pixels]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -37,9 +37,6 @@ FADES = 2.0, 4.0
 LEAFY = 0.95
 """Share of its leaves from which on a tree's thin stems are left out."""
 
-GOES = 0.75
-"""Share of its twigs left to what is drawn of it far off from which on its wood goes."""
-
 FLAT = 1e-9
 """Determinant below which a matrix shows no perspective."""
 
@@ -47,8 +44,7 @@ SWAYS = 0.1
 """How much nearer or farther off the wind sways what is a tree's, of its reach."""
 
 GLSL = {
-    "OPAQUE": OPAQUE, "FAINTEST": FAINTEST, "THINNEST": THINNEST, "AWAY": AWAY, "THINS": THINS, "GOES": GOES,
-    "FADES": FADES,
+    "OPAQUE": OPAQUE, "FAINTEST": FAINTEST, "THINNEST": THINNEST, "AWAY": AWAY, "THINS": THINS, "FADES": FADES,
 }  # fmt: skip
 
 

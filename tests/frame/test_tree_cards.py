@@ -128,7 +128,7 @@ def test_a_reference_is_as_bright_with_few_samples_as_with_many(stage: Stage, pr
 
 def test_a_pictures_outline_is_as_rough_as_with_every_leaf(stage: Stage, prairie: Prairie) -> None:
     """Of an oak so high in the picture as no tree is that is all drawn so."""
-    aim = looking(30.0, 1.7, 80.0, pitch=4.5, view=7.1)
+    aim = looking(30.0, 1.7, 80.0, pitch=4.5, view=7.6)
     with without_trees(prairie):
         bare = stage.shot(prairie, aim).astype(np.uint8)
     drawn = stage.shot(prairie, aim).astype(np.uint8)
@@ -144,7 +144,7 @@ def test_a_pictures_outline_is_as_rough_as_with_every_leaf(stage: Stage, prairie
 
 
 def test_far_off_level_leaves_let_the_sun_through_to_who_looks_up_at_them(stage: Stage, prairie: Prairie) -> None:
-    aim, blue = looking(30.0, 1.7, 80.0, pitch=4.5, view=7.1), []
+    aim, blue = looking(30.0, 1.7, 80.0, pitch=4.5, view=7.6), []
     stage.shot(prairie, aim)
     assert prairie.painter is not None
     part = vars(prairie.painter.part(TreePart))

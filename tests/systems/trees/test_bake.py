@@ -3,15 +3,16 @@
 import numpy as np
 import pytest
 
-from tallgrass.systems.trees.bake import WHOLE, of_tree, spread, wide_of
-from tallgrass.systems.trees.far import COARSER, TALL
+from tallgrass.systems.trees.bake import WHOLE, lines_of, of_tree, spread, wide_of
+from tallgrass.systems.trees.far import COARSER, LINES
 
 
 @pytest.mark.parametrize("breadth", [0.07, 0.31, 0.8, 1.0])
 def test_a_picture_is_hardly_broader_than_what_it_shows(breadth: float) -> None:
-    wide = wide_of(breadth)
-    assert wide % WHOLE == 0
-    assert 0 <= wide - TALL * breadth < WHOLE
+    wide = wide_of(breadth, lines := lines_of(1.4))
+    assert wide % WHOLE == lines % WHOLE == 0
+    assert 0 <= lines - 1.4 * LINES < WHOLE
+    assert 0 <= wide - lines * breadth < WHOLE
 
 
 def test_how_light_has_come_is_the_mean_of_what_is_covered_and_goes_on_where_nothing_is() -> None:

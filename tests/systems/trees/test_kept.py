@@ -12,13 +12,13 @@ from tallgrass.systems.trees.kept import SUFFIX, Picture, keep_pictures, kept_pi
 KEY = kind_key("oak", 3, "a card")
 
 
-WIDE = [48]
-"""Texels of the pictures of a model."""
+SIDES = [(48, 64)]
+"""Texels of the pictures of a model, across and up."""
 
 
 def pictures() -> list[Picture]:
     draw = np.random.default_rng(3)
-    return [[np.tile(draw.integers(0, 255, 4, np.uint8), (*size[:3], 1)) for size in each] for each in sizes_of(WIDE)]
+    return [[np.tile(draw.integers(0, 255, 4, np.uint8), (*size[:3], 1)) for size in each] for each in sizes_of(SIDES)]
 
 
 @pytest.fixture
@@ -30,14 +30,14 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_they_come_back_as_they_were_kept_and_for_nothing_else(folder: Path) -> None:
     made = pictures()
     keep_pictures(KEY, made)
-    found = kept_pictures(KEY, WIDE)
+    found = kept_pictures(KEY, SIDES)
     assert found is not None
     for one, other in zip(found, made, strict=True):
         assert all(np.array_equal(*each) for each in zip(one, other, strict=True))
     others = kind_key("oak", 4, "a card"), kind_key("birch", 3, "a card"), kind_key("oak", 3, "another")
     assert len({KEY, *others}) == 4
-    assert all(kept_pictures(key, WIDE) is None for key in others)
-    assert kept_pictures(KEY, 2 * WIDE) is None
+    assert all(kept_pictures(key, SIDES) is None for key in others)
+    assert kept_pictures(KEY, 2 * SIDES) is None
     assert len(list(folder.iterdir())) == 1
 
 
@@ -47,9 +47,9 @@ def test_a_file_that_is_broken_or_does_not_fit_counts_as_none(folder: Path) -> N
     whole = path.read_bytes()
     for broken in (whole[:-1], b"", whole[:40] + bytes([whole[40] ^ 1]) + whole[41:]):
         path.write_bytes(broken)
-        assert kept_pictures(KEY, WIDE) is None
+        assert kept_pictures(KEY, SIDES) is None
     keep_pictures(KEY, pictures())
-    assert kept_pictures(KEY, [64]) is None
+    assert kept_pictures(KEY, [(48, 80)]) is None
 
 
 def test_where_nothing_can_be_written_that_is_said_once(
@@ -60,7 +60,7 @@ def test_where_nothing_can_be_written_that_is_said_once(
     tell_nothing_is_kept.cache_clear()
     for _ in range(2):
         keep_pictures(KEY, pictures())
-        assert kept_pictures(KEY, WIDE) is None
+        assert kept_pictures(KEY, SIDES) is None
     assert len(caplog.records) == 1
     assert "TALLGRASS_CACHE" in caplog.text
 

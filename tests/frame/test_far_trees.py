@@ -1,0 +1,112 @@
+"""Pictures of whole trees: as fine as pixels where they begin, and mixed by clumps that lie in no lattice (F3, F4)."""
+
+import math
+from collections.abc import Iterator
+
+import esper
+import moderngl
+import numpy as np
+import pytest
+
+from tallgrass import Pose, Prairie, Tree
+from tallgrass.app.bench.trees import Behind, trees_told
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.reference import draw_truth, without_trees
+from tallgrass.systems.trees import standing
+from tallgrass.systems.trees.draw import TreePart
+from tallgrass.systems.trees.far import COLUMNS, LINES, ROWS
+from tallgrass.systems.trees.habit import HABITS
+from tallgrass.systems.trees.model import models_of
+from tallgrass.testing import Stage, little_prairie, looking, private_world
+
+SCENE = """\
+tallgrass: 2
+seed: 5
+terrain: { noise: flat, size: [120, 120] }
+grass: { turf: { height: [0.05, 0.08], width: 0.02, blades: 30, place: none } }
+trees: { thorn: { habit: hawthorn, height: [3.8, 3.8], positions: [[0, 0]] } }
+light: { azimuth: 130, elevation: 40, haze: 1e6, clouds: 0 }
+quality:
+  models: 1
+  blade_rings: [{ to: 1, segments: 2 }]
+  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.03 }]
+  carpet_to: 12
+  carpet: 32
+"""
+SIZE, HIGH = 96, 3.8
+CLUMP = 16  # pixels over which a clump may be like itself
+WHOLE = 180  # pixels of a picture of a whole bush, which is 135 high on it
+AWAY = looking(0.0, 1.7, 25.0, pitch=0.4, view=11.57)
+ABOVE = looking(0.0, 14.0, 21.8, pitch=-29.0, view=11.57)
+
+
+@pytest.fixture(scope="module")
+def stage(ctx: moderngl.Context) -> Stage:
+    return Stage(ctx, (SIZE, SIZE))
+
+
+@pytest.fixture(scope="module")
+def prairie(ctx: moderngl.Context, stage: Stage) -> Iterator[Prairie]:
+    with private_world(), little_prairie(scene=SCENE, ctx=ctx) as made:
+        stage.shot(made, AWAY)
+        yield made
+
+
+@pytest.mark.parametrize("habit", HABITS)
+def test_where_a_tree_begins_to_be_a_picture_no_texel_is_larger_than_a_pixel(habit: str) -> None:
+    for model in models_of(habit, 4):  # type: ignore[arg-type]
+        assert model.lines * model.height / (2.0 * model.half) >= standing.BEGINS > standing.GONE
+
+
+def test_clumps_of_one_picture_give_way_to_those_of_another_in_no_lattice(
+    stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Half-way between a picture that is bright all over and one that is dark."""
+    monkeypatch.setattr(standing, "GONE", 1e5)
+    monkeypatch.setattr(standing, "BEGINS", 2e5)
+    between = math.pi / COLUMNS
+    tree = esper.create_entity(Tree("thorn", height=HIGH), Pose(30.0, 0.0, between))
+    off = 0.5 * SIZE / math.tan(math.radians(5.0)) * HIGH / LINES
+    aim = looking(30.0, 2.0, off, view=10.0)
+    stage.shot(prairie, aim)
+    assert prairie.painter is not None
+    (thorn,) = vars(prairie.painter.part(TreePart))["_kinds"]
+    kept = [model.far.read() for model in thorn.models]
+    seen = []
+    for bright in ((), range(0, COLUMNS, 2), range(COLUMNS)):
+        for model in thorn.models:
+            tiles = np.zeros((ROWS, model.model.lines, COLUMNS, model.model.wide, 4), np.uint8)
+            tiles[..., 3] = 255
+            tiles[:, :, [*bright], :, 0] = 255
+            model.far.write(tiles.tobytes())
+        seen.append(stage.shot(prairie, aim).mean(axis=2))
+    for model, texels in zip(thorn.models, kept, strict=True):
+        model.far.write(texels)
+    esper.delete_entity(tree, immediate=True)
+    dark, mixed, light = seen
+    share = (mixed - dark) / np.maximum(light - dark, 1.0)
+    assert (light - dark).min() > 10.0
+    assert 0.4 < share.mean() < 0.6
+    assert share.std() > 0.3  # one of the two in most places
+    share -= share.mean()
+    alike = np.fft.fftshift(np.fft.irfft2(np.abs(np.fft.rfft2(np.pad(share, SIZE // 2))) ** 2))
+    alike /= alike[SIZE, SIZE]
+    down, across = np.indices(alike.shape) - SIZE
+    assert alike[(np.hypot(down, across) > CLUMP) & (np.maximum(abs(down), abs(across)) < SIZE // 2)].max() < 0.3
+
+
+@pytest.mark.parametrize("aim", [AWAY, ABOVE])
+def test_a_bush_has_an_outline_and_grain_as_with_every_leaf(
+    ctx: moderngl.Context, prairie: Prairie, aim: Camera
+) -> None:
+    """Of a hedge twenty-five metres off."""
+    stage = Stage(ctx, (WHOLE, WHOLE))
+    with without_trees(prairie):
+        bare = stage.shot(prairie, aim).astype(np.uint8)
+    drawn = stage.shot(prairie, aim).astype(np.uint8)
+    truth = draw_truth(prairie, *stage.matrices(aim), stage.size)
+    hidden = np.abs(truth.picture.astype(np.int32) - bare).max(axis=-1) > 12
+    told = trees_told(drawn, truth, Behind(bare, np.ones_like(hidden), hidden))
+    assert told is not None
+    assert float(str(told["contrast"])) > 0.91
+    assert float(str(told["roughness_ratio"])) > 0.87
