@@ -54,7 +54,7 @@ def prairie(ctx: moderngl.Context, stage: Stage) -> Iterator[Prairie]:
 
 @pytest.mark.parametrize("habit", HABITS)
 def test_where_a_tree_begins_to_be_a_picture_no_texel_is_larger_than_a_pixel(habit: str) -> None:
-    for model in models_of(habit, 4):  # type: ignore[arg-type]
+    for model in models_of(habit, 4):
         assert model.lines * model.height / (2.0 * model.half) >= standing.BEGINS > standing.GONE
 
 
