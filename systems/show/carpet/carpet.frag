@@ -247,12 +247,14 @@ void main() {
     vec2 dx = dFdx(over.xz), dy = dFdy(over.xz);
     float hidden = comes_to_grass(), left = left_here(place.xz), share = shares_here();
     float slope = viewing_slope(rise, place);
+    vec3 ground = met_at(0.0, slope);
+    vec2 soil_dx = dFdx(ground.xz), soil_dy = dFdy(ground.xz);
     bool shown = false;
     // Of the tiles' pixels, most meet no grass. They are not discarded at once: in loops behind that, Mesa asks at each turn.
     if (hidden >= NOTHING && share > 0.0) {
         work_out(slope);
         meet(slope, left);
-        shown = show(slope, 0.0, left, share, hidden, dx, dy, met_at(0.0, slope), dx, dy);
+        shown = show(slope, 0.0, left, share, hidden, dx, dy, ground, soil_dx, soil_dy);
     }
 #endif
     if (!shown || over_hosts > 0.0 && pixel.a < NOTHING || part != 0 && pixel.a < HALF == (part == 1))
