@@ -38,17 +38,17 @@ SHOOTS_OFF, SHOOTS_LONG = 0.85, 0.62
 HANGING_OFF = 0.3
 """That angle of twigs that hang side by side, where a card stands for several of those without side shoots [rad]."""
 
-PICTURES, TWIGS_EACH, FINER_EACH = 3, 2, 1.1
-"""Pictures of a twig's card; how many times as many twigs each stands for as the one before, and how many times as
-small leaves are on it.
+PICTURES, FINER_EACH = 3, 1.6
+"""Pictures of a twig's card, and how many times as small leaves are on each as on the one before."""
 
-A card that stands for several twigs shows all their leaves, as large as they are, and closer together. All that lies
-in its outline is asked for, and of a single twig's three quarters are empty."""
+TWIGS_EACH = FINER_EACH**2
+"""How many times as many twigs each stands for: their leaves are as far apart, of how large they are. With leaves any closer
+together, cards of a tree near by are seen as plates."""
 
 GLSL = looked_up("Twig", TWIG, "tree_twigs", ROW) + emitted(
     {
         "ORDERS": ORDERS, "RANKS": RANKS, "LEAST_KEPT": LEAST_KEPT,
-        "SHOOTS_LONG": SHOOTS_LONG, "PICTURES": PICTURES, "TWIGS_EACH": float(TWIGS_EACH),
+        "SHOOTS_LONG": SHOOTS_LONG, "PICTURES": PICTURES, "TWIGS_EACH": TWIGS_EACH,
         "FINER_EACH": FINER_EACH,
     }
 )  # fmt: skip

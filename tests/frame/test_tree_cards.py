@@ -62,13 +62,13 @@ def cards(prairie: Prairie) -> dict[str, Bytes]:
     }  # fmt: skip
 
 
-def test_a_card_that_stands_for_several_twigs_shows_their_leaves_closer_and_not_larger(prairie: Prairie) -> None:
+def test_a_card_that_stands_for_several_twigs_shows_more_leaves_and_not_larger_ones(prairie: Prairie) -> None:
     for pictures in cards(prairie).values():
         covered = pictures[..., 3] > 127
         covers = covered.mean(axis=(1, 2))
         edges = (covered[:, 1:] != covered[:, :-1]).sum(axis=(1, 2)) / covered.sum(axis=(1, 2))
-        assert (covers[1:] / covers[:-1]).min() > 1.2  # leaves lie over one another
-        assert (edges[1:] / edges[:-1]).min() > 0.7  # which hides edges
+        assert covers[1:] == pytest.approx(covers[0], rel=0.25)
+        assert (edges[1:] / edges[:-1]).min() > 1.2  # leaves lie over one another, which hides edges
 
 
 def test_how_leaves_lie_is_told_in_few_directions() -> None:
