@@ -43,7 +43,7 @@ KIND = np.dtype(
         ("through", "3f4"), ("bloom", "f4"),  # light that leaves let through, of what they send back
         ("grain_c", "3f4"), ("apart", "f4"),  # change of pigment with the cosine of twice the face normal's azimuth
         ("grain_s", "3f4"), ("narrowed", "f4"),  # the same with the sine
-        ("head", "3f4"), ("nothing", "V4"),  # what a head is like: `Headed`
+        ("head", "3f4"), ("pad_head", "V4"),  # what a head is like: `Headed`
     ]
 )  # fmt: skip
 """A kind of grass. `apart` is how far a face's sides are lit apart, and `narrowed` how much narrower a blade is at its

@@ -97,7 +97,7 @@ class KindOnCard:
         each = [self._twig_picture(programs, TWIGS_EACH**number, FINER_EACH**number) for number in range(OF_TWIGS)]
         return [np.concatenate(layers) for layers in zip(*each, strict=True)]
 
-    def _twig_picture(self, programs: Programs, twigs: int, finer: float) -> list[Bytes]:
+    def _twig_picture(self, programs: Programs, twigs: float, finer: float) -> list[Bytes]:
         """Return its picture with the leaves of so many twigs, so many times as small."""
         twig = programs.array(LEAVES, self.models[0].bare, baked=True)
         matrix, leaf = on_card(self.reach, self.habit.twigs.length), self.habit.leaf.fuller(twigs, finer)

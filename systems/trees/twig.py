@@ -42,8 +42,8 @@ PICTURES, FINER_EACH = 3, 1.6
 """Pictures of a twig's card, and how many times as small leaves are on each as on the one before."""
 
 TWIGS_EACH = FINER_EACH**2
-"""How many times as many twigs each stands for: their leaves are as far apart, of how large they are. With leaves any closer
-together, cards of a tree near by are seen as plates."""
+"""How many times as many twigs each stands for: leaves are as far apart, of how large they are. Were they any closer
+together, cards of a tree near by would be seen as plates."""
 
 GLSL = looked_up("Twig", TWIG, "tree_twigs", ROW) + emitted(
     {

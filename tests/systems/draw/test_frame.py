@@ -49,7 +49,7 @@ def block(ctx: moderngl.Context) -> Iterator[FrameBlock]:
 PLAIN = [name for name in FRAME.names or () if FRAME[name].base == np.float32 and name != "clip"]
 FIELDS = {
     **{name: FRAME[name] for name in PLAIN},
-    **{f"kinds[int(row.x)].{name}": KIND[name] for name in KIND.names or ()},
+    **{f"kinds[int(row.x)].{name}": KIND[name] for name in KIND.names or () if KIND[name].base == np.float32},
     **{f"bodies[int(row.x)].{name}": BODY[name] for name in BODY.names or ()},
 }
 
