@@ -35,6 +35,17 @@ quality:
 """
 """A scene of two kinds of grass on 60 by 60 m of rolling ground, without wind; all three representations show."""
 
+SPARSE = """\
+tallgrass: 2
+quality:
+  models: 1
+  blade_rings: [{ to: 1, segments: 2 }]
+  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.03 }]
+  carpet_to: 12
+  carpet: 32
+"""
+"""How scenes begin in which grass matters little: in a quality that is soon grown."""
+
 
 @contextmanager
 def little_prairie(

@@ -57,14 +57,14 @@ class Leaf:
         """Quads that a twig is drawn with, leaf by leaf: of its leaves, and of its shoots' stems."""
         return self.count + self.shoots
 
-    def fuller(self, twigs: float, finer: float) -> "Leaf":
-        """Return those of so many twigs on one, so many times as small, on as many more shoots.
+    def finer(self, times: float) -> "Leaf":
+        """Return leaves so many times as small, on as many more shoots, each of which bears as many more of them.
 
         What has no side shoots hangs: there are as many more shoots as leaves, one below the other.
         """
-        shoots = round(self.shoots * twigs / finer) if self.shoots > 1 else round(twigs)
-        count = round(self.count * twigs / shoots) * shoots
-        return replace(self, length=self.length / finer, width=self.width / finer, count=count, shoots=shoots)
+        shoots = round(self.shoots * times) if self.shoots > 1 else round(times * times)
+        count = round(self.count * times * times / shoots) * shoots
+        return replace(self, length=self.length / times, width=self.width / times, count=count, shoots=shoots)
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,7 +23,7 @@ from .model import models_of
 from .noise import bark_noise
 from .outline import BOX, around, outline, pairs
 from .programs import Programs
-from .twig import FINER_EACH, HANGING_OFF, SHOOTS_LONG, SHOOTS_OFF, TWIGS_EACH
+from .twig import FINER_EACH, HANGING_OFF, SHOOTS_LONG, SHOOTS_OFF
 from .twig import PICTURES as OF_TWIGS
 
 ASIDE, TURNED, BACK, ON = 0.95, 0.25, 0.3, 1.2
@@ -93,14 +93,14 @@ class KindOnCard:
             self._hides = tuple((cover / cover[0]).tolist())
 
     def _twig_pictures(self, programs: Programs) -> list[Bytes]:
-        """Return the pictures of its twig, with the leaves of ever more twigs; a depth test is set meanwhile."""
-        each = [self._twig_picture(programs, TWIGS_EACH**number, FINER_EACH**number) for number in range(OF_TWIGS)]
+        """Return the pictures of its twig, with ever more and smaller leaves; a depth test is set meanwhile."""
+        each = [self._twig_picture(programs, FINER_EACH**number) for number in range(OF_TWIGS)]
         return [np.concatenate(layers) for layers in zip(*each, strict=True)]
 
-    def _twig_picture(self, programs: Programs, twigs: float, finer: float) -> list[Bytes]:
-        """Return its picture with the leaves of so many twigs, so many times as small."""
+    def _twig_picture(self, programs: Programs, finer: float) -> list[Bytes]:
+        """Return its picture with leaves so many times as small, and as many more as cover as much."""
         twig = programs.array(LEAVES, self.models[0].bare, baked=True)
-        matrix, leaf = on_card(self.reach, self.habit.twigs.length), self.habit.leaf.fuller(twigs, finer)
+        matrix, leaf = on_card(self.reach, self.habit.twigs.length), self.habit.leaf.finer(finer)
         off = SHOOTS_OFF if self.habit.leaf.shoots > 1 else HANGING_OFF
         numbers = {**_leaves(leaf, self.habit.twigs.length), "finer": (finer,), "shoots_off": (off,)}
 

@@ -49,6 +49,5 @@ GLSL = looked_up("Twig", TWIG, "tree_twigs", ROW) + emitted(
     {
         "ORDERS": ORDERS, "RANKS": RANKS, "LEAST_KEPT": LEAST_KEPT,
         "SHOOTS_LONG": SHOOTS_LONG, "PICTURES": PICTURES, "TWIGS_EACH": TWIGS_EACH,
-        "FINER_EACH": FINER_EACH,
     }
 )  # fmt: skip

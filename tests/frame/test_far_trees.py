@@ -18,21 +18,18 @@ from tallgrass.systems.trees.far import COLUMNS, LINES, ROWS
 from tallgrass.systems.trees.habit import HABITS
 from tallgrass.systems.trees.model import models_of
 from tallgrass.testing import Stage, little_prairie, looking, private_world
+from tallgrass.testing.little import SPARSE
 
-SCENE = """\
-tallgrass: 2
+SCENE = (
+    SPARSE
+    + """\
 seed: 5
 terrain: { noise: flat, size: [120, 120] }
 grass: { turf: { height: [0.05, 0.08], width: 0.02, blades: 30, place: none } }
 trees: { thorn: { habit: hawthorn, height: [3.8, 3.8], positions: [[0, 0]] } }
 light: { azimuth: 130, elevation: 40, haze: 1e6, clouds: 0 }
-quality:
-  models: 1
-  blade_rings: [{ to: 1, segments: 2 }]
-  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.03 }]
-  carpet_to: 12
-  carpet: 32
 """
+)
 SIZE, HIGH = 96, 3.8
 CLUMP = 16  # pixels over which a clump may be like itself
 WHOLE = 180  # pixels of a picture of a whole bush, which is 135 high on it

@@ -17,9 +17,11 @@ from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.lies import LIES, Lies, lies_of
 from tallgrass.systems.trees.twig import PICTURES
 from tallgrass.testing import Stage, little_prairie, looking, private_world
+from tallgrass.testing.little import SPARSE
 
-SCENE = """\
-tallgrass: 2
+SCENE = (
+    SPARSE
+    + """\
 seed: 5
 terrain: { noise: flat, size: [180, 180] }
 grass: { turf: { height: [0.05, 0.08], width: 0.02, blades: 30, place: none } }
@@ -28,13 +30,8 @@ trees:
   willow: { habit: willow }
   thorn: { habit: hawthorn, positions: [[0, 0]] }
 light: { azimuth: 130, elevation: 40, haze: 1e6, clouds: 0 }
-quality:
-  models: 1
-  blade_rings: [{ to: 1, segments: 2 }]
-  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.03 }]
-  carpet_to: 12
-  carpet: 32
 """
+)
 SIZE = 96
 ABOVE = looking(0.0, 24.0, 24.0, pitch=-43.0, view=11.0)
 

@@ -11,9 +11,11 @@ from tallgrass.systems.trees.call import Call
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.wood import CLOSED
 from tallgrass.testing import Stage, little_prairie, looking, private_world
+from tallgrass.testing.little import SPARSE
 
-SCENE = """\
-tallgrass: 2
+SCENE = (
+    SPARSE
+    + """\
 seed: 5
 terrain: { noise: flat, size: [80, 80] }
 grass: { turf: { height: [0.05, 0.08], width: 0.02, blades: 30, place: none } }
@@ -21,13 +23,8 @@ trees:
   thorn: { habit: hawthorn, positions: [[0, 0], [6, -2], [-7, -3]] }
   birch: { habit: birch, positions: [[3, -8], [-4, -9]] }
 light: { azimuth: 130, elevation: 40, haze: 1e6, clouds: 0 }
-quality:
-  models: 1
-  blade_rings: [{ to: 1, segments: 2 }]
-  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.03 }]
-  carpet_to: 12
-  carpet: 32
 """
+)
 SIZE = 96
 FAR_OFF = looking(0.0, 2.0, 34.0, pitch=3.0, view=20.0)
 NOTHING_IS_OPAQUE = 2.0

@@ -22,22 +22,19 @@ from tallgrass.systems.trees.outline import CORNERS, Around
 from tallgrass.systems.trees.shade import ShadeMap
 from tallgrass.systems.trees.wood import Parts
 from tallgrass.testing import Stage, little_prairie, looking, private_world
+from tallgrass.testing.little import SPARSE
 
-SCENE = """\
-tallgrass: 2
+SCENE = (
+    SPARSE
+    + """\
 seed: 5
 terrain: { noise: flat, size: [80, 80] }
 grass: { turf: { height: [0.2, 0.3], width: 0.02, blades: 60 } }
 trees: { ash: { habit: birch, height: [9, 9] } }
 wind: [{ kind: breeze, strength: 0.5, speed: 4 }]
 light: { azimuth: 90, elevation: 40, haze: 1e6 }
-quality:
-  models: 1
-  blade_rings: [{ to: 1, segments: 2 }]
-  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.03 }]
-  carpet_to: 12
-  carpet: 32
 """
+)
 AHEAD = looking(0.0, 1.7, 12.0, pitch=14.0, view=57.0)
 UP = looking(0.0, 1.7, 6.0, pitch=36.0, view=57.0)
 DOWN = looking(0.0, 14.0, 14.0, pitch=-43.0, view=52.0)
