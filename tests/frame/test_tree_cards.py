@@ -59,6 +59,7 @@ def cards(prairie: Prairie) -> dict[str, Bytes]:
     }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_card_that_stands_for_several_twigs_shows_more_leaves_and_not_larger_ones(prairie: Prairie) -> None:
     for pictures in cards(prairie).values():
         covered = pictures[..., 3] > 127
