@@ -1,20 +1,13 @@
 """The viewer: what a scene declares of the camera, and the camera of one instant."""
 
-from itertools import pairwise
-
 from pydantic import Field, model_validator
 
-from ...components.declaration import Declaration, DeclarationError, Pair, Triple
+from ...components.declaration import Declaration, Pair, Triple
+from .way import Timed, check_times
 
 
-class Stop(Declaration):
+class Stop(Timed):
     """One point of a camera path."""
-
-    at: float = Field(ge=0.0, le=36000.0)
-    """When the camera is here [s]."""
-
-    position: Pair
-    """Ground position (x, z) [m]."""
 
     target: Triple | None = None
     """Point looked at (x, height above its ground, z) [m]; without it yaw and pitch hold."""
@@ -52,7 +45,5 @@ class CameraSource(Declaration):
 
     @model_validator(mode="after")
     def _rising_times(self) -> "CameraSource":
-        for i, (before, stop) in enumerate(pairwise(self.path), 1):
-            if stop.at <= before.at:
-                raise DeclarationError(f"at must be later than {before.at:g} s, the stop before", "path", i, "at")
+        check_times(self.path)
         return self

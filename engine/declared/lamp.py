@@ -1,17 +1,15 @@
 """Lamps, as a scene's file declares them."""
 
 from math import radians
-from typing import Self
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from ...components.declaration import Color, Declaration, Pair
+from ...components.declaration import Color
 from ...components.lamp import BRIGHTEST, FARTHEST, Lamp
-from ...components.pose import Pose
-from .way import Waypoint, check_times, pose_on
+from .way import Placed
 
 
-class LampOnPath(Declaration):
+class LampOnPath(Placed):
     """A lamp at a fixed place, or on its way along a path."""
 
     colour: Color = "#ffd9a6"
@@ -32,25 +30,7 @@ class LampOnPath(Declaration):
     height: float = Field(default=3.0, ge=-100.0, le=1000.0)
     """Height above the ground [m]."""
 
-    position: Pair = Field(default=[0.0, 0.0])
-    """Ground position (x, z) [m]."""
-
-    yaw: float = Field(default=0.0, ge=-3600.0, le=3600.0)
-    """Heading of a spot light, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""
-
-    path: list[Waypoint] = Field(default=[], max_length=1000)
-    """Places it goes through in time, instead of `position` and `yaw`; it waits before the first and after the last."""
-
-    @model_validator(mode="after")
-    def _fits(self) -> Self:
-        check_times(self.path)
-        return self
-
     def lamp(self) -> Lamp:
         """Return what shines."""
         cone = None if self.cone is None else radians(self.cone)
         return Lamp(self.colour, self.candela, self.range, cone, radians(self.pitch))
-
-    def pose(self, *, time: float) -> Pose:
-        """Return where it is over the ground at `time` [s]."""
-        return pose_on(self.path, self.position, self.yaw, time=time)

@@ -1,11 +1,13 @@
 """Ways through a scene: places at times, and where one is between them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import atan2, radians
+from typing import Self
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from ...components.declaration import Declaration, DeclarationError, Pair
 from ...components.pose import Pose
@@ -16,7 +18,7 @@ _MOMENT = 0.05
 """Time on either side over which the direction of travel is taken [s]."""
 
 
-class Waypoint(Declaration):
+class Timed(Declaration):
     """One point of a path."""
 
     at: float = Field(ge=0.0, le=36000.0)
@@ -25,11 +27,15 @@ class Waypoint(Declaration):
     position: Pair
     """Ground position (x, z) [m]."""
 
+
+class Waypoint(Timed):
+    """One point of the path of a wind, a presser or a lamp."""
+
     yaw: float | None = Field(default=None, ge=-3600.0, le=3600.0)
     """Heading, as a camera's yaw; without it, where the path leads [degrees]."""
 
 
-def check_times(path: list[Waypoint], /) -> None:
+def check_times(path: Sequence[Timed], /) -> None:
     """Raise DeclarationError where the times of a path do not rise."""
     for i, (before, stop) in enumerate(pairwise(path), 1):
         if stop.at <= before.at:
@@ -43,6 +49,28 @@ def pose_on(path: list[Waypoint], position: list[float], yaw: float, /, *, time:
     ways = _ways(path)
     x, z = ways.place.at(time)
     return Pose(x, z, _heading(ways, time, radians(yaw)))
+
+
+class Placed(Declaration):
+    """What is somewhere: at a fixed place, or on its way along a path."""
+
+    position: Pair = Field(default=[0.0, 0.0])
+    """Ground position (x, z) of its middle [m]."""
+
+    yaw: float = Field(default=0.0, ge=-3600.0, le=3600.0)
+    """Heading, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""
+
+    path: list[Waypoint] = Field(default=[], max_length=1000)
+    """Places it goes through in time, instead of `position` and `yaw`; it waits before the first and after the last."""
+
+    @model_validator(mode="after")
+    def _rising_times(self) -> Self:
+        check_times(self.path)
+        return self
+
+    def pose(self, *, time: float) -> Pose:
+        """Return where it is at `time` [s]."""
+        return pose_on(self.path, self.position, self.yaw, time=time)
 
 
 @dataclass(frozen=True, slots=True)
