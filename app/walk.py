@@ -4,6 +4,7 @@ from ..engine.scene.read import read_scene
 from ..systems.prairie import Prairie
 from .display import need_display
 from .grow import grow_ahead
+from .studio.errors import needed
 from .studio.progress import busy
 from .studio.take import Take
 
@@ -24,9 +25,7 @@ def walk_in(
     where the scene is wrong, MachineError where no window can be opened, or no panel.
     """
     if edit:
-        from .edit.need import need_panel
-
-        need_panel()
+        needed("imgui_bundle", "the panel of --edit is drawn by imgui-bundle", extra="edit")
     need_display()
     import moderngl
 

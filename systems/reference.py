@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..components.arrays import Ints
-from ..components.viewer import Viewer
 from ..engine.camera import View, view_of
 from ..engine.terrain.sample import height_at
 from .around.outlook import Outlook
@@ -62,13 +61,8 @@ def terrain_cells(ground: Ground, /) -> Ints:
     return flat[cells_on(terrain, flat, patch=patch)]
 
 
-def seen_cells(ground: Ground, viewer: Viewer, /, *, sway: float) -> Ints:
-    """Return the cells of the terrain inside a viewer's cone, shape (n, 2); `sway` is how far grass may reach [m]."""
-    return cells_within(ground, viewer.eye, viewer.cone, sway=sway)
-
-
 def cells_within(ground: Ground, eye: Place, cone: tuple[float, float], /, *, sway: float) -> Ints:
-    """Return the cells of the terrain inside a view cone from an eye, shape (n, 2); `sway` as for `seen_cells`."""
+    """Return the cells of the terrain inside a view cone from an eye, (n, 2); `sway` is how far grass may reach [m]."""
     cells = terrain_cells(ground)
     middles = (cells + np.float32(0.5)) * np.float32(ground.patch)
     radius = ground.patch * HALF_DIAGONAL + sway
@@ -222,19 +216,6 @@ def _distances(depth: NDArray[np.float64], seen: View, centre: Ints, ground: Gro
     cell = cell_of(np.clip(place, -1e6, 1e6), patch=ground.patch)
     here = (depth < 1.0) & (np.abs(place) <= np.asarray(ground.terrain.size) / 2.0).all(axis=-1)
     return np.where(here, discrete_distance(cell, centre), -1).astype(np.int32)
-
-
-def draw_reference(
-    prairie: Prairie,
-    view: object,
-    projection: object,
-    size: tuple[int, int],
-    *,
-    samples: int = 4,
-    reach: int | None = None,
-) -> NDArray[np.uint8]:
-    """Return the reference picture of a prairie that has been drawn, as `draw_truth` does, shape (height, width, 3)."""
-    return draw_truth(prairie, view, projection, size, samples=samples, reach=reach).picture
 
 
 def draw_truth(

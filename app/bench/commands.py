@@ -5,6 +5,7 @@ from typing import Annotated
 import typer
 
 from ..options import Hold, Json, On, Output, Preset, Scene, Size, bundled, size_of
+from ..studio.take import Take
 
 Scenes = Annotated[
     str, typer.Argument(metavar="SCENE", help="A scene file, a bundled scene, or a folder.", autocompletion=bundled)
@@ -21,12 +22,13 @@ def frame(
     *,
     json: Json = False,
     viewers: Annotated[int, typer.Option(min=1, max=16, help="Viewers in every frame, side by side.")] = 1,
-) -> int:
+) -> None:
     """Measure how long a frame takes, and what it is made of."""
-    pixels = size_of(size)
-    from .frame import bench_frame
+    take = Take(scene, size_of(size), preset)
+    from .frame import frame_measured
+    from .machine import tell
 
-    return bench_frame(scene, preset=preset, size=pixels, json=json, viewers=viewers)
+    tell(frame_measured(take, viewers=viewers), as_json=json)
 
 
 @bench.command("picture")
@@ -38,12 +40,13 @@ def picture(
     json: Json = False,
     output: Annotated[str | None, typer.Option("-o", "--output", help="A folder for pictures with references.")] = None,
     on: On = None,
-) -> int:
+) -> None:
     """Measure how far a picture is from every blade in 3D, supersampled; of a folder, those of all its scenes."""
-    pixels = size_of(size)
-    from .picture import bench_picture
+    take = Take(scene, size_of(size), preset)
+    from .many import bench_many
+    from .picture import SURVEY
 
-    return bench_picture(scene, preset=preset, size=pixels, json=json, output=output, on=on)
+    bench_many(take, SURVEY, json=json, output=output, on=on)
 
 
 @bench.command("pop")
@@ -60,34 +63,36 @@ def pop(
         bool, typer.Option("--climb", help="Climb up to 60 m instead of walking, and then look straight down.")
     ] = False,
     on: On = None,
-) -> int:
+) -> None:
     """Measure whether a change of representation can be seen on a walk; of a folder, in all its scenes."""
-    pixels = size_of(size)
-    from .pop import bench_pop
+    take = Take(scene, size_of(size), preset)
+    from .many import bench_many
+    from .pop import must_be_large, pop_survey
 
-    return bench_pop(
-        scene, preset=preset, size=pixels, json=json, parts=parts, output=output, hold=hold, rising=climb, on=on
-    )
+    must_be_large(take.size)
+    bench_many(take, pop_survey(parts=parts, hold=hold, rising=climb), json=json, output=output, on=on)
 
 
 @bench.command("walk")
-def bench_walk(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> int:
+def walk(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> None:
     """Measure whether frames keep taking the same time on a walk."""
-    pixels = size_of(size)
-    from .walk import bench_walk
+    take = Take(scene, size_of(size), preset)
+    from .machine import tell
+    from .walk import walk_measured
 
-    return bench_walk(scene, preset=preset, size=pixels, json=json)
+    tell(walk_measured(take), as_json=json)
 
 
 @bench.command("scale")
 def scale(
     scene: Scenes = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False, on: On = None
-) -> int:
+) -> None:
     """Measure what a larger terrain costs, up to 10 km; by workers, on one scene at a time on each machine."""
-    pixels = size_of(size)
-    from .scale import bench_scale
+    take = Take(scene, size_of(size), preset)
+    from .many import bench_many
+    from .scale import SURVEY
 
-    return bench_scale(scene, preset=preset, size=pixels, json=json, on=on)
+    bench_many(take, SURVEY, json=json, on=on)
 
 
 @bench.command("all")
@@ -103,9 +108,9 @@ def all_(
     ] = None,
     *,
     json: Json = False,
-) -> int:
+) -> None:
     """Run every benchmark, and write bench.json and a page with plots into a folder."""
     pixels = None if size is None else size_of(size)
     from .whole import bench_all
 
-    return bench_all(scene, output, preset=preset, size=pixels, against=against, json=json)
+    bench_all(scene, output, preset=preset, size=pixels, against=against, json=json)

@@ -1,13 +1,12 @@
 """FLIP: how different two pictures look."""
 
-import importlib
 from typing import Any
 
 import numpy as np
 
 from ...components.arrays import Floats
 from ..studio.encode import Picture
-from ..studio.errors import MachineError
+from ..studio.errors import needed
 
 MOMENT = 2.0
 """Instant of the pictures that are compared [s]."""
@@ -28,7 +27,4 @@ def flip_map(picture: Picture, reference: Picture) -> Floats:
 
 def evaluator() -> Any:
     """Return the module that computes FLIP; raises MachineError where it is not installed."""
-    try:
-        return importlib.import_module("flip_evaluator")
-    except ImportError:
-        raise MachineError("pictures are compared by flip-evaluator: pip install 'tallgrass[bench]'") from None
+    return needed("flip_evaluator", "pictures are compared by flip-evaluator", extra="bench")

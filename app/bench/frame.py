@@ -10,15 +10,14 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
-from ...systems.prairie import Prairie
-from ...systems.reference import EveryBlade, seen_cells, stand_all, terrain_cells
+from ...systems.reference import EveryBlade, cells_within, stand_all, terrain_cells
 from ...systems.show.blades.draw import BladePainter
 from ...systems.stock.models import precompute_bytes
 from ..studio.progress import counted, course
 from ..studio.studio import Studio
 from ..studio.take import Take
 from ..studio.timing import card_timer, spread, timed
-from .machine import machine, tell
+from .machine import head
 from .processor import on_processor
 from .rivals import Rivals
 from .still import FRAMES, Still
@@ -38,17 +37,11 @@ TURN = 6
 """Frames between two draws of the rivals."""
 
 
-def bench_frame(scene: str, *, preset: str | None, size: tuple[int, int], json: bool, viewers: int = 1) -> int:
-    """Measure a scene's frame from its fixed camera, print the figures, and return the exit status.
+def frame_measured(take: Take, /, *, viewers: int = 1) -> dict[str, object]:
+    """Return what the benchmark tells of a scene's frame from its fixed camera.
 
     Of more than one viewer, each one's part of a frame is measured besides.
     """
-    tell(frame_measured(Take(scene, size, preset=preset), viewers=viewers), as_json=json)
-    return 0
-
-
-def frame_measured(take: Take, /, *, viewers: int = 1) -> dict[str, object]:
-    """Return what the benchmark tells of a scene's frame."""
     first = {"cold": 0.0, "cached": 0.0}
     with course("a frame", PARTS | ({"viewers": 30.0} if viewers > 1 else {})) as way:
         with way.part("growing"), _empty_cache():
@@ -111,7 +104,7 @@ class _Blades:
         self._seen = self._every.painter.blade_painter(prairie.site.finest)
         ground, viewer = prairie.site.ground, self._every.outlook.viewer
         stand_all(prairie, terrain_cells(ground), self._all)
-        stand_all(prairie, seen_cells(ground, viewer, sway=prairie.site.sway), self._seen)
+        stand_all(prairie, cells_within(ground, viewer.eye, viewer.cone, sway=prairie.site.sway), self._seen)
         self.add_to(Samples())  # the first draw of a program takes longer
 
     def add_to(self, samples: Samples) -> None:
@@ -166,10 +159,7 @@ def _figures(studio: Studio, take: Take, first: dict[str, float], samples: Sampl
     stats, kinds = prairie.statistics, zip(prairie.scene.grass, prairie.site.growths, strict=True)
     grown = {name: round(precompute_bytes(growth) / 1e6, 2) for name, growth in kinds}
     return {
-        "machine": machine(studio.ctx),
-        "scene": take.scene,
-        "preset": take.preset or own_preset(prairie),
-        "size": list(take.size),
+        **head(studio.ctx, prairie, take),
         "frames": FRAMES,
         "frame_ms": spread(samples.frame, 50, 95, 99),
         "gpu_ms": spread(samples.card, 50, 95) if any(samples.card) else None,
@@ -211,7 +201,7 @@ def _against_every_blade(samples: Samples) -> dict[str, float]:
 
 def _on_processor(take: Take) -> dict[str, object]:
     """Return what the frames cost on the CPU alone, each figure None where that cannot be measured."""
-    told = on_processor(take.scene, preset=take.preset, size=take.size)
+    told = on_processor(take)
     if told is None:
         return {"cpu_ms": None, "cpu_by_system_ms": None, "cpu_over_yardstick": None}
     return {
@@ -219,12 +209,6 @@ def _on_processor(take: Take) -> dict[str, object]:
         "cpu_by_system_ms": told["cpu_by_system_ms"],
         "cpu_over_yardstick": round(told["cpu_ms"]["p50"] / told["yardstick_ms"], 3),
     }
-
-
-def own_preset(prairie: Prairie) -> str:
-    """Return the name of the quality that a scene asks for itself."""
-    quality = prairie.scene.quality
-    return quality if isinstance(quality, str) else "custom"
 
 
 def _median(values: Sequence[float] | NDArray[np.float64]) -> float:

@@ -10,6 +10,15 @@ from pathlib import Path
 import moderngl
 
 from ... import __version__
+from ...systems.prairie import Prairie
+from ..studio.take import Take
+
+
+def head(ctx: moderngl.Context, prairie: Prairie, take: Take, /) -> dict[str, object]:
+    """Return what every benchmark tells first: the machine, and the prairie of which take is measured."""
+    quality = prairie.scene.quality
+    preset = take.preset or (quality if isinstance(quality, str) else "custom")
+    return {"machine": machine(ctx), "scene": take.scene, "preset": preset, "size": list(take.size)}
 
 
 def machine(ctx: moderngl.Context, /) -> dict[str, str | int]:

@@ -1,7 +1,7 @@
 """Benchmarks of a scene, or of all scenes in a folder in one table; by this process, or by workers."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..studio.encode import make_folder
@@ -36,31 +36,27 @@ class Survey:
     folders: bool = False
     """Whether the pictures of each scene in a folder have a folder of their own."""
 
+    need: Callable[[], object] = lambda: None
+    """Raises MachineError where it cannot be done on this machine."""
 
-def bench_many(
-    scene: str,
-    survey: Survey,
-    /,
-    *,
-    preset: str | None,
-    size: tuple[int, int],
-    json: bool,
-    output: str | None = None,
-    on: str | None = None,
-) -> int:
-    """Put a scene to a benchmark and print the figures, or all scenes in a folder and print a table; return 0.
 
-    Into the folder `output` go its pictures. With `on`, workers do it. Raises InputError where the folder has no
-    scenes.
+def bench_many(take: Take, survey: Survey, /, *, json: bool, output: str | None = None, on: str | None = None) -> None:
+    """Put a take to a benchmark and print the figures, or of a folder all its scenes, and print a table.
+
+    Into the folder `output` go its pictures. With `on`, workers do it. Before anything is drawn it raises MachineError
+    where this machine cannot do it, and InputError where pictures cannot be written, or the folder has no scenes.
     """
-    if not Path(scene).is_dir():
-        (told,) = _measured(survey, [Take(scene, size, preset=preset)], [output], on)
+    survey.need()
+    if output is not None:
+        make_folder(Path(output))
+    if not Path(take.scene).is_dir():
+        (told,) = _measured(survey, [take], [output], on)
         tell(told, as_json=json)
-        return 0
-    paths = sorted(Path(scene).glob("*.yaml"))
+        return
+    paths = sorted(Path(take.scene).glob("*.yaml"))
     if not paths:
-        raise InputError(f"{scene}: there is no scene in this folder")
-    takes = [Take(str(path), size, preset=preset) for path in paths]
+        raise InputError(f"{take.scene}: there is no scene in this folder")
+    takes = [replace(take, scene=str(path)) for path in paths]
     outputs = [output and str(Path(output) / path.stem if survey.folders else Path(output)) for path in paths]
     rows: list[Told] = []
     for told in counted(_measured(survey, takes, outputs, on), total=len(takes), doing=survey.doing):
@@ -71,7 +67,6 @@ def bench_many(
         common = {name: rows[0][name] for name in COMMON}
         kept = [{**row(survey, told), **{name: told[name] for name in survey.kept}} for told in rows]
         tell({**common, "rows": kept}, as_json=True)
-    return 0
 
 
 def _measured(survey: Survey, takes: list[Take], outputs: list[str | None], on: str | None) -> Iterator[Told]:

@@ -7,8 +7,7 @@ GALLIUM_NOOP=1.
 import json
 from argparse import ArgumentParser
 
-from ...systems.prairie import Prairie
-from ..studio.offscreen import Offscreen, standalone_context
+from ..studio.offscreen import standalone_context
 from ..studio.studio import Studio
 from ..studio.take import Take, parse_size
 from ..studio.timing import spread
@@ -47,13 +46,8 @@ def still_frames(take: Take) -> Told:
 
 def walked_frames(take: Take) -> Told:
     """Return what the frames of `bench walk` take here [ms]."""
-    with Offscreen(take.size) as target:
-        prairie = Prairie.load(take.scene, ctx=target.ctx, preset=take.preset, live=False)
-        try:
-            times = [pace.frame_ms for pace in paces(target, prairie)]
-        finally:
-            prairie.release()
-    return {"cpu_ms": spread(times, 50, 95, 99)}
+    with Studio(take) as studio:
+        return {"cpu_ms": spread([pace.frame_ms for pace in paces(studio)], 50, 95, 99)}
 
 
 def main() -> None:

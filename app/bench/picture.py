@@ -13,23 +13,21 @@ from ...engine.declared.quality import Quality
 from ...systems.reference import (
     EveryBlade,
     Truth,
-    draw_reference,
+    cells_within,
     draw_truth,
     patch_distances,
-    seen_cells,
     without_trees,
 )
 from ...systems.show.registry import NAMES
-from ..studio.encode import Picture, make_folder, picture_writer
+from ..studio.encode import Picture, picture_writer
 from ..studio.progress import Course, course
 from ..studio.studio import Studio, about
 from ..studio.take import SAMPLES, Take
 from .color import hue_between, luminance, mean_light
 from .contrast import contrast
 from .flip import MOMENT, evaluator, flip
-from .frame import own_preset
-from .machine import machine
-from .many import Survey, bench_many
+from .machine import head
+from .many import Survey
 from .multisampled import Multisampled
 from .trees import Behind, trees_told
 
@@ -62,39 +60,16 @@ class Pictures:
     """What is behind trees; None in a scene without any."""
 
 
-def bench_picture(
-    scene: str,
-    *,
-    preset: str | None,
-    size: tuple[int, int],
-    json: bool,
-    output: str | None = None,
-    on: str | None = None,
-) -> int:
-    """Compare a scene's picture with its reference, print the figures, and return the exit status.
-
-    Where `scene` is a folder, all scenes in it are compared, and a table is printed. Into the folder `output` goes each
-    picture beside its reference. With `on`, workers do it. Before anything is drawn it raises MachineError where
-    pictures cannot be compared, and InputError where none can be written, or the folder has no scenes.
-    """
-    evaluator()
-    if output is not None:
-        make_folder(Path(output))
-    return bench_many(scene, SURVEY, preset=preset, size=size, json=json, output=output, on=on)
-
-
 def measured(take: Take, output: str | None = None, /) -> dict[str, Any]:
     """Return what the benchmark tells of a scene; into the folder `output` goes its picture beside its reference."""
     with course("a picture", PARTS) as way, Studio(take) as studio:
         pictures = _draw(studio, way)
-        head = {
-            "machine": machine(studio.ctx), "scene": take.scene, "preset": take.preset or own_preset(studio.prairie),
-        }  # fmt: skip
+        told = head(studio.ctx, studio.prairie, take) | {"frames": 1}
         if output is not None:
             beside = np.concatenate([pictures.lod, pictures.truth.picture], axis=1)
             name = str(Path(output) / f"{Path(take.scene).stem}.png")
             picture_writer(name)(beside, about(studio.prairie.scene, take, time=studio.prairie.time))
-        return {**head, "size": list(take.size), "frames": 1, **compare(pictures, studio.prairie.site.quality)}
+        return told | compare(pictures, studio.prairie.site.quality)
 
 
 def _draw(studio: Studio, way: Course) -> Pictures:
@@ -115,7 +90,7 @@ def _draw(studio: Studio, way: Course) -> Pictures:
         other.advance(MOMENT)
         studio.begin()
         other.draw(view, projection)
-        unrelated = draw_reference(other, view, projection, size, samples=SAMPLES)
+        unrelated = draw_truth(other, view, projection, size, samples=SAMPLES).picture
         other.release()
     return Pictures(lod, all_3d, msaa, truth, unrelated, distance, behind)
 
@@ -133,7 +108,8 @@ def _behind(studio: Studio, view: object, projection: object, distance: NDArray[
 def _every_blade(studio: Studio, view: View) -> tuple[Picture, Picture | None]:
     """Return every blade with one sample a pixel, and with several where the driver has so many."""
     prairie, every = studio.prairie, EveryBlade(studio.prairie)
-    cells = seen_cells(prairie.site.ground, every.outlook.viewer, sway=prairie.site.sway)
+    viewer = every.outlook.viewer
+    cells = cells_within(prairie.site.ground, viewer.eye, viewer.cone, sway=prairie.site.sway)
     studio.begin()
     target = studio.ctx.detect_framebuffer()
     every.draw(view, cells)
@@ -223,5 +199,5 @@ def _cells(told: dict[str, Any]) -> dict[str, object]:
     }
 
 
-SURVEY = Survey(measured, "drawing every blade", _cells, kept=("bands", "trees"))
+SURVEY = Survey(measured, "drawing every blade", _cells, kept=("bands", "trees"), need=evaluator)
 """Pictures of many scenes."""

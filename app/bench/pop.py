@@ -3,13 +3,11 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ...systems.around.transitions import SEAMLESS, Transitions
-from ..studio.encode import make_folder
 from ..studio.errors import InputError
 from ..studio.progress import counted, course
 from ..studio.studio import Studio, about
@@ -21,9 +19,8 @@ from .drift import Change, mean_drift, mean_ghosting, taken_together
 from .evidence import save
 from .flicker import MARGIN, TILE
 from .flip import evaluator, flip
-from .frame import own_preset
-from .machine import machine
-from .many import Survey, bench_many
+from .machine import head
+from .many import Survey
 from .steps import TOLD, Record, frames_of, merged, walked
 from .stroll import Leg, legs
 from .verdict import Step, Verdict
@@ -50,35 +47,18 @@ LIMITS = {"flicker": 1.15, "drift": 0.03, "ghosting": 0.5}
 """What is not to be seen at all stays below: the flicker's ratio, the drift of patches together, and ghosting."""
 
 
-def bench_pop(
-    scene: str,
-    *,
-    preset: str | None,
-    size: tuple[int, int],
-    json: bool,
-    parts: bool = False,
-    output: str | None = None,
-    hold: float | None = None,
-    rising: bool = False,
-    on: str | None = None,
-) -> int:
-    """Walk through a scene, compare its changes with the reference's, print the figures, and return the exit status.
-
-    Where `scene` is a folder, walk through all scenes in it, and print a table. When `rising`, climb up instead, and
-    look down. With `parts` the walk is repeated with each part of the transitions left out. Pictures of the frames that
-    show the most go into the folder `output`, of scenes in a folder each into one of its own. With `hold`, so many
-    frames a second are held. With `on`, workers do it. Before anything is drawn it raises MachineError where pictures
-    cannot be compared, and InputError where they would be too small or cannot be written.
-    """
-    evaluator()
-    if min(size) < SMALLEST:
-        raise InputError(f"--size: {size[0]}x{size[1]}: here each side must be at least {SMALLEST} pixels")
-    if output is not None:
-        make_folder(Path(output))
+def pop_survey(*, parts: bool, hold: float | None, rising: bool) -> Survey:
+    """Return the walks through many scenes, with the options of `pop_measured`."""
     measure = partial(pop_measured, parts=parts, hold=hold, rising=rising)
     kept = KEPT + ("contributions",) * parts
-    survey = Survey(measure, "walking", _cells, kept, Asked(partial(measure, crew=False)), folders=True)
-    return bench_many(scene, survey, preset=preset, size=size, json=json, output=output, on=on)
+    asked = Asked(partial(measure, crew=False))
+    return Survey(measure, "walking", _cells, kept, asked, folders=True, need=evaluator)
+
+
+def must_be_large(size: tuple[int, int]) -> None:
+    """Raise InputError for a picture that has no room for tiles; `size` is (width, height) [pixels]."""
+    if min(size) < SMALLEST:
+        raise InputError(f"--size: {size[0]}x{size[1]}: here each side must be at least {SMALLEST} pixels")
 
 
 def pop_measured(
@@ -93,20 +73,14 @@ def pop_measured(
 ) -> dict[str, Any]:
     """Return what the benchmark tells of a walk through a scene, or when `rising` of the climb over it.
 
-    Without a `crew` this process walks alone, to the same figures.
+    With `parts` the walk is repeated with each part of the transitions left out. Pictures of the frames that show the
+    most go into the folder `output`. With `hold`, so many frames a second are held. Without a `crew` this process walks
+    alone, to the same figures.
     """
     with Studio(take) as studio:
-        head = {
-            "machine": machine(studio.ctx),
-            "scene": take.scene,
-            "preset": take.preset or own_preset(studio.prairie),
-        }
+        told = head(studio.ctx, studio.prairie, take)
         walk = climb(studio.prairie) if rising else legs(studio.prairie)
-        return {
-            **head,
-            "size": list(take.size),
-            **_measure(studio, walk, parts=parts, output=output, hold=hold, crew=crew),
-        }
+        return told | _measure(studio, walk, parts=parts, output=output, hold=hold, crew=crew)
 
 
 def _measure(

@@ -6,6 +6,8 @@ import subprocess
 import sys
 from typing import Any
 
+from ..studio.take import Take, words_of
+
 NOOP = {"GALLIUM_NOOP": "1"}
 """What tells Mesa to take every command and draw nothing; other drivers do not know it."""
 
@@ -13,11 +15,9 @@ LONGEST = 900.0
 """How long the child may take [s]."""
 
 
-def on_processor(scene: str, *, preset: str | None, size: tuple[int, int], walk: bool = False) -> dict[str, Any] | None:
-    """Return what the module `noop` tells of a scene, or None where no driver does without drawing, or it fails."""
-    width, height = size
-    command = [sys.executable, "-m", f"{__package__}.noop", "--size", f"{width}x{height}"]
-    command += ["--walk"] * walk + (["--preset", preset] if preset else []) + ["--", scene]
+def on_processor(take: Take, /, *, walk: bool = False) -> dict[str, Any] | None:
+    """Return what the module `noop` tells of a take, or None where no driver does without drawing, or it fails."""
+    command = [sys.executable, "-m", f"{__package__}.noop", *["--walk"] * walk, *words_of(take)]
     try:
         done = subprocess.run(  # noqa: S603 - it is our own module
             command,

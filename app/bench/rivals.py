@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...systems.reference import carpet_painter, draw_reference
+from ...systems.reference import carpet_painter, draw_truth
 from ..studio.errors import MachineError
 from ..studio.take import SAMPLES
 from ..studio.timing import timed
@@ -88,7 +88,7 @@ class Rivals:
             if name in self.times:
                 draw()
                 pictures[name] = studio.read()
-        reference = draw_reference(studio.prairie, *self._still.matrices, studio.take.size, samples=SAMPLES)
+        reference = draw_truth(studio.prairie, *self._still.matrices, studio.take.size, samples=SAMPLES).picture
         return {name: round(flip(picture, reference), 5) for name, picture in pictures.items()}
 
     def release(self) -> None:

@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from functools import partial
@@ -13,18 +12,15 @@ from typing import Any
 
 import numpy as np
 
-from ...engine.camera import camera_at, projection_matrix, view_matrix
 from ...engine.scene import LoadedScene, read_scene
-from ...systems.prairie import Prairie
 from ..studio.errors import InputError, MachineError
-from ..studio.offscreen import Offscreen
 from ..studio.progress import counted
-from ..studio.take import Take
+from ..studio.studio import Studio
+from ..studio.take import Take, words_of
 from ..studio.walker import MARGIN
 from .asked import Asked
-from .frame import own_preset
-from .machine import machine, resident_mb
-from .many import Survey, bench_many
+from .machine import head, resident_mb
+from .many import Survey
 from .stroll import RATE, SECONDS, legs
 from .walk import paced
 
@@ -37,58 +33,31 @@ SIDES = (100.0, 1000.0, 10000.0)
 """Sides of the terrains [m]."""
 
 
-def bench_scale(scene: str, *, preset: str | None, size: tuple[int, int], json: bool, on: str | None = None) -> int:
-    """Measure a scene on larger and larger terrains, print the figures, and return the exit status.
-
-    Each terrain has a process of its own. Where `scene` is a folder, all scenes in it are measured, and a table is
-    printed. With `on`, workers do it, one at a time on each machine. Raises InputError where a scene's terrain is not
-    made from noise.
-    """
-    return bench_many(scene, SURVEY, preset=preset, size=size, json=json, on=on)
-
-
 def scale_measured(take: Take, output: str | None = None, /) -> dict[str, Any]:
-    """Return what the benchmark tells of a scene on larger and larger terrains; raises InputError as `bench_scale`.
+    """Return what the benchmark tells of a scene on larger and larger terrains, each in a process of its own.
 
-    It draws no pictures: nothing goes to `output`.
+    It draws no pictures: nothing goes to `output`. Raises InputError where the scene's terrain is not made from noise.
     """
     del output
-    scene, preset, size = take.scene, take.preset, take.size
-    head = _head(scene, preset, size)
-    one = partial(_measured, scene, preset, size)
-    rows = list(counted(_alone(one, SIDES), total=len(SIDES), doing="larger and larger terrains"))
-    return {**head, "frames": round(SECONDS * RATE), "rows": rows}
+    if read_scene(take.scene).scene.terrain.heights is not None:
+        raise InputError(f"{take.scene}: its terrain comes from a file; only one from noise can be stretched")
+    with Studio(take) as studio:  # that grows the scene's grass: no row pays for it
+        told = head(studio.ctx, studio.prairie, take)
+    rows = list(counted(map(partial(_alone, take), SIDES), total=len(SIDES), doing="larger and larger terrains"))
+    return {**told, "frames": round(SECONDS * RATE), "rows": rows}
 
 
-def _head(scene: str, preset: str | None, size: tuple[int, int]) -> dict[str, object]:
-    """Return what all benchmarks tell, after the scene's grass has been grown, so that no row pays for it."""
-    loaded = read_scene(scene)
-    if loaded.scene.terrain.heights is not None:
-        raise InputError(f"{scene}: its terrain comes from a file; only one from noise can be stretched")
-    prairie = Prairie(loaded, preset=preset)
-    prairie.release()
-    with Offscreen(size) as target:
-        told = machine(target.ctx)
-    return {"machine": told, "scene": scene, "preset": preset or own_preset(prairie), "size": list(size)}
+def _alone(take: Take, side: float) -> Row:
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+        return pool.submit(_measured, take, side).result()
 
 
-def _alone(one: Callable[[float], Row], sides: tuple[float, ...]) -> Iterator[Row]:
-    for side in sides:
-        with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
-            yield pool.submit(one, side).result()
-
-
-def _measured(scene: str, preset: str | None, size: tuple[int, int], side: float) -> Row:
+def _measured(take: Take, side: float) -> Row:
     start = perf_counter()
-    with Offscreen(size) as target:
-        prairie = Prairie(stretched(read_scene(scene), side), ctx=target.ctx, preset=preset, live=False)
-        camera = camera_at(prairie.scene.camera, None, prairie.height_at)
-        target.begin()
-        prairie.draw(view_matrix(camera), projection_matrix(camera.view, size[0] / size[1]))
-        target.ctx.finish()
+    with Studio(take, stretched(read_scene(take.scene), side)) as studio:
+        studio.picture(studio.camera(None))
         first = 1000.0 * (perf_counter() - start)
-        times = [pace.frame_ms for pace in paced(target, prairie, legs(prairie)[0])]
-        prairie.release()
+        times = [pace.frame_ms for pace in paced(studio, legs(studio.prairie)[0])]
     return {
         "terrain_m": side,
         "frame_ms": round(float(np.median(times)), 3),
@@ -103,9 +72,7 @@ def measured_apart(take: Take, output: str | None = None, /) -> dict[str, Any]:
     Raises InputError and MachineError with what that process says of its own.
     """
     del output
-    width, height = take.size
-    command = [sys.executable, "-m", "tallgrass", "bench", "scale", "--json", "--size", f"{width}x{height}"]
-    command += (["--preset", take.preset] if take.preset else []) + ["--", take.scene]
+    command = [sys.executable, "-m", "tallgrass", "bench", "scale", "--json", *words_of(take)]
     done = subprocess.run(  # noqa: S603 - it is our own command
         command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
     )  # fmt: skip

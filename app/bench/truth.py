@@ -5,7 +5,7 @@ from typing import Self
 from ...engine.gl.stream import release_all
 from ...systems.lod import farthest
 from ...systems.prairie import Prairie
-from ...systems.reference import cropped, draw_reference
+from ...systems.reference import cropped, draw_truth
 from ...systems.room import room_for
 from ..studio.encode import Picture
 from ..studio.studio import Matrix, Studio
@@ -42,7 +42,7 @@ class Truth:
     def whole(self, moment: Moment) -> Picture:
         """Return every blade there is, as `--reference` draws it."""
         view, projection = self._go(moment)
-        return draw_reference(self._prairie, view, projection, self._studio.take.size, samples=SAMPLES)
+        return draw_truth(self._prairie, view, projection, self._studio.take.size, samples=SAMPLES).picture
 
     def near(self, moment: Moment) -> Picture:
         """Return every blade up to where strips end; beyond it lies the prairie's own carpet, which does not change."""
@@ -61,7 +61,7 @@ class Truth:
     def _near(self, view: Matrix, projection: Matrix, size: tuple[int, int]) -> Picture:
         room = room_for(self._studio.prairie.site.reach, self._prairie.viewers["main"].lens.factor)
         reach = farthest(room)[-1]
-        return draw_reference(self._prairie, view, projection, size, samples=SAMPLES, reach=reach)
+        return draw_truth(self._prairie, view, projection, size, samples=SAMPLES, reach=reach).picture
 
     def _go(self, moment: Moment) -> tuple[Matrix, Matrix]:
         matrices = self._studio.matrices(moment.camera)

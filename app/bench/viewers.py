@@ -9,15 +9,10 @@ from ...engine.camera import Camera
 from ..studio.progress import counted
 from ..studio.studio import Studio
 from ..studio.timing import timed
+from .still import STEP, WARM_UP
 
 FRAMES = 40
 """Frames measured."""
-
-WARM_UP = 40
-"""Frames drawn before, until the entities of all patches are there."""
-
-STEP = 1.0 / 60.0
-"""Time between frames [s]."""
 
 ASIDE = 5.0
 """How far each viewer stands to the right of the one before [m]."""

@@ -7,13 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Levels
-from ...engine.camera import projection_matrix, view_matrix
-from ...systems.prairie import Prairie
-from ..studio.offscreen import Offscreen
 from ..studio.progress import counted, course
+from ..studio.studio import Studio
+from ..studio.take import Take
 from ..studio.timing import spread, timed
-from .frame import own_preset
-from .machine import machine, resident_mb, tell
+from .machine import head, resident_mb
 from .processor import on_processor
 from .stroll import REST, Leg, Moment, legs, moments, raise_gusts
 from .yardstick import yardstick_ms
@@ -41,29 +39,18 @@ class Pace:
     """Patches in view that kept their representation and got another of its sub-levels to come to."""
 
 
-def bench_walk(scene: str, *, preset: str | None, size: tuple[int, int], json: bool) -> int:
-    """Walk through a scene, print what its frames took, and return the exit status."""
-    tell(walk_measured(scene, preset=preset, size=size), as_json=json)
-    return 0
-
-
-def walk_measured(scene: str, *, preset: str | None, size: tuple[int, int]) -> dict[str, object]:
+def walk_measured(take: Take, /) -> dict[str, object]:
     """Return what the benchmark tells of a walk through a scene."""
     with course("a walk", PARTS) as way:
-        with way.part("drawing"), Offscreen(size) as target:
-            prairie = Prairie.load(scene, ctx=target.ctx, preset=preset, live=False)
-            try:
-                head = {"machine": machine(target.ctx), "scene": scene, "preset": preset or own_preset(prairie)}
-                result = {**head, "size": list(size), **_measure(target, prairie)}
-            finally:
-                prairie.release()
+        with way.part("drawing"), Studio(take) as studio:
+            result = head(studio.ctx, studio.prairie, take) | _measure(studio)
         with way.part("without drawing"):
-            told = on_processor(scene, preset=preset, size=size, walk=True)
+            told = on_processor(take, walk=True)
             return result | {"cpu_ms": told and told["cpu_ms"], "yardstick_ms": yardstick_ms()}
 
 
-def _measure(target: Offscreen, prairie: Prairie) -> dict[str, object]:
-    every = paces(target, prairie)
+def _measure(studio: Studio) -> dict[str, object]:
+    every = paces(studio)
     taken = [next(every)]
     start = resident_mb()
     taken.extend(every)
@@ -81,23 +68,25 @@ def _measure(target: Offscreen, prairie: Prairie) -> dict[str, object]:
     }
 
 
-def paces(target: Offscreen, prairie: Prairie, /) -> Iterator[Pace]:
+def paces(studio: Studio, /) -> Iterator[Pace]:
     """Walk all legs through a prairie, in gusts, and yield what each frame took."""
+    prairie = studio.prairie
     walk = legs(prairie)
     raise_gusts(prairie, walk)
     total = sum(len(list(moments(prairie, leg))) - 1 for leg in walk)
-    yield from counted((pace for leg in walk for pace in paced(target, prairie, leg)), total=total, doing="walking")
+    yield from counted((pace for leg in walk for pace in paced(studio, leg)), total=total, doing="walking")
 
 
-def paced(target: Offscreen, prairie: Prairie, leg: Leg, /) -> Iterator[Pace]:
+def paced(studio: Studio, leg: Leg, /) -> Iterator[Pace]:
     """Yield what each frame of a leg took but the first, to which the viewer leaps."""
+    prairie = studio.prairie
     first, *others = moments(prairie, leg)
-    _draw(target, prairie, first, time=first.time - REST / 2)
-    _draw(target, prairie, first)
+    _draw(studio, first, time=first.time - REST / 2)
+    _draw(studio, first)
     table = prairie.viewers["main"].patches
     for moment in others:
         cell, representation, sublevel = table.cell.copy(), table.representation.copy(), table.sublevel.copy()
-        taken = _draw(target, prairie, moment)
+        taken = _draw(studio, moment)
         stayed = table.alive & table.visible & (table.cell == cell).all(axis=1)
         begun = stayed & (table.representation != representation)
         refined = stayed & ~begun & another(table.representation, sublevel, table.sublevel)
@@ -114,13 +103,12 @@ def another(representation: Levels, before: Levels, now: Levels) -> NDArray[np.b
     return np.asarray((had >= 0) & (had != has) & (representation >= 0))
 
 
-def _draw(target: Offscreen, prairie: Prairie, moment: Moment, *, time: float | None = None) -> float:
-    width, height = target.size
-    view, projection = view_matrix(moment.camera), projection_matrix(moment.camera.view, width / height)
+def _draw(studio: Studio, moment: Moment, *, time: float | None = None) -> float:
+    prairie, matrices = studio.prairie, studio.matrices(moment.camera)
     prairie.advance(max(0.0, (moment.time if time is None else time) - prairie.time))
 
     def frame() -> None:
-        target.begin()
-        prairie.draw(view, projection)
+        studio.begin()
+        prairie.draw(*matrices)
 
-    return timed(target.ctx, frame)
+    return timed(studio.ctx, frame)

@@ -34,8 +34,8 @@ SHARES = {"frame": 60.0, "walk": 120.0, "scale": 60.0, "picture": 20.0, "pop": 7
 
 def bench_all(
     scene: str, output: str, *, preset: str | None, size: Size | None, against: str | None, json: bool
-) -> int:
-    """Run every benchmark of a scene, write `bench.json` and `bench.html` into a folder, return the exit status.
+) -> None:
+    """Run every benchmark of a scene, and write `bench.json` and `bench.html` into a folder.
 
     Without `size` each has the size that it has alone. `against` is the `bench.json` of another time, to be shown
     beside. Before anything is drawn it raises InputError where that is none or the folder cannot be written,
@@ -55,19 +55,18 @@ def bench_all(
         tell(told, as_json=True)
     else:
         print(f"{folder / 'bench.json'}\n{folder / 'bench.html'}")
-    return 0
 
 
 def all_measured(scene: str, *, preset: str | None, size: Size | None) -> Told:
     """Return what every benchmark tells of a scene; `scale` is None where its terrain comes from a file."""
-    large, small = size or LARGE, size or SMALL
+    large, small = Take(scene, size or LARGE, preset), Take(scene, size or SMALL, preset)
     noise = read_scene(scene).scene.terrain.heights is None
     work: dict[str, Callable[[], Mapping[str, object] | None]] = {
-        "frame": lambda: frame_measured(Take(scene, large, preset=preset)),
-        "walk": lambda: walk_measured(scene, preset=preset, size=large),
-        "scale": lambda: scale_measured(Take(scene, large, preset=preset)) if noise else None,
-        "picture": lambda: measured(Take(scene, large, preset=preset)),
-        "pop": lambda: pop_measured(Take(scene, small, preset=preset)),
+        "frame": lambda: frame_measured(large),
+        "walk": lambda: walk_measured(large),
+        "scale": lambda: scale_measured(large) if noise else None,
+        "picture": lambda: measured(large),
+        "pop": lambda: pop_measured(small),
     }
     found: Told = {}
     took: dict[str, float] = {}

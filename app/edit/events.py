@@ -64,8 +64,3 @@ def tell_button(button: int, modifiers: int, *, down: bool) -> None:
 def tell_wheel(x: float, y: float) -> None:
     """Tell how far the wheel was turned."""
     imgui.get_io().add_mouse_wheel_event(x, y)
-
-
-def tell_focus(*, focused: bool) -> None:
-    """Tell whether the window has the keys."""
-    imgui.get_io().add_focus_event(focused)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ... import __version__
-from ..studio.errors import MachineError
+from ..studio.errors import needed
 
 SETTINGS = {
     "distributed.admin.large-graph-warning-threshold": "4GiB",  # maps are large, and sent once
@@ -24,10 +24,7 @@ SILENT = logging.CRITICAL + 1
 
 def need_distributed() -> Any:
     """Return Dask's `distributed`; raises MachineError where it is not installed."""
-    try:
-        return importlib.import_module("distributed")
-    except ImportError:
-        raise MachineError("work is handed out by Dask's distributed: pip install 'tallgrass[farm]'") from None
+    return needed("distributed", "work is handed out by Dask's distributed", extra="farm")
 
 
 def versions() -> str:

@@ -1,13 +1,12 @@
 """`tallgrass figures`: the paper's figures and a page that shows them."""
 
-import importlib
 import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..studio.encode import make_folder
-from ..studio.errors import InputError, MachineError
+from ..studio.errors import InputError, needed
 from ..studio.progress import counted
 
 if TYPE_CHECKING:
@@ -51,7 +50,4 @@ def choose(figures: Sequence["PaperFigure"], only: str, /) -> list["PaperFigure"
 
 def need_matplotlib() -> None:
     """Raise MachineError where Matplotlib is not installed."""
-    try:
-        importlib.import_module("matplotlib")
-    except ImportError:
-        raise MachineError("figures are drawn by Matplotlib: pip install 'tallgrass[figures]'") from None
+    needed("matplotlib", "figures are drawn by Matplotlib", extra="figures")

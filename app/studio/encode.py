@@ -1,6 +1,5 @@
 """Writing pictures and films to files."""
 
-import importlib
 import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -17,7 +16,7 @@ from numpy.typing import NDArray
 from PIL import ExifTags, Image
 from PIL.PngImagePlugin import PngInfo
 
-from .errors import InputError, MachineError
+from .errors import InputError, needed
 
 Picture = NDArray[np.uint8]
 """sRGB, top row first, shape (height, width, 3)."""
@@ -86,7 +85,8 @@ def film_writer(output: str, size: tuple[int, int], fps: int, /) -> Callable[[Re
     elif ending == ".mp4":
         if size[0] % 2 or size[1] % 2:
             raise InputError(f"--size: {size[0]}x{size[1]}: an .mp4 needs an even width and height")
-        write = partial(_write_mp4, path=path, size=size, ffmpeg=_ffmpeg())
+        ffmpeg = needed("imageio_ffmpeg", "an .mp4 is written by ffmpeg, a .webp without it", extra="video")
+        write = partial(_write_mp4, path=path, size=size, ffmpeg=ffmpeg)
     else:
         raise InputError(f"-o: {output}: a film ends in .webp, .gif or .mp4, or is a folder, which ends in /")
     make_room(path)
@@ -194,13 +194,6 @@ def _write_mp4(reel: Reel, path: Path, size: tuple[int, int], ffmpeg: ModuleType
         for frame in reel.frames:
             sink.send(frame)
         sink.close()
-
-
-def _ffmpeg() -> ModuleType:
-    try:
-        return importlib.import_module("imageio_ffmpeg")
-    except ImportError:
-        raise MachineError("an .mp4 is written by ffmpeg: pip install 'tallgrass[video]', or choose .webp") from None
 
 
 def write_whole(text: str, path: Path, /) -> None:

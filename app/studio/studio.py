@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from ... import __version__
 from ...engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ...engine.declared.scene import Scene
+from ...engine.scene import LoadedScene, read_scene
 from ...systems.overlay.overlay import Overlay
 from ...systems.prairie import Prairie
-from ...systems.reference import draw_reference
+from ...systems.reference import draw_truth
 from .encode import Picture
 from .offscreen import Offscreen
 from .take import SAMPLES, Take
@@ -24,14 +25,16 @@ Matrix = NDArray[np.float32]
 class Studio:
     """A prairie, and a framebuffer to draw it into; a context manager.
 
-    Raises `SceneError` where the scene is wrong, RuntimeError where there is no OpenGL.
+    The scene is that of the take, or else one that is `loaded`. Raises `SceneError` where the scene is wrong,
+    RuntimeError where there is no OpenGL.
     """
 
-    def __init__(self, take: Take) -> None:
+    def __init__(self, take: Take, loaded: LoadedScene | None = None) -> None:
         self.take = take
         self._offscreen = Offscreen(take.size)  # first: where it cannot be had, nothing is grown in vain
         try:
-            self.prairie = Prairie.load(take.scene, preset=take.preset, lod=take.lod, live=False)
+            loaded = read_scene(take.scene) if loaded is None else loaded
+            self.prairie = Prairie(loaded, preset=take.preset, lod=take.lod, live=False)
         except BaseException:
             self._offscreen.release()
             raise
@@ -78,7 +81,7 @@ class Studio:
         self.begin()
         self.prairie.draw(view, projection, depth="none")
         if self.take.reference:
-            return draw_reference(self.prairie, view, projection, self.take.size, samples=SAMPLES)
+            return draw_truth(self.prairie, view, projection, self.take.size, samples=SAMPLES).picture
         self.overlay.draw(self.prairie, view, projection)
         return self.read()
 

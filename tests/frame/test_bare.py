@@ -12,7 +12,7 @@ from PIL import Image
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.gl import rasteriser
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.reference import draw_truth
 from tallgrass.testing import LITTLE, Stage
 
 Load = Callable[..., Prairie]
@@ -67,7 +67,7 @@ def test_t1_bare_ground_far_off_is_as_bright_as_in_the_reference(
     prairie, seen = bare(preset=preset), camera(0, 8, 90, pitch=-5)
     drawn = small.shot(prairie, seen)
     small.begin()
-    truth = draw_reference(prairie, *small.matrices(seen), small.size, samples=2).astype(np.float64)
+    truth = draw_truth(prairie, *small.matrices(seen), small.size, samples=2).picture.astype(np.float64)
     error = drawn - truth
     assert np.abs(error)[62:].mean(axis=1).max() <= 10.0  # below the terrain's edge
     assert np.abs(error)[66:90].max() <= 10.0

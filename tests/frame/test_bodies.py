@@ -16,7 +16,7 @@ from tallgrass.engine.camera import Camera
 from tallgrass.systems.bodies.feature import BodiesPart
 from tallgrass.systems.bodies.fly import carried
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.reference import draw_truth
 
 Stage = Any
 Load = Callable[..., Prairie]
@@ -111,7 +111,7 @@ def test_a_shadow_on_strips_ends_where_it_ends_on_every_blade(load: Load, stage:
     def true(prairie: Prairie, aim: Camera) -> Picture:
         stage.shot(prairie, aim)  # the reference shows what the last frame did
         view, projection = stage.matrices(aim)
-        return draw_reference(prairie, view, projection, stage.size, samples=3).astype(float)
+        return draw_truth(prairie, view, projection, stage.size, samples=3).picture.astype(float)
 
     def shadow(draw: Callable[[Prairie, Camera], Picture]) -> Picture:
         lit = draw(sunny, aim)

@@ -17,7 +17,7 @@ from tallgrass.engine.camera import Camera
 from tallgrass.engine.terrain.sample import density_at
 from tallgrass.systems.around.receivers import Receiving
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.reference import draw_truth
 from tallgrass.testing import LITTLE
 
 Stage = Any
@@ -128,7 +128,7 @@ def test_each_of_nine_kinds_shows_its_color_in_the_reference(
     prairie, aim = load("auto"), camera(0.0, 14.0, 15.0, pitch=-40, view=75)
     stage.shot(prairie, aim)
     view, projection = stage.matrices(aim)
-    picture = draw_reference(prairie, view, projection, stage.size, samples=1)
+    picture = draw_truth(prairie, view, projection, stage.size, samples=1).picture
     must_be_each_in_its_place(hues(picture.astype(np.float64), stage, aim))
 
 

@@ -12,7 +12,7 @@ from tallgrass import testing
 from tallgrass.components.pose import Pose
 from tallgrass.engine.camera import Camera, camera_at
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.reference import draw_truth
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.testing import Stage
 
@@ -43,7 +43,7 @@ def seen_and_true(room: Stage, prairie: Prairie, heading: float) -> tuple[Pixels
     """The grass in a wind that blows along a heading from the camera's [degrees], and all its blades."""
     wind = prairie.add(Breeze(direction=YAW + heading, strength=0.55, gustiness=0.0, swing=0.0), pose=Pose())
     seen = room.shot(prairie, CAMERA).astype(np.float64)
-    true = draw_reference(prairie, *room.matrices(CAMERA), room.size, samples=3).astype(np.float64)
+    true = draw_truth(prairie, *room.matrices(CAMERA), room.size, samples=3).picture.astype(np.float64)
     prairie.remove(wind)
     return seen, true
 
@@ -102,7 +102,7 @@ def test_from_the_side_strips_that_a_gale_lays_are_as_bright_as_their_blades(
     prairie.advance(2.0)
     camera = Camera((0.0, 1.2, 25.0), 0.0, np.radians(-4.5), np.radians(4.0))  # 11 to 27 m away
     seen = room.shot(prairie, camera).astype(np.float64)
-    true = draw_reference(prairie, *room.matrices(camera), room.size, samples=4).astype(np.float64)
+    true = draw_truth(prairie, *room.matrices(camera), room.size, samples=4).picture.astype(np.float64)
     assert seen.mean() == pytest.approx(true.mean(), rel=0.02)
 
 
@@ -115,6 +115,6 @@ def test_where_strips_begin_on_a_slope_that_falls_away_no_dark_band_shows(ctx: m
         tall.begin()
         prairie.draw(view, projection)
         seen = tall.read()[350:362].astype(np.float64)
-        true = draw_reference(prairie, view, projection, tall.size, samples=4)[350:362].astype(np.float64)
+        true = draw_truth(prairie, view, projection, tall.size, samples=4).picture[350:362].astype(np.float64)
     prairie.release()
     assert seen.mean() == pytest.approx(true.mean(), rel=0.03)

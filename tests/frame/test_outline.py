@@ -15,7 +15,7 @@ from tallgrass.components.arrays import Doubles
 from tallgrass.engine.camera import Camera, camera_at, view_of
 from tallgrass.systems.around.appearance import Appearance, appearance
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.reference import carpet_painter, draw_reference
+from tallgrass.systems.reference import carpet_painter, draw_truth
 from tallgrass.testing import Stage as Room
 
 Load = Callable[..., Prairie]
@@ -157,7 +157,7 @@ def hillside(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) ->
         stage.begin()
         prairie.draw(view, projection)
         seen = stage.read()
-        yield seen, draw_reference(prairie, view, projection, (160, 450), samples=4).astype(np.float64)
+        yield seen, draw_truth(prairie, view, projection, (160, 450), samples=4).picture.astype(np.float64)
         prairie.release()
 
 
@@ -199,7 +199,7 @@ def test_x5_no_light_line_parts_strips_from_the_crest_they_stand_behind(ctx: mod
         view, projection = stage.matrices(replace(camera, yaw=camera.yaw + aside))
         stage.begin()
         prairie.draw(view, projection)
-        lighter = stage.read() - draw_reference(prairie, view, projection, size, samples=3)
+        lighter = stage.read() - draw_truth(prairie, view, projection, size, samples=3).picture
         prairie.release()
     lightest = lighter[60:200].reshape(140, 20, 10, 3).mean(axis=(2, 3)).max(axis=0)
     assert lightest.mean() < 30.0

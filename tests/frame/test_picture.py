@@ -8,7 +8,7 @@ import pytest
 
 from tallgrass.engine.camera import Camera, view_of
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.reference import carpet_painter, draw_reference
+from tallgrass.systems.reference import carpet_painter, draw_truth
 from tallgrass.systems.show.blades.plant import standing_blades
 from tallgrass.systems.show.blades.pool import BladesKept
 from tallgrass.systems.show.blades.representation import BladeRepresentation
@@ -184,7 +184,7 @@ def test_t1_on_hillsides_grass_stands_where_every_blade_does(stage: Stage, load:
     aim = camera(0.0, float(prairie.height_at([(0.0, 25.0)])[0]) + 2.0, 25.0, pitch=-6.0)
     picture = stage.shot(prairie, aim)
     view, projection = stage.matrices(aim)
-    every = draw_reference(prairie, view, projection, stage.size, samples=2).astype(np.float64)
+    every = draw_truth(prairie, view, projection, stage.size, samples=2).picture.astype(np.float64)
     width, height = (size // SQUARE * SQUARE for size in stage.size)
     shown, due = (
         each[:height, :width].reshape(height // SQUARE, SQUARE, width // SQUARE, SQUARE, 3).mean(axis=(1, 3, 4))

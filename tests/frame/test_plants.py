@@ -14,7 +14,7 @@ from tallgrass.systems.grow.organs import width_along
 from tallgrass.systems.grow.record import Blades, Growth
 from tallgrass.systems.light.materials import pigment
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.reference import draw_truth
 from tallgrass.systems.show.blades import representation
 from tallgrass.systems.show.blades.draw import RIBBON
 from tallgrass.systems.show.blades.painter import BladesPainter
@@ -190,7 +190,7 @@ def test_f3_the_reference_has_the_flowers_of_the_picture(stage: Stage, load: Loa
     picture = stage.shot(prairie, aim).astype(float)
     stage.target.use()
     view, projection = stage.matrices(aim)
-    truth = draw_reference(prairie, view, projection, stage.size, samples=4).astype(float)
+    truth = draw_truth(prairie, view, projection, stage.size, samples=4).picture.astype(float)
     red, red_of_truth = (each[..., 0] > 1.3 * each[..., 1] for each in (picture, truth))
     assert red_of_truth.sum() > 100
     assert (red & red_of_truth).sum() > 0.75 * red_of_truth.sum()
@@ -224,7 +224,7 @@ def test_f3_far_off_flowers_are_as_faint_as_those_of_the_reference(stage: Stage,
     )
     prairie = load(pasture.replace("quality: low", QUALITY), lod="carpet")
     aim, middle = camera(0.0, 6.0, 59.0, pitch=-4.3, view=20), stage.size[1] // 2
-    pictures = stage.shot(prairie, aim), draw_reference(prairie, *stage.matrices(aim), stage.size, samples=3)
+    pictures = stage.shot(prairie, aim), draw_truth(prairie, *stage.matrices(aim), stage.size, samples=3).picture
     far = slice(middle - 6, middle + 6)  # 60 to 115 m off
     drawn, true = (np.percentile(each[far, :, 0].astype(float) - each[far, :, 2], [50, 99.7]) for each in pictures)
     assert drawn[1] - drawn[0] < 1.15 * (true[1] - true[0])
@@ -236,7 +236,7 @@ def test_f3_flowers_smaller_than_pixels_hide_as_much_as_those_of_the_reference(
     alone = FIELD.replace("  barley: { height: [0.4, 0.6], width: 0.018 }\n", "").replace("petals: 5", "petals: 12")
     prairie = load(alone.replace("plants: 50,", "plants: 12, leaves: 0,"), lod="blades")
     aim = camera(0.0, 9.0, 59.0, pitch=-28, view=16)
-    pictures = stage.shot(prairie, aim), draw_reference(prairie, *stage.matrices(aim), stage.size, samples=3)
+    pictures = stage.shot(prairie, aim), draw_truth(prairie, *stage.matrices(aim), stage.size, samples=3).picture
     redder = [each[..., 0].astype(float) - each[..., 2] for each in pictures]
     hidden, brightest = zip(*((each.mean(), np.percentile(each, 99.7)) for each in redder), strict=True)
     assert hidden[0] - np.median(redder) == pytest.approx(hidden[1] - np.median(redder), rel=0.15)

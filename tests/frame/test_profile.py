@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera, view_of
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.reference import draw_truth
 from tallgrass.systems.show.blades.draw import own_segment_defines
 from tallgrass.systems.show.blades.painter import BladesPainter
 from tallgrass.systems.show.blades.pool import BLADE
@@ -105,7 +105,7 @@ def test_g1_a_kind_may_have_segments_of_its_own_and_then_all_its_blades_are_draw
         prairie = load(text + "wind: [{ kind: breeze, strength: 0.9 }]\n")
         camera = Camera((0.0, 1.0, 8.0), 0.0, -0.2, np.radians(40.0))
         picture = stage.shot(prairie, camera)
-        return picture, draw_reference(prairie, *stage.matrices(camera), stage.size).astype(np.float64)
+        return picture, draw_truth(prairie, *stage.matrices(camera), stage.size).picture.astype(np.float64)
 
     usual, same, straight = (shown(how) for how in ("", "segments: 4, ", "segments: 1, "))
     for before, again, other in zip(usual, same, straight, strict=True):

@@ -8,7 +8,7 @@ import pytest
 
 from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass, WindPrimitive
-from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.reference import draw_truth
 from tallgrass.systems.wind import quarantine
 from tallgrass.testing import looking
 
@@ -79,10 +79,10 @@ def test_a_reference_is_drawn_in_all_winds_however_slow_they_are(
     stage.shot(prairie)
     view, projection = stage.matrices(looking(0.0, 1.7, 20.0, pitch=-12))
     stage.target.use()
-    quick = draw_reference(prairie, view, projection, stage.size, samples=1)
+    quick = draw_truth(prairie, view, projection, stage.size, samples=1).picture
     readings = count()
     monkeypatch.setattr(quarantine, "thread_time", lambda: 5.0 * next(readings))
-    np.testing.assert_array_equal(draw_reference(prairie, view, projection, stage.size, samples=1), quick)
+    np.testing.assert_array_equal(draw_truth(prairie, view, projection, stage.size, samples=1).picture, quick)
     assert not prairie.winds.quarantine.reasons
     assert len(caplog.messages) == 1
     stage.shot(prairie)

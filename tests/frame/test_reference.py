@@ -14,10 +14,10 @@ from tallgrass.systems.reference import (
     EveryBlade,
     box_filtered,
     cells_in_picture,
-    draw_reference,
+    cells_within,
+    draw_truth,
     near_picture,
     patch_distances,
-    seen_cells,
     stand_all,
     terrain_cells,
 )
@@ -45,7 +45,7 @@ def prairie(stage: Stage, load: Load, aim: Camera) -> Prairie:
 def reference(stage: Stage, prairie: Prairie, aim: Camera, samples: int = 3) -> Any:
     stage.target.use()
     view, projection = stage.matrices(aim)
-    return draw_reference(prairie, view, projection, stage.size, samples=samples).astype(float)
+    return draw_truth(prairie, view, projection, stage.size, samples=samples).picture.astype(float)
 
 
 def distances(stage: Stage, prairie: Prairie, aim: Camera) -> Any:
@@ -119,7 +119,8 @@ def test_t2_the_reference_leaves_out_only_what_is_not_seen(
     monkeypatch.setattr(module, "near_picture", counting)
     every, seen = EveryBlade(prairie), view_of(*stage.matrices(aim))
     pictures, site = [], prairie.site
-    cone = seen_cells(site.ground, prairie.viewers["main"].viewer, sway=site.sway)
+    viewer = prairie.viewers["main"].viewer
+    cone = cells_within(site.ground, viewer.eye, viewer.cone, sway=site.sway)
     held = cells_in_picture(prairie, cone, seen)
     for cells in (held, terrain_cells(site.ground)):
         stage.target.use()
@@ -203,7 +204,7 @@ def test_n3_within_a_reach_that_holds_everything_the_reference_is_whole(
     view, projection = stage.matrices(aim)
 
     def within(reach: int) -> Any:
-        return draw_reference(prairie, view, projection, stage.size, samples=2, reach=reach).astype(float)
+        return draw_truth(prairie, view, projection, stage.size, samples=2, reach=reach).picture.astype(float)
 
     whole = reference(stage, prairie, aim, samples=2)
     # Ground that a carpet may lie on is lit at the corners of its mesh.

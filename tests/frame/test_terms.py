@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from tallgrass import Shade
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.reference import draw_truth
 from tallgrass.testing import Stage
 
 Picture = NDArray[np.float64]
@@ -147,7 +147,7 @@ def test_n12_each_term_of_the_light_is_the_same_on_all_representations(
     def truth(seen: Seen) -> Picture:
         with showing(prairies["blades"], seen):
             stage.shot(prairies["blades"], CAMERA)
-            return draw_reference(prairies["blades"], *stage.matrices(CAMERA), SIZE, samples=2).astype(np.float64)
+            return draw_truth(prairies["blades"], *stage.matrices(CAMERA), SIZE, samples=2).picture.astype(np.float64)
 
     def shot_of(lod: str) -> Shot:
         def shot(seen: Seen) -> Picture:

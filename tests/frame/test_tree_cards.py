@@ -9,7 +9,7 @@ import pytest
 from tallgrass import Prairie
 from tallgrass.app.bench.trees import Behind, trees_told
 from tallgrass.components.arrays import Bytes
-from tallgrass.systems.reference import draw_reference, draw_truth, without_trees
+from tallgrass.systems.reference import draw_truth, without_trees
 from tallgrass.systems.trees import standing
 from tallgrass.systems.trees.bake import CARD
 from tallgrass.systems.trees.card import CARDS, FAR
@@ -102,7 +102,7 @@ def test_from_above_the_ground_hides_nothing_of_a_tree_and_it_is_as_bright_as_wi
     monkeypatch.setattr(standing, "BEGINS", 2e5)
     stage.shot(prairie, looking(9.0, 24.0, 24.0))
     drawn = stage.shot(prairie, ABOVE)
-    truth = draw_reference(prairie, *stage.matrices(ABOVE), (SIZE, SIZE)).astype(np.float64)
+    truth = draw_truth(prairie, *stage.matrices(ABOVE), (SIZE, SIZE)).picture.astype(np.float64)
     with without_trees(prairie):
         bare = stage.shot(prairie, ABOVE)
     covers, true = (np.abs(each - bare).max(axis=-1) > 12.0 for each in (drawn, truth))
@@ -117,7 +117,7 @@ def test_from_above_the_ground_hides_nothing_of_a_tree_and_it_is_as_bright_as_wi
 def test_a_reference_is_as_bright_with_few_samples_as_with_many(stage: Stage, prairie: Prairie) -> None:
     """Leaves are smaller than a sample there, and none may show through others that are before it."""
     stage.shot(prairie, ABOVE)
-    seen = [draw_reference(prairie, *stage.matrices(ABOVE), (SIZE, SIZE), samples=each) for each in (2, 8)]
+    seen = [draw_truth(prairie, *stage.matrices(ABOVE), (SIZE, SIZE), samples=each).picture for each in (2, 8)]
     with without_trees(prairie):
         bare = stage.shot(prairie, ABOVE)
     crown = np.abs(seen[1] - bare).max(axis=-1) > 12.0

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass import Prairie
-from tallgrass.systems.reference import LOWER, cropped, draw_reference
+from tallgrass.systems.reference import LOWER, cropped, draw_truth
 from tallgrass.systems.trees.card import FAR, LEAVES
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.standing import GONE
@@ -49,7 +49,7 @@ def prairie(ctx: moderngl.Context, stage: Stage) -> Iterator[Prairie]:
 
 
 def reference(stage: Stage, prairie: Prairie, **keys: Any) -> NDArray[np.float64]:
-    return draw_reference(prairie, *stage.matrices(EYE), SIZE, **keys).astype(np.float64)
+    return draw_truth(prairie, *stage.matrices(EYE), SIZE, **keys).picture.astype(np.float64)
 
 
 def streams(prairie: Prairie) -> dict[str, list[int]]:
@@ -77,7 +77,7 @@ def test_n3_a_tile_of_a_reference_shows_what_the_whole_does_whichever_was_drawn_
     stage.begin()
     prairie.draw(view, projection)  # so that trees are chosen anew
     for left, top in ((2, 8), (48, 8), (28, 24)):
-        tile = draw_reference(prairie, view, cropped(projection, (left, top), (20, 20), SIZE), (20, 20))
+        tile = draw_truth(prairie, view, cropped(projection, (left, top), (20, 20), SIZE), (20, 20)).picture
         apart = np.abs(tile - whole[top : top + 20, left : left + 20]).mean()
         assert apart < 3.0, (left, top)
 

@@ -15,7 +15,7 @@ from tallgrass import Lamp, Pose, Prairie, Shade, Tree
 from tallgrass.app.bench.steps import held
 from tallgrass.components.arrays import Floats
 from tallgrass.engine.camera import Camera
-from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.reference import draw_truth
 from tallgrass.systems.trees import bake, card, going, kind, standing
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.outline import CORNERS, Around
@@ -246,7 +246,7 @@ def test_however_far_off_it_covers_as_much_of_the_sky_as_with_every_leaf(
     def seen() -> tuple[Picture, Picture]:
         stage.begin()
         prairie.draw(*matrices)
-        return stage.read()[..., 2], draw_reference(prairie, *matrices, (size, size), samples=4)[..., 2].astype(
+        return stage.read()[..., 2], draw_truth(prairie, *matrices, (size, size), samples=4).picture[..., 2].astype(
             np.float64
         )
 
