@@ -16,7 +16,6 @@ from PIL import Image
 
 from tallgrass.app.bench import picture, processor, stroll, yardstick
 from tallgrass.app.bench.flip import MOMENT
-from tallgrass.app.bench.frame import sample
 from tallgrass.app.bench.rivals import Rivals
 from tallgrass.app.bench.scale import stretched
 from tallgrass.app.bench.still import Still
@@ -29,7 +28,7 @@ from tallgrass.app.studio.timing import card_timer
 from tallgrass.engine.camera import Camera, projection_matrix, view_matrix, view_of
 from tallgrass.engine.gl import rasteriser
 from tallgrass.engine.scene import read_scene
-from tallgrass.systems.reference import draw_reference, patch_distances
+from tallgrass.systems.reference import draw_truth, patch_distances
 from tallgrass.systems.space.frustum import beyond, picture_sides
 
 COMMON = {"machine", "scene", "preset", "size", "frames"}
@@ -124,7 +123,7 @@ def test_where_the_driver_always_draws_none_is_told_of_the_cpu_alone_and_without
 
 
 def test_a_child_that_fails_tells_nothing(scene: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    assert processor.on_processor(str(scene), preset="none such", size=(96, 54), walk=True) is None
+    assert processor.on_processor(Take(str(scene), (96, 54), "none such"), walk=True) is None
     capfd.readouterr()
 
 
@@ -152,10 +151,10 @@ def test_a_graphics_card_is_timed_by_its_own_clock(
     monkeypatch.setattr(rasteriser, "SOFTWARE", ("none such",))
     assert card_timer(ctx) is not None
     with Studio(Take(str(scene), (96, 54))) as studio:
-        still = Still(studio)
-        samples = sample(still, Mock(Rivals))
-    assert len(samples.card) == len(samples.frame) == 6
-    assert all(card > 0.0 for card in samples.card)
+        still, timer = Still(studio), card_timer(ctx)
+        assert timer is not None
+        assert still.step(timer) > 0.0
+        assert timer.elapsed > 0
 
 
 @pytest.mark.usefixtures("few_frames")
@@ -233,7 +232,7 @@ def test_g1_in_the_meadow_every_representation_is_as_bright_as_its_blades() -> N
         studio.begin()
         prairie.draw(*matrices)
         seen = studio.read()
-        true = draw_reference(prairie, *matrices, NARROW, samples=4)
+        true = draw_truth(prairie, *matrices, NARROW, samples=4).picture
         distance = patch_distances(prairie, *matrices, NARROW)
         _are_as_bright_as_blades(picture.bands(seen, true, distance, prairie.site.quality))
 

@@ -175,6 +175,7 @@ def test_what_workers_grow_is_kept_byte_for_byte_as_one_process_grows_it(
         list(two.in_order(grown, [(*seeds[0], "of other code")]))
 
 
+@pytest.mark.slow
 @pytest.mark.gl
 @pytest.mark.usefixtures("ctx")
 @pytest.mark.skipif(sys.platform == "win32", reason="a process is ended there in another way")

@@ -71,7 +71,11 @@ def test_a_frame_of_a_still_camera_is_the_shot_of_its_time(
     np.testing.assert_array_equal(pixels(scene.parent / "film" / "00003.png"), pixels(scene.parent / "shot.png"))
 
 
-@pytest.mark.parametrize("options", [(), ("--reference", "--preset", "low")], ids=["drawn", "reference"])
+@pytest.mark.parametrize(
+    "options",
+    [(), pytest.param(("--reference", "--preset", "low"), marks=pytest.mark.slow)],
+    ids=["drawn", "reference"],
+)
 def test_a_film_is_one_moving_picture(tallgrass: Tallgrass, scene: Path, options: tuple[str, ...]) -> None:
     done = tallgrass("film", scene, "-o", "a.webp", "--seconds", 0.5, "--fps", 6, "--size", "48x28", *options)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
@@ -160,7 +164,7 @@ def test_frames_that_a_film_has_not_are_one_line(tallgrass: Tallgrass, scene: Pa
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a process is ended there without being asked")
-@pytest.mark.parametrize("name", ["a.webp", pytest.param("a.gif", marks=pytest.mark.slow), "a/"])
+@pytest.mark.parametrize("name", ["a.webp", *(pytest.param(name, marks=pytest.mark.slow) for name in ("a.gif", "a/"))])
 def test_a_film_that_is_asked_to_end_leaves_no_part_of_a_file(scene: Path, name: str) -> None:
     words = [sys.executable, "-m", "tallgrass.app.cli", "film", scene.name, "-o", name, "--seconds", "3600"]
     folder = scene.parent / "a" if name == "a/" else scene.parent

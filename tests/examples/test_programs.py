@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-LONG = {"farm", "lake", "night_drive", "split_screen", "village"}
-"""What takes 5 to 12 s: the others open windows and draw grass in every way that these do."""
+LONG = {"day", "farm", "lake", "night_drive", "planet", "riding", "split_screen", "village"}
+"""What takes 2 to 12 s: the others open windows and draw grass in every way that these do."""
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.py"))
 Python = Callable[..., str]

@@ -68,6 +68,7 @@ def scene(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_d5_the_installed_example_is_a_kind_of_scene_files(run: Run, site: Path, scene: Path) -> None:
     assert "vortex-street  tallgrass-vortex-street  0.1.0    ready" in run(
         site, "-m", "tallgrass.app.cli", "plugins", "list"

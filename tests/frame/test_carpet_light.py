@@ -13,7 +13,7 @@ from tallgrass.app.bench.contrast import luma
 from tallgrass.components.pose import Pose
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.reference import draw_truth
 from tallgrass.systems.wind.blast import Blast, Shape
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.testing import Stage
@@ -74,7 +74,9 @@ def test_f6_only_where_a_wind_bends_it_the_carpet_is_lit_otherwise(room: Stage, 
     assert change[beyond].max() < 0.02
 
 
-@pytest.mark.parametrize(("text", "off"), [(CALM, 0.04), (COARSE, 0.05)], ids=["whole", "coarse"])
+@pytest.mark.parametrize(
+    ("text", "off"), [(CALM, 0.04), pytest.param(COARSE, 0.05, marks=pytest.mark.slow)], ids=["whole", "coarse"]
+)
 def test_f2_from_above_the_carpet_hides_as_much_more_of_the_ground_as_bent_blades_do(
     room: Stage, load: Load, text: str, off: float
 ) -> None:
@@ -85,7 +87,7 @@ def test_f2_from_above_the_carpet_hides_as_much_more_of_the_ground_as_bent_blade
     for strength in (0.0, 0.3, 0.6, 0.9):
         wind = prairie.add(Breeze(direction=40.0, strength=strength, gustiness=0.0, swing=0.0), pose=Pose())
         seen = luma(room.shot(prairie, above)).mean()
-        truth = luma(draw_reference(prairie, *room.matrices(above), room.size, samples=2))
+        truth = luma(draw_truth(prairie, *room.matrices(above), room.size, samples=2).picture)
         bare, covered = np.percentile(truth, (1.0, 99.0))
         more.append((seen - truth.mean()) / (covered - bare))
         prairie.remove(wind)
@@ -99,7 +101,7 @@ def test_f2_from_a_slant_the_carpet_tells_which_way_grass_leans_as_blades_do(roo
     for yaw in (0.0, 180.0):
         wind = prairie.add(Breeze(direction=yaw, strength=0.4, gustiness=0.0, swing=0.0), pose=Pose())
         seen = room.shot(prairie, slant).mean()
-        ratios.append(seen / draw_reference(prairie, *room.matrices(slant), room.size, samples=2).mean())
+        ratios.append(seen / draw_truth(prairie, *room.matrices(slant), room.size, samples=2).picture.mean())
         prairie.remove(wind)
     np.testing.assert_allclose(ratios[1], ratios[0], rtol=0.05)
 
@@ -146,7 +148,7 @@ def test_grass_that_grows_half_as_densely_is_as_bright_on_the_carpet_as_its_blad
     prairie = load(
         CALM.replace("blades: 800", f"blades: 800, {colours}") + 'light: { ground: "#101010" }\n', lod="carpet"
     )
-    seen, true = room.shot(prairie, CAMERA), draw_reference(prairie, *room.matrices(CAMERA), room.size, samples=3)
+    seen, true = room.shot(prairie, CAMERA), draw_truth(prairie, *room.matrices(CAMERA), room.size, samples=3).picture
     assert seen.mean() == pytest.approx(true.mean(), rel=0.06)
 
 
@@ -165,7 +167,7 @@ def test_behind_grass_that_hides_hardly_anything_the_ground_is_seen_where_it_lie
         picture[60:150].mean(axis=(1, 2))
         for picture in (
             room.shot(prairie, camera),
-            draw_reference(prairie, *room.matrices(camera), room.size, samples=4),
+            draw_truth(prairie, *room.matrices(camera), room.size, samples=4).picture,
         )
     ]
     assert np.abs(lines[0] - lines[1]).mean() < 2.0

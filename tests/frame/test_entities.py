@@ -249,11 +249,11 @@ def test_d6_a_system_that_raises_is_named_once_and_the_picture_is_that_without_i
 def walked(prairie: Prairie, easel: Stage, cameras: dict[str, Callable[[float], Camera]]) -> dict[str, list[Picture]]:
     """The pictures of viewers who walk, one after another in every frame."""
     pictures: dict[str, list[Picture]] = {name: [] for name in cameras}
-    for frame in range(12):
-        prairie.advance(0.1)
+    for frame in range(6):
+        prairie.advance(0.2)
         for name, camera in cameras.items():
             easel.begin()
-            prairie.draw(*easel.matrices(camera(0.1 * frame)), viewer=name)
+            prairie.draw(*easel.matrices(camera(0.2 * frame)), viewer=name)
             pictures[name].append(easel.read())
     return pictures
 

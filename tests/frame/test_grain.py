@@ -41,7 +41,7 @@ def room(ctx: moderngl.Context) -> Stage:
 @pytest.mark.parametrize(
     ("held", "camera", "strength"),
     [
-        ("strips", NEAR, 0.0),
+        pytest.param("strips", NEAR, 0.0, marks=pytest.mark.slow),
         pytest.param("strips", NEAR, 0.9, marks=pytest.mark.slow),
         ("carpet", ABOVE, 0.0),
         ("carpet", LOW, 0.8),

@@ -14,7 +14,7 @@ from tallgrass.components.arrays import Doubles
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.mow.card import PlotsPart
 from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.reference import draw_reference
+from tallgrass.systems.reference import draw_truth
 from tallgrass.testing import LITTLE
 
 Stage = Any
@@ -87,7 +87,7 @@ def test_g2_without_low_leaves_the_ground_is_what_the_scene_says(stage: Stage, l
     prairie.release()
 
 
-@pytest.mark.parametrize("height", [0.08, 0.3])
+@pytest.mark.parametrize("height", [0.08, pytest.param(0.3, marks=pytest.mark.slow)])
 def test_f4_a_lawn_is_as_bright_on_all_representations_as_every_blade_of_it(
     stage: Stage, load: Load, camera: Aim, height: float
 ) -> None:
@@ -98,7 +98,7 @@ def test_f4_a_lawn_is_as_bright_on_all_representations_as_every_blade_of_it(
         means[lod] = stage.shot(prairie, aim)[20:].mean(axis=(0, 1))
         if lod == "blades":
             view, projection = stage.matrices(aim)
-            due = draw_reference(prairie, view, projection, stage.size)[20:].mean(axis=(0, 1))
+            due = draw_truth(prairie, view, projection, stage.size).picture[20:].mean(axis=(0, 1))
     for lod, mean in means.items():
         np.testing.assert_allclose(mean, due, rtol=0.06, err_msg=lod)
 

@@ -23,7 +23,7 @@ def test_r2_on_a_walk_frames_have_as_much_to_do_however_many_patches_are_changin
     stage: Stage, load: Load, camera: Aim
 ) -> None:
     prairie, counts, changing = load(), [], []
-    for frame in range(60):
+    for frame in range(40):
         z = 20.0 - PACE * STEP * frame
         height = float(prairie.height_at([[0.6, z]])[0])
         stage.shot(prairie, camera(0.6, height + 1.7, z, pitch=-10))

@@ -233,7 +233,7 @@ def test_a_prairie_that_was_released_is_not_prepared(load: Load) -> None:
         prairie.prepare()
 
 
-@pytest.mark.parametrize("was_drawn", [True, False])
+@pytest.mark.parametrize("was_drawn", [pytest.param(True, marks=pytest.mark.slow), False])
 def test_a_frame_is_rehearsed_with_all_that_may_come_and_no_pixel_changes(
     stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch, *, was_drawn: bool
 ) -> None:

@@ -128,7 +128,7 @@ def walk(stage: Stage, prairie: Prairie, on_card: OnCard, *, instants: int, step
 
 
 def test_n1_in_a_storm_the_card_tells_every_receiver_what_numpy_does(stage: Stage, load: Load, on_card: OnCard) -> None:
-    walk(stage, load("storm", preset="low"), on_card, instants=8, step=2.5)
+    walk(stage, load("storm", preset="low"), on_card, instants=5, step=4.0)
 
 
 def test_n1_on_steep_ground_with_density_maps_the_card_tells_what_numpy_does_in_both_mixings(

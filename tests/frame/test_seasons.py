@@ -93,7 +93,9 @@ def of(**keys: object) -> str:
     return LITTLE.replace(TALL, ", ".join(f"{key}: {json.dumps(value)}" for key, value in told.items()))
 
 
-@pytest.mark.parametrize("lod", ["blades", "strips", "carpet", "auto"])
+@pytest.mark.parametrize(
+    "lod", ["blades", *(pytest.param(lod, marks=pytest.mark.slow) for lod in ("strips", "carpet")), "auto"]
+)
 def test_f4_plants_come_in_one_by_one_until_all_are_those_of_a_scene_that_had_them_from_the_start(
     stage: Stage, load: Load, camera: Aim, programs: list[object], lod: str
 ) -> None:

@@ -170,7 +170,10 @@ CASTERS: dict[str, tuple[Shade | None, Callable[[Array], NDArray[np.bool_]]]] = 
 """What throws a shadow, without a shade the map; and where its shadow is."""
 
 
-@pytest.mark.parametrize("caster", CASTERS)
+@pytest.mark.parametrize(
+    "caster",
+    ["map", "box", pytest.param("turned", marks=pytest.mark.slow), pytest.param("capsule", marks=pytest.mark.slow)],
+)
 def test_n12_a_shadow_lies_where_rays_are_stopped_on_all_representations(
     stage: Stage, prairies: dict[str, Prairie], box: ShadowMap, night: ShadowMap, places: Array, caster: str
 ) -> None:

@@ -12,6 +12,7 @@ from tallgrass.engine.camera import Camera
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.plant import Plant
 from tallgrass.systems.prairie import Prairie
+from tallgrass.testing import Phase, looking, step, watch
 
 Stage = Any
 Load = Callable[..., Prairie]
@@ -85,9 +86,7 @@ def test_n2_a_frame_of_a_viewer_who_stands_calls_little(stage: Stage, load: Load
     assert all(many < most for many, most in zip(found, CALLS, strict=True)), found
 
 
-def test_r3_for_a_viewer_who_stands_nothing_is_planted_until_an_entity_goes(
-    stage: Stage, load: Load, camera: Aim, monkeypatch: Any
-) -> None:
+def test_r3_for_a_viewer_who_stands_nothing_is_planted_until_an_entity_goes(load: Load, monkeypatch: Any) -> None:
     prairie, planted = load(CALM), list[float]()
     run = Plant._run  # noqa: SLF001
 
@@ -96,12 +95,16 @@ def test_r3_for_a_viewer_who_stands_nothing_is_planted_until_an_entity_goes(
         run(system, outlook)
 
     monkeypatch.setattr(Plant, "_run", noted)
-    here = camera(0.0, 4.0, 20.0, pitch=-10)
-    calls(stage, prairie, here)
-    came = len(planted)
-    calls(stage, prairie, here)
-    assert len(planted) == came > 1
+
+    def stand() -> int:
+        for _ in range(FRAMES):
+            prairie.advance(1 / 60)
+            watch(prairie, looking(0.0, 4.0, 20.0, pitch=-10))
+            step(prairie, Phase.BLOW)
+        return len(planted)
+
+    came = stand()
+    assert stand() == came > 1
     entity, _ = prairie.world.all(Patch)[0]
     esper.delete_entity(entity, immediate=True)
-    calls(stage, prairie, here)
-    assert came < len(planted) < came + FRAMES
+    assert came < stand() < came + FRAMES

@@ -106,7 +106,12 @@ def test_w12_numpy_lays_a_soft_blade_lower_than_a_stiff_one(prairies: Grown, win
 
 
 @pytest.mark.parametrize(
-    ("wind", "lod", "apart"), [("breeze", "blades", 0.16), ("gust", "strips", 0.23), ("blast", "strips", 0.23)]
+    ("wind", "lod", "apart"),
+    [
+        ("breeze", "blades", 0.16),
+        ("gust", "strips", 0.23),
+        pytest.param("blast", "strips", 0.23, marks=pytest.mark.slow),
+    ],
 )
 def test_w12_a_picture_shows_soft_grass_lower_than_stiff_grass(
     prairies: Grown, room: Room, wind: str, lod: LodName, apart: float

@@ -168,7 +168,13 @@ def test_what_an_alias_repeats_is_refused_and_where_it_is_repeated_it_becomes_it
     assert rewritten(text, {"a": {"b": 1}, "c": {"b": 2}}) == "a: &x { b: 1 }\nc: { b: 2 }\n"
 
 
-@pytest.mark.parametrize("path", bundled_scenes().values(), ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path",
+    [
+        pytest.param(path, id=name, marks=[pytest.mark.slow] * (name == "hedgerow"))
+        for name, path in bundled_scenes().items()
+    ],
+)
 def test_every_value_of_a_bundled_scene_can_change_without_touching_another_line(path: Path) -> None:
     text = path.read_text("utf-8")
 
