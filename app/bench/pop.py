@@ -3,11 +3,13 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ...systems.around.transitions import SEAMLESS, Transitions
+from ..studio.encode import Picture, picture_writer
 from ..studio.errors import InputError
 from ..studio.progress import counted, course
 from ..studio.studio import Studio, about
@@ -16,7 +18,6 @@ from .asked import Asked
 from .climb import climb
 from .crew import by_many, cores, ticked
 from .drift import Change, mean_drift, mean_ghosting, taken_together
-from .evidence import save
 from .flicker import MARGIN, TILE
 from .flip import evaluator, flip
 from .machine import head
@@ -45,6 +46,12 @@ KEPT = ("judged", "error", "drift", "ghosting", "over", "changing", "changes", "
 
 LIMITS = {"flicker": 1.15, "drift": 0.03, "ghosting": 0.5}
 """What is not to be seen at all stays below: the flicker's ratio, the drift of patches together, and ghosting."""
+
+
+AMPLIFIED = 8
+"""How many times a step is shown as large as it is."""
+
+RED = (255, 0, 0)
 
 
 def pop_survey(*, parts: bool, hold: float | None, rising: bool) -> Survey:
@@ -92,7 +99,7 @@ def _measure(
     records = _walks(studio, walk, left_out, hold=hold, crew=crew)
     whole = records[WHOLE]
     if output is not None:
-        save(whole.worst, output, about(studio.prairie.scene, studio.take, time=studio.prairie.time))
+        _save(whole.worst, output, about(studio.prairie.scene, studio.take, time=studio.prairie.time))
     result = _told(records)
     if parts:
         result["contributions"] = [
@@ -242,3 +249,24 @@ def _row(verdict: Verdict) -> dict[str, object]:
         "jump": round(verdict.jump, 3),
         "changing": verdict.step.changing,
     }
+
+
+def _save(verdicts: list[Verdict], folder: str, about: Mapping[str, str], /) -> None:
+    """Write `_evidence` for each verdict into a folder: `1-ahead-015.png` is the worst, frame 15 of the leg ahead."""
+    for rank, verdict in enumerate(verdicts, 1):
+        moment = verdict.step.moment
+        name = f"{rank}-{moment.leg.name}-{moment.number:03}.png"
+        picture_writer(str(Path(folder) / name))(_evidence(verdict), {**about, "time": f"{moment.time:.6g}"})
+
+
+def _evidence(verdict: Verdict, /) -> Picture:
+    """Return the frame with its tile framed, and beside it its changes of representation, (height, 2 * width, 3).
+
+    They are shown `AMPLIFIED`.
+    """
+    now, held = verdict.step.now, verdict.step.held
+    step = np.minimum(np.abs(now.astype(np.int16) - held) * AMPLIFIED, 255).astype(np.uint8)
+    framed, (left, top) = now.copy(), verdict.corner
+    framed[[top, top + TILE - 1], left : left + TILE] = RED
+    framed[top : top + TILE, [left, left + TILE - 1]] = RED
+    return np.concatenate([framed, step], axis=1)

@@ -1,19 +1,24 @@
 """From a scene's values to its `Scene`, or to every problem they have."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeGuard
+from typing import Any, TypeGuard, get_origin
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from ...components.declaration import DeclarationError
+from ...components.field import Field, declared, inside
+from ...components.wind import WindPrimitive
 from ...components.words import found, sentence
 from ..declared.scene import FORMAT, Reading, Scene
-from .document import Document, Where
-from .fields import FindKind, field_at
+from .document import Document, Node, Where
 from .problem import MOST_PROBLEMS, Problem, SceneError
 from .version import FIRST, upgrade
+
+FindKind = Callable[[str], type[WindPrimitive]]
+"""Gives the class of a wind's kind, or raises ValueError with a sentence."""
 
 
 def validate(
@@ -76,3 +81,28 @@ def _problem(document: Document, error: ErrorDetails, find: FindKind) -> Problem
     if isinstance(reason, DeclarationError):
         where = (*where, *reason.where)
     return document.problem(where, sentence(error, field), at_key=error["type"] == "extra_forbidden")
+
+
+def field_at(root: Node, where: Where, /, *, find: FindKind) -> Field:
+    """Return the field at `where`, a way as pydantic gives it: marks of a union and unknown keys are skipped."""
+    field, entry, node = Field("the scene", Scene, model=Scene), False, root
+    for step in where:
+        if isinstance(step, int):
+            field = inside(field, f"item {step + 1} of {field.name}")
+        elif entry:
+            field, entry = inside(field, step), False
+        elif field.model is not None and step in field.model.model_fields:
+            field = declared(step, field.model.model_fields[step])
+            entry = get_origin(field.annotation) is dict
+        node = node.below.get(step, node)
+        if isinstance(step, int) and field.model is WindPrimitive:
+            field = replace(field, model=_kind(node, find))
+    return field
+
+
+def _kind(node: Node, find: FindKind) -> type[WindPrimitive]:
+    kind = node.data.get("kind") if isinstance(node.data, dict) else None
+    try:
+        return find(kind) if isinstance(kind, str) else WindPrimitive
+    except ValueError:
+        return WindPrimitive

@@ -19,9 +19,8 @@ from .errors import MapError
 from .noise import LANDSCAPES, landscape
 from .read import elevation_of, read_elevation
 from .record import Terrain
-from .resample import resample
+from .resample import fill_voids, resample
 from .stream import window_of
-from .voids import fill_voids
 
 WIDEST = 10240.0
 """Longest side of a terrain [m]; farther out, 32-bit places are too coarse for blades of grass."""

@@ -17,10 +17,24 @@ from .kept import Kept
 from .lens import Lens, zoom_of
 from .pace import Pace
 from .patches import PatchTable
-from .rest import Rest
 
 Record = TypeVar("Record")
 Other = TypeVar("Other")
+
+
+@dataclass(slots=True, eq=False)
+class _Rest:
+    """What a system found when it last ran for a viewer, and left just as it was: so long it is left out."""
+
+    system: object = None
+    seen: object = None
+    """What it read beside the patch table."""
+
+    table: bytearray = field(default_factory=bytearray)
+    """What may change of the patch table as it found it, where it left it so; otherwise nothing."""
+
+    made: object = None
+    """What it made of that, if it makes something anew in each frame."""
 
 
 @dataclass(slots=True, eq=False, weakref_slot=True)
@@ -90,7 +104,7 @@ class Outlook:
 
     _noted: dict[type, object] = field(default_factory=dict)
 
-    _rests: dict[type, Rest] = field(default_factory=dict)
+    _rests: dict[type, _Rest] = field(default_factory=dict)
     """By the class of a system, how it ran last."""
 
     def note(self, record: object, /) -> None:
@@ -129,7 +143,7 @@ class Outlook:
         `seen` is what it reads beside the patch table, to be compared, and `made` gives what it makes anew. While it
         has not `settled`, the next frame may be another one though it finds the same.
         """
-        rest = self._rests.setdefault(type(system), Rest())
+        rest = self._rests.setdefault(type(system), _Rest())
         is_same, rest.system = rest.system is system, system
         if rest.seen != seen:
             rest.seen, rest.table = seen, bytearray()

@@ -1,6 +1,7 @@
 """Bodies: what flies over a prairie."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from math import dist
 from typing import Self
 
 import moderngl
@@ -8,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.body import Body
+from ...components.shade import Shade
 from ...engine.world import World
 from ..around.outlook import Outlook
-from ..frame.block import FrameBlock
+from ..frame.block import BODIES, FrameBlock
 from ..frame.feature import Feature, Part, Start
+from ..shadows.shades import round_of
 from ..space.grown import Grown
 from ..wind.quarantine import Quarantine
-from .cast import cast, nearest
 from .draw import BodyPainter, shade_of
 from .fly import flying
 
@@ -88,3 +90,16 @@ class BodiesPart(Part):
         """Give everything back."""
         if self.painter is not None:
             self.painter.release()
+
+
+def nearest(shades: Sequence[Shade], eye: tuple[float, float, float], /) -> list[Shade]:
+    """Return the shades that count, nearest to the eye first: at most `BODIES`."""
+    return sorted(shades, key=lambda shade: dist(shade.place, eye))[:BODIES]
+
+
+def cast(record: NDArray[np.void], shades: Sequence[Shade], /) -> None:
+    """Write what casts shadows, at most `BODIES`."""
+    row = record[0]
+    row["bodies"]["radius"] = 0.0
+    for into, shade in zip(row["bodies"], shades, strict=False):
+        into["middle"], into["axis"], into["radius"], into["pressed"] = shade.place, *round_of(shade)

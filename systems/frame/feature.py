@@ -87,6 +87,22 @@ class Part:
         """Give everything back to the context."""
 
 
+class TexturePart(Part):
+    """A part that is one texture, which all programs read in a unit of its own."""
+
+    def __init__(self, unit: int) -> None:
+        self.texture: moderngl.Texture
+        self._unit = unit
+
+    def use(self) -> None:
+        """Bind it."""
+        self.texture.use(self._unit)
+
+    def release(self) -> None:
+        """Give the texture back."""
+        self.texture.release()
+
+
 class Feature:
     """One thing that a prairie has. `FEATURES` lists them; what one leaves open has an answer here."""
 

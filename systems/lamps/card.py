@@ -12,7 +12,7 @@ from ...components.lamp import Lamp
 from ...components.pose import Pose
 from ...components.shade import Shade
 from ..around.outlook import Outlook
-from ..frame.feature import Part
+from ..frame.feature import TexturePart
 from ..light.color import linear, luminance
 from ..light.daylight import LEAF, LUX
 from ..shadows.shades import fallen, told_of
@@ -124,7 +124,7 @@ def texels(told: Floats, lists: Listed, /) -> NDArray[np.uint32]:
     return rows
 
 
-class LampPart(Part):
+class LampPart(TexturePart):
     """What one GL context holds of the lamps that shine, and of shades."""
 
     def __init__(
@@ -134,7 +134,8 @@ class LampPart(Part):
         shining: Callable[[], Sequence[Lit]],
         shades: Callable[[], tuple[Sequence[Shade], float]],
     ) -> None:
-        self._unit, self._shining, self._shades = unit, shining, shades
+        super().__init__(unit)
+        self._shining, self._shades = shining, shades
         self.texture = ctx.texture((ROW, 2 * ROWS), 4, dtype="u4")
         self.texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self._sent = dict[int, bytes]()
@@ -179,11 +180,3 @@ class LampPart(Part):
             self._sent[top] = rows.tobytes()
             self.texture.write(rows, viewport=(0, top, ROW, len(rows)))
         return (*lists.corner, 1.0 / lists.cell, lists.side)
-
-    def use(self) -> None:
-        """Bind it."""
-        self.texture.use(self._unit)
-
-    def release(self) -> None:
-        """Give the texture back."""
-        self.texture.release()

@@ -13,7 +13,7 @@ from ...engine.gl.functions import NUMBERS, functions_of
 from ...engine.gl.limits import limits_of
 from ...engine.terrain.part import Part as Cells
 from ...engine.terrain.plots import CELLS, Plots, Values
-from ..frame.feature import Part
+from ..frame.feature import TexturePart
 from ..space.grown import Grown
 from .mown import Mown
 
@@ -83,11 +83,12 @@ class _Sheets:
         return None if self.seen < 0 else self.plots.since(self.seen)
 
 
-class PlotsPart(Part):
+class PlotsPart(TexturePart):
     """Both maps as one GL context holds them."""
 
     def __init__(self, ctx: moderngl.Context, unit: int, mown: Mown) -> None:
-        self.ctx, self._unit, self._mown = ctx, unit, mown
+        super().__init__(unit)
+        self.ctx, self._mown = ctx, mown
         self.texture = ctx.texture((1, 1), 4, bytes(4))
         """A single texel for as long as nothing has been changed."""
         self._sheets: tuple[_Sheets, _Sheets] | None = None
@@ -216,14 +217,6 @@ class PlotsPart(Part):
             low, high = int(touched.min()) // WIDTH, int(touched.max()) // WIDTH + 1
             rows = self._index[low * WIDTH : high * WIDTH]
             self.texture.write(rows, viewport=(0, low, WIDTH, high - low), alignment=1)
-
-    def use(self) -> None:
-        """Bind them."""
-        self.texture.use(self._unit)
-
-    def release(self) -> None:
-        """Give the texture back."""
-        self.texture.release()
 
     def _as_heights(self, pages: Floats) -> list[Bytes]:
         """Return heights of the tallest grass's as two bytes: what is not cut stands above all tips, and means do."""

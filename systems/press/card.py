@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Floats
 from ..around.outlook import Outlook
-from ..frame.feature import Part
+from ..frame.feature import TexturePart
 from ..grow.record import Growth
 from ..space.grown import Grown
 from .lie import recoveries
@@ -30,11 +30,12 @@ TEXELS = NUMBERS // 4
 """Texels of a mark."""
 
 
-class PressPart(Part):
+class PressPart(TexturePart):
     """All marks as one GL context holds them: the frame and its fresh marks first, then those that have settled."""
 
     def __init__(self, ctx: moderngl.Context, unit: int) -> None:
-        self.ctx, self._unit = ctx, unit
+        super().__init__(unit)
+        self.ctx = ctx
         self._grown: Grown | None = None
         self._head = np.zeros((HEAD * ROW, 4), np.float32)
         self._settled = NOTHING
@@ -66,10 +67,6 @@ class PressPart(Part):
         """Send what has been trodden; settled marks only where they are others than before."""
         del record
         self._write(outlook.noted(Trodden, UNTRODDEN))
-
-    def use(self) -> None:
-        """Bind it."""
-        self.texture.use(self._unit)
 
     def _write(self, trodden: Trodden) -> None:
         if not trodden and self._still:
@@ -104,10 +101,6 @@ class PressPart(Part):
         texture = self.ctx.texture((ROW, rows), 4, np.zeros((rows, ROW, 4), np.float32), dtype="f4")
         texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
         return texture
-
-    def release(self) -> None:
-        """Give the texture back."""
-        self.texture.release()
 
 
 def _rows(marks: Marks) -> int:

@@ -132,11 +132,6 @@ class RepresentationPainter(Part, ABC):
         """Make out what depends on where the eye is, which has come elsewhere since; return the draw calls."""
         return 0
 
-    def cast(self, light: tuple[float, float, float], /) -> int:
-        """Write the depth of what lies on the land, seen from a light at a place [m]; return the draw calls."""
-        del light
-        return 0
-
     def draw_deep(self) -> int:
         """Write depth, and no colour, where what was drawn covers at least half a pixel; return the draw calls."""
         return 0

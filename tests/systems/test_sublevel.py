@@ -16,8 +16,8 @@ from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.lod import SLACK, wanted_representation
 from tallgrass.systems.see import strips_kept
+from tallgrass.systems.show.blades.representation import blade_ring
 from tallgrass.systems.show.blades.shown import BladesShown
-from tallgrass.systems.show.blades.sublevel import blade_ring
 from tallgrass.systems.show.strips.representation import USUAL
 from tallgrass.systems.show.strips.shown import StripsShown, show_strips
 from tallgrass.systems.show.strips.sublevel import (

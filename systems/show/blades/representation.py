@@ -7,7 +7,7 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Levels, Rows
+from ....components.arrays import Floats, Ints, Levels, Rows
 from ....engine.declared.quality import Quality
 from ...around.kept import Kept
 from ...around.outlook import Outlook
@@ -23,7 +23,6 @@ from .painter import BladesPainter
 from .plant import BladeStock, carry_blades, plant_blades, sow_blades, stock_blades
 from .pool import BladePool, BladesKept
 from .shown import BladesShown, show_blades
-from .sublevel import blade_ring
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -131,3 +130,9 @@ class BladeRepresentation(Representation):
         """Return a painter of all rings."""
         strips = next(each for each in canvas.representations if isinstance(each, StripRepresentation))
         return BladesPainter(canvas, self.stock, strips, self.quality)
+
+
+def blade_ring(distance: Ints, current: Levels, limits: Floats, /, *, slack: int) -> Levels:
+    """Return the ring of 3D patches (n,): by discrete distance; a finer one is kept for `slack` patches longer."""
+    coarse, fine = limits.searchsorted(distance), limits.searchsorted(distance - slack)
+    return np.where(current < 0, coarse, np.minimum(np.maximum(current, fine), coarse)).astype(np.int8)

@@ -6,8 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tallgrass.components.arrays import Floats
-from tallgrass.engine.terrain.resample import Kernel, b_spline, catmull_rom, resample
-from tallgrass.engine.terrain.voids import fill_voids
+from tallgrass.engine.terrain.resample import Kernel, b_spline, catmull_rom, fill_voids, resample
 
 numbers = st.floats(-50.0, 50.0)
 
