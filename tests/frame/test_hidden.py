@@ -1,4 +1,4 @@
-"""What grass hides of strips is not drawn, and is drawn where something before it is gone (G5)."""
+"""What grass hides of strips and blades is not drawn, and is drawn where something before it is gone (G5)."""
 
 from collections.abc import Callable
 
@@ -18,7 +18,7 @@ Load = Callable[..., Prairie]
 
 SCENE = """\
 tallgrass: 2
-terrain: { size: [80, 80], noise: flat }
+terrain: { size: [30, 80], noise: flat }
 grass: { turf: { height: [0.5, 0.7], width: 0.03, blades: 700 } }
 quality:
   models: 2
@@ -44,10 +44,11 @@ def room(ctx: moderngl.Context) -> Stage:
     return Stage(ctx, (240, 120))
 
 
-def test_g5_what_leaves_hide_of_strips_costs_nothing_and_nobody_misses_it(
-    room: Stage, load: Load, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("lod", ["strips", "blades"])
+def test_g5_what_leaves_hide_costs_nothing_and_nobody_misses_it(
+    room: Stage, load: Load, monkeypatch: pytest.MonkeyPatch, lod: str
 ) -> None:
-    prairie = load(SCENE, lod="strips")
+    prairie = load(SCENE, lod=lod)
     seen, few = drawn(room, prairie)
     monkeypatch.setattr(painter, "_is_open", lambda *_: True)
     due, all_ = drawn(room, prairie)

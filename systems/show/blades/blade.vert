@@ -8,6 +8,7 @@
 
 #ifdef STORED
 #include "lib/received.glsl"
+#include "systems/show/hidden.glsl"
 
 in uint number;            // of its receiver, among those of blades
 uniform int each;          // blades of a patch model
@@ -49,7 +50,7 @@ in vec2 message;
 out vec4 foot;   // where its ribbon begins [m]; its length [m]
 out vec4 lie_of; // bending vector; half its way across at the root [m]
 out vec4 low;    // pigment at the root; row of the posture table
-out vec4 high;   // pigment at the tip; taper
+out vec4 high;   // pigment at the tip; the part of its length, from its foot on, that nobody sees
 out mat4 lit;    // light on it, bundled; beside it the relative change of pigment to its sides
 out vec4 stands; // where its foot is in the canopy, and how much of it is its length; organ, plus the part that is cut off; cover
 out vec4 joints; // sub-level, and slide to those of the next; coverage from which on it hides what is behind; kind, plus the part of the light that is lamps'; ring of strips, or teeth seen
@@ -128,7 +129,7 @@ vec3 dye(Blade blade, vec2 across, bool has_section, bool is_round, vec2 slow) {
     vec2 twice = doubled(blade.facing), grade = tones_of(int(blade.organ));
     vec3 grain = grain_at(k, twice), dry = stretch(slow) * grain;
     low = vec4(pigment_at(k, grade.x) * dry, blade.variant);
-    high = vec4(pigment_at(k, grade.y) * dry, kinds[k].taper);
+    high = vec4(pigment_at(k, grade.y) * dry, 0.0);
     if (has_section) {
         vec2 round_to = doubled(toward_sun);
         float fold = twice.x * round_to.y - twice.y * round_to.x;
@@ -200,6 +201,9 @@ void main() {
 #if defined(ORGANS) && defined(STORED)
     if (is_at_tip(int(blade.organ)))
         stands.w *= uncovered(kinds[k].head, foot.xyz - eye);
+#endif
+#ifdef STORED
+    high.w = clamp((hidden_to(blade.root, OF(crown, k), lodged(blown)) - up.y) / blade.height, 0.0, 1.0);
 #endif
 #ifdef TOOTHED
     joints.w = teeth_seen(blade.height, TEETH_OF[int(blade.organ)], foot.xyz);

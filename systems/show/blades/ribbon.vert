@@ -213,17 +213,26 @@ void leave_out() {
 }
 #endif
 
+// Up to which part of it, from the foot on, nobody sees a blade; the sun does.
+float unseen() {
+#ifdef DEEP
+    return 0.0;
+#else
+    return high.w;
+#endif
+}
+
 // The part of the blade that a vertex is at, and how broad the blade is there.
 vec2 along_blade(int k) {
     int level = min(int(joints.x), counts - 1);
     int fine = segments_on(level, k), coarse = segments_on(min(level + 1, counts - 1), k);
-    float t = float(gl_VertexID / 2) / float(segments), left = 1.0 - fract(stands.z);
-    float of_fine = left * joint_at(t, fine), broad = profile(of_fine, high.w, float(fine));
+    float t = float(gl_VertexID / 2) / float(segments), left = 1.0 - fract(stands.z), taper = kinds[k].taper;
+    float of_fine = max(left * joint_at(t, fine), unseen()), broad = profile(of_fine, taper, float(fine));
 #ifndef MORPH
-    float slide = fract(joints.x), of_coarse = left * joint_at(t, coarse);
+    float slide = fract(joints.x), of_coarse = max(left * joint_at(t, coarse), unseen());
     // A blade's width slides along with its joints: as it is where they are meanwhile, a tip would be far broader.
     if (slide > 0.0) {
-        broad = mix(broad, profile(of_coarse, high.w, float(coarse)), slide);
+        broad = mix(broad, profile(of_coarse, taper, float(coarse)), slide);
         of_fine = mix(of_fine, of_coarse, slide);
     }
 #endif
