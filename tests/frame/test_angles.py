@@ -95,6 +95,28 @@ def test_f2_from_above_it_is_the_same_grass_without_rows(
         assert 0.5 < grain < 1.6
 
 
+APART = """\
+tallgrass: 2
+terrain: {{ size: [20, 40], noise: flat }}
+grass: {{ bunch: {{ height: [0.45, 0.85], width: 0.026, lean: 0.35, root: "#4a5f2b", tip: "#bcc26c" }} }}
+quality:
+  models: 2
+  blade_rings: [{{ to: 1, segments: 2 }}]
+  strip_rings: [{{ to: 16, strips: {strips}, texel: 0.02 }}]
+  carpet_to: 20
+  carpet: 64
+"""
+
+
+def test_f2_strips_far_apart_are_as_bright_from_above_as_strips_close_together(load: Load, narrow: Stage) -> None:
+    camera = Camera((0.0, 6.0, 18.0), 0.0, -0.35, 0.6)
+    few, many = (
+        luma(narrow.shot(load(APART.format(strips=strips), lod="strips"), camera).astype(np.uint8))[60:].mean()
+        for strips in (2, 8)
+    )
+    assert few == pytest.approx(many, rel=0.015)
+
+
 @pytest.mark.slow
 def test_g3_no_rows_show_where_a_whirlwind_lays_grass_towards_the_eye(ctx: moderngl.Context) -> None:
     prairie, size, part = Prairie.load("whirlwind", ctx=ctx, live=False), (480, 270), (120, 270)

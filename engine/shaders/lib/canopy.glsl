@@ -41,3 +41,18 @@ float sun_way(int kind, float high) {
     high = max(high, FLATTEST_SUN);
     return sqrt(1.0 - min(high * high, 1.0)) / high + OF(lying, kind);
 }
+
+// The mean depth in the grass, of its height, of what a line of sight meets whose way to the ground has this optical depth.
+// Leaf area falls off linearly with height, so that above the depth d lies d^2 of it: the mean of what is met tends to 2/3
+// where it is thin and to sqrt(pi) / 2 over the root of the optical depth where it is dense. This joins both, to 4 %.
+const float THIN_MEAN = 5.0625;  // (2/3)^-4
+const float DENSE_MEAN = 1.2732;  // 4 / pi
+
+vec3 depth_met(vec3 optical_depth) {
+    optical_depth *= DENSE_MEAN;
+    return inversesqrt(sqrt(THIN_MEAN + optical_depth * optical_depth));
+}
+
+float depth_met(float optical_depth) {
+    return depth_met(vec3(optical_depth)).x;
+}

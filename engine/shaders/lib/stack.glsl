@@ -52,6 +52,22 @@ vec2 laid_back(vec2 run, vec3 foot, vec3 top, float height, int strips) {
     return off * clamp((least - reach) / max(drop * behind, 1.0), 0.0, 2.0 * least);
 }
 
+const float FLATTEST_SIGHT = 1e-3;  // slope of a line of sight to the ground that counts at least
+const float LEAST_LEAVES = 0.1;  // leaf area that counts at least, of the ground's, and what a line of sight meets from a strip to the next
+
+// Of how deep leaves are that are seen on strips, how deep they would be that stand anywhere: so they are lit. With strips that each
+// stop a part of a line of sight, it comes on farther in the mean: by half a way from one to the next over the hyperbolic tangent of
+// half of what each stops, for 1 over that. From the top of the grass on, where leaves begin, it is half as much. `run` is a way
+// along the strips; so many stand on a patch, in grass that grows so densely and stands so high [m].
+float less_deep(vec2 run, vec3 foot, int strips, ByKind grows, float tall) {
+    tall = max(tall, LOWEST_CROWN);
+    vec2 off = normalize(vec2(-run.y, run.x)), ray = foot.xz - eye.xz;
+    float away = max(length(ray), CLOSEST), slope = max((eye.y - foot.y + dot(rise_at(foot.xz), ray)) / away, FLATTEST_SIGHT);
+    float way = patch_side / float(strips) * away / max(abs(dot(off, ray)), CLOSEST), area = max(total(areas(grows)), LEAST_LEAVES);
+    float deep = depth_met(area / slope), leaves = max(way * 2.0 * area * deep / tall, LEAST_LEAVES);
+    return deep / (deep + 0.5 * slope * way / tall * (0.5 / tanh(0.5 * leaves) - 1.0 / leaves));
+}
+
 const float EDGE_ON = 0.4;  // of the breadth of real blades, what painted ones keep where their strip is seen edge-on
 const float BOOSTED = 0.95;  // how much of the factor is taken: leaves hide leaves
 

@@ -148,9 +148,10 @@ vec4 widened(Point point, float t) {
 // The radiance at part `t` of a blade of kind `k` with this face normal, where it is painted.
 vec3 painted_light(int k, float t, vec2 face, Painted target) {
     Lie lies = lie_at(target.middle.xz);
-    vec3 pigment = pigment_at(k, t) * stretch(lies.slow) * grain_at(k, doubled(face));
-    pigment *= faced(k, normalize(target.run.xz), target.middle, target.top);
     ByKind grows = grows_at(target.middle.xz);
+    float deep = less_deep(target.run.xz, target.middle, stacks[int(joints.w)].z, grows, OF(crown, k) * lodged(target.bend));
+    vec3 pigment = pigment_at(k, mix(1.0, t, deep)) * stretch(lies.slow) * grain_at(k, doubled(face));
+    pigment *= faced(k, normalize(target.run.xz), target.middle, target.top);
     Light light = light_on(k, target.bend, target.middle, lies, grows);
     if (any_casters())
         light = shaded(light, past_casters(target.place), 1.0);
@@ -161,7 +162,7 @@ vec3 painted_light(int k, float t, vec2 face, Painted target) {
     light = veiled(light, target.middle);
     if (anything_is_cut())
         light = mown_to(left_at(target.place.xz), light, k, areas(grows));
-    return shade(leaf_at(pigment, target.h), light);
+    return shade(leaf_at(pigment, mix(1.0, target.h, deep)), light);
 }
 
 // Bring a point at part `t` of a blade nearer to where it is painted, and its light to what it is there.

@@ -1,4 +1,5 @@
 // Lines of sight that enter the grass of the carpet: how steep they are to the ground, how deep they come and what they meet.
+#include "lib/canopy.glsl"
 #include "lib/frame.glsl"
 #include "systems/show/carpet/grow.py"
 #include "systems/show/carpet/ground.py"
@@ -34,21 +35,6 @@ float deepest(float slope, float crest, float tall) {
 float lifted(float deep, float crest, float stands) {
     float along = clamp(crest / BULGES, 0.0, 1.0) * (1.0 - smoothstep(LEAVES_BEGIN.x, LEAVES_BEGIN.y, deep));
     return outline > 0.0 ? mix(1.0, outline * sqrt(stands), along) : 1.0;
-}
-
-// The mean depth in the grass, of its height, of what a line of sight meets whose way to the ground has this optical depth.
-// Leaf area falls off linearly with height, so that above the depth d lies d^2 of it: the mean of what is met tends to 2/3
-// where it is thin and to sqrt(pi) / 2 over the root of the optical depth where it is dense. This joins both, to 4 %.
-const float THIN_MEAN = 5.0625;  // (2/3)^-4
-const float DENSE_MEAN = 1.2732;  // 4 / pi
-
-vec3 depth_met(vec3 optical_depth) {
-    optical_depth *= DENSE_MEAN;
-    return inversesqrt(sqrt(THIN_MEAN + optical_depth * optical_depth));
-}
-
-float depth_met(float optical_depth) {
-    return depth_met(vec3(optical_depth)).x;
 }
 
 // The slope on level ground of a line of sight that goes as far through the grass as one of this slope does over ground

@@ -164,15 +164,19 @@ vec2 corner_of(Column column, vec4 extent, vec2 pixel, float level, vec2 side, f
     return vec2(across, min(max(float(gl_VertexID / 2) / float(stacks[column.ring].y), hidden), min(extent.z + pixel.y, up)));
 }
 
-// What all of a column's fragments have in common of its pigment: what faces the eye is seen most.
-void dye(Column column, vec2 run, vec3 middle, vec3 top, float lying, vec2 slow) {
+// What all of a column's fragments have in common of its pigment: what faces the eye is seen most. Where grass grows so densely,
+// they are lit and dyed as less deep than they are.
+void dye(Column column, vec2 run, vec3 middle, vec3 top, float lying, vec2 slow, ByKind grows) {
     vec3 mean_face = faced(column.kind, run, middle, top), dry = stretch(slow) * mean_face;
     float aside = 1.0 - smoothstep(0.0, 1.0, steep_at(middle)), turned = column.turn % 2 == 0 ? 1.0 : -1.0;
     float arched = 1.0 - ARCHED * inversesqrt(float(stacks[column.ring].y)) * lying * aside;
     if (OF(bears, column.kind) > 0.5)  // heads are on top, however they lie
         arched = 1.0;
-    foot.rgb = pigment_at(column.kind, 0.0) * dry;
+    float deep = less_deep(run, middle, stacks[column.ring].z, grows, OF(crown, column.kind) * (1.0 - lying));
+    on.w = mix(1.0, on.w, deep);
     rise.rgb = (pigment_at(column.kind, 1.0) - pigment_at(column.kind, 0.0)) * dry * arched;
+    foot.rgb = pigment_at(column.kind, 0.0) * dry + rise.rgb * (1.0 - deep);
+    rise.rgb *= deep;
     grain_cos.rgb = turned * kinds[column.kind].grain_c / mean_face;
     grain_sin.rgb = turned * kinds[column.kind].grain_s / mean_face;
 }
@@ -306,7 +310,7 @@ void main() {
     tell_shade(point.xyz, rooted, suns);
 #endif
     lit = bundled(light, vec3(extent.w, level, boosts));
-    dye(column, run, middle, top, 1.0 - lodged(bend), lies.slow);
+    dye(column, run, middle, top, 1.0 - lodged(bend), lies.slow, grows);
     foot.a = column.stood.fade;
 #ifdef DEEP
     number = number_at(rooted.xz);
