@@ -1,11 +1,11 @@
 """The features that there are, and the texture units that they and the representations read from."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeVar
 
+from ..engine.gl.units import UNITS as FREE
 from .bodies.feature import Bodies
 from .frame.feature import Feature, Start
-from .frame.units import dealt
 from .lamps.feature import Lamps
 from .land.earth import Earth
 from .land.part import Land
@@ -24,6 +24,33 @@ FEATURES: tuple[type[Feature], ...] = (
     Winds, Pressers, Land, Earth, Lighting, GivenHaze, Mowing, Lamps, Shadows, Bodies, Trees,
 )  # fmt: skip
 """In the order in which they are made, told of a scene read again, and drawn."""
+
+STAGE = len(FREE)
+"""Units that a shader stage has at least, in OpenGL 3.3: all programs make do with so many, in all stages."""
+
+
+def dealt(
+    throughout: Sequence[str], asked: Sequence[str], own: Mapping[str, tuple[Iterable[str], Iterable[str]]], /
+) -> dict[str, int]:
+    """Return the texture unit of each sampler, one of `FREE`.
+
+    What is bound `throughout` a frame comes first. After it comes what each of `own` has, by its name, what its passes
+    over receivers read and then all else: each binds them itself when it draws, so all share these units. What any pass
+    over receivers reads, `asked`, comes last. Raises RuntimeError where a program would need more than `STAGE`.
+    """
+    units = dict(zip(throughout, FREE, strict=False))
+    units |= dict(zip(asked, reversed(FREE), strict=False))
+    for who, (passed, drawn) in own.items():
+        first, rest = list(dict.fromkeys(passed)), list(drawn)
+        names = [*first, *(name for name in rest if name not in first)]
+        for needed in ([*throughout, *first, *asked], [*throughout, *names]):
+            if len(needed) > STAGE:
+                raise RuntimeError(
+                    f"{who} reads {len(needed)} textures at once where OpenGL 3.3 has {STAGE}: {', '.join(needed)}"
+                )
+        units |= dict(zip(names, FREE[len(throughout) :], strict=False))
+    return units
+
 
 UNITS = (
     dealt(

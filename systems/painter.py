@@ -19,7 +19,7 @@ from .features import UNITS
 from .frame.block import aim, confine
 from .frame.feature import Feature, Part, doing
 from .holding import READY_ROWS, Holding
-from .receive.ask import numbers_of, write_messages
+from .receive.received import numbers_of, write_messages
 from .show.blades.draw import BladePainter
 from .show.blades.plant import record_of
 from .site import Site

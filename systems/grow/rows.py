@@ -1,6 +1,7 @@
 """The rows of plants while they are grown: stems, what stands on them, and how they come together."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +15,9 @@ GOLDEN = np.pi * (3.0 - np.sqrt(5.0))
 """The angle from one leaf or floret to the next round a stem [rad]."""
 
 _MOST_SPREAD = 0.98
+
+WHOLE = "variant", "organ"
+"""What of rows is whole numbers."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -101,26 +105,12 @@ def together(stand: Blades, /, *parts: Rows) -> Blades:
     In this order they are drawn, as all rows of a plant are as far away as its root. So they come branch after branch:
     were all heads the last, they would cover the leaves of branches that stand before them.
     """
-    plant, branch = (np.concatenate([getattr(rows, name) for rows in parts]) for name in ("plant", "branch"))
-    order = np.lexsort((branch, plant))
-    plant = plant[order]
-
-    def joined(name: str) -> NDArray[np.float32]:
-        values = np.concatenate([getattr(rows, name) for rows in parts])[order]
-        return np.ascontiguousarray(values, np.float32)
-
-    whole = {name: np.concatenate([getattr(rows, name) for rows in parts])[order] for name in ("variant", "organ")}
-    facing = joined("facing").astype(np.float64)
-    return Blades(
-        root=stand.root[plant],
-        height=joined("height"),
-        width=joined("width"),
-        facing=((facing + np.pi) % (2.0 * np.pi) - np.pi).astype(np.float32),
-        rest=joined("rest"),
-        variant=whole["variant"].astype(np.int32),
-        rank=stand.rank[plant],
-        organ=whole["organ"].astype(np.int32),
-        stem=joined("stem"),
-        part=joined("part"),
-        stem_rest=joined("stem_rest"),
-    )
+    whole = {each.name: np.concatenate([getattr(rows, each.name) for rows in parts]) for each in fields(Rows)}
+    order = np.lexsort((whole.pop("branch"), whole["plant"]))
+    plant = whole.pop("plant")[order]
+    kept: dict[str, Any] = {
+        name: values[order].astype(np.int32 if name in WHOLE else np.float32) for name, values in whole.items()
+    }
+    facing = kept.pop("facing").astype(np.float64)
+    kept["facing"] = ((facing + np.pi) % (2.0 * np.pi) - np.pi).astype(np.float32)
+    return Blades(root=stand.root[plant], rank=stand.rank[plant], **kept)

@@ -1,7 +1,6 @@
 """Grass below trees: it grows as it gets light, in all representations, and again once they are felled (F3, F4)."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import esper
 import moderngl
@@ -40,12 +39,6 @@ def prairie(ctx: moderngl.Context, request: pytest.FixtureRequest) -> Iterator[P
         yield made
 
 
-def shot(stage: Stage, prairie: Prairie) -> Any:
-    stage.begin()
-    prairie.draw(*stage.matrices(OVER))
-    return stage.read()
-
-
 def dense(prairie: Prairie, x: float, z: float) -> float:
     return float(prairie.grass_at(np.array([[x, z]], np.float32)).density[0, 0])
 
@@ -56,20 +49,20 @@ def test_f3_as_much_grows_below_a_tree_as_it_leaves_of_the_light(
     monkeypatch.setattr(going, "LASTS", 0.0)
     esper.create_entity(Tree("oak", 12.0), Pose(3.0, 0.0))
     half_bare = esper.create_entity(Tree("oak", 12.0, foliage=0.5), Pose(-25.0, 0.0))
-    shot(stage, prairie)
+    stage.shot(prairie, OVER)
     assert 0.2 < dense(prairie, 5.0, 0.0) < dense(prairie, -23.0, 0.0) < 0.7
     along = [dense(prairie, 3.0 + off, 0.0) for off in (0.0, 2.0, 5.0)]
     assert along == sorted(along)
     assert along[-1] < dense(prairie, 3.0, 20.0) == 1.0
     esper.delete_entity(half_bare, immediate=True)
-    shot(stage, prairie)
+    stage.shot(prairie, OVER)
     assert dense(prairie, -25.0, 0.0) == dense(prairie, -23.0, 0.0) == 1.0
 
 
 def test_f3_pixels_know_how_much_grows_as_systems_do(stage: Stage, prairie: Prairie) -> None:
     for x, height in ((3.0, 12.0), (10.0, 5.0), (-14.0, 2.0)):
         esper.create_entity(Tree("oak", height), Pose(x, 0.0))
-    shot(stage, prairie)
+    stage.shot(prairie, OVER)
     assert prairie.painter is not None
     texture = vars(vars(prairie.painter.part(TreePart))["_shade"])["_texture"]
     texels = np.frombuffer(texture.read(), np.float16).reshape(SIDE, 3, SIDE, 2)[:, 2, :, 1].astype(np.float64)
@@ -85,11 +78,11 @@ def test_f3_pixels_know_how_much_grows_as_systems_do(stage: Stage, prairie: Prai
 
 def test_f4_below_a_felled_tree_grass_comes_back_into_the_sun_by_and_by(stage: Stage, prairie: Prairie) -> None:
     tree = esper.create_entity(Tree("oak", 12.0), Pose(0.0, 0.0))
-    shot(stage, prairie)
+    stage.shot(prairie, OVER)
     esper.delete_entity(tree, immediate=True)
     dense_then, light_then = [], []
     for _ in range(6):
-        light_then.append(shot(stage, prairie)[40:56, 40:56].mean())
+        light_then.append(stage.shot(prairie, OVER)[40:56, 40:56].mean())
         dense_then.append(dense(prairie, 2.5, 0.0))
         prairie.advance(going.LASTS / 4.0)
     assert dense_then[0] < 0.45
@@ -107,9 +100,9 @@ def test_f4_grass_on_strips_lies_in_a_trees_shade(
 ) -> None:
     monkeypatch.setattr(TreePart, "draw_solid", lambda _: 0)
     monkeypatch.setattr(TreePart, "draw_soft", lambda _: 0)
-    in_the_sun = shot(stage, prairie)[..., 1]
+    in_the_sun = stage.shot(prairie, OVER)[..., 1]
     tree = esper.create_entity(Tree("oak", 12.0), Pose(7.0, 0.0))  # towards the sun
-    shaded = shot(stage, prairie)[..., 1]
+    shaded = stage.shot(prairie, OVER)[..., 1]
     esper.delete_entity(tree, immediate=True)
     green = in_the_sun > np.median(in_the_sun)
     assert shaded[green].mean() < 0.8 * in_the_sun[green].mean()
@@ -123,10 +116,10 @@ def test_f4_more_soil_is_seen_below_a_tree_in_every_representation_and_less_once
     monkeypatch.setattr(going, "LASTS", 0.0)
     monkeypatch.setattr(TreePart, "draw_solid", lambda _: 0)
     monkeypatch.setattr(TreePart, "draw_soft", lambda _: 0)
-    open_ground = shot(stage, prairie)
+    open_ground = stage.shot(prairie, OVER)
     tree = esper.create_entity(Tree("oak", 12.0), Pose(0.0, 0.0))
-    below = shot(stage, prairie)
+    below = stage.shot(prairie, OVER)
     esper.delete_entity(tree, immediate=True)
-    assert np.array_equal(shot(stage, prairie), open_ground)
+    assert np.array_equal(stage.shot(prairie, OVER), open_ground)
     red = [float((each[..., 0] / each[..., :2].sum(axis=-1))[24:72, 24:72].mean()) for each in (open_ground, below)]
     assert red == pytest.approx([0.66, 0.82], abs=0.025)  # soil is red, and grass green

@@ -88,3 +88,12 @@ def test_what_is_told_only_once_is_what_each_call_would_be_told(
     calls.clear()
     np.testing.assert_array_equal(stage.shot(prairie, FAR_OFF), first)
     assert 0 < fewer < sum(len(each.due) + len(each.reads) for some in calls.values() for each in some)
+
+
+def test_nothing_of_trees_is_made_in_a_scene_without_any(ctx: moderngl.Context, stage: Stage) -> None:
+    with private_world(), little_prairie(ctx=ctx) as without:
+        stage.shot(without, FAR_OFF)
+        assert without.painter is not None
+        assert "TREES" not in without.painter.block.defines
+        made = vars(without.painter.part(TreePart))
+        assert (made["_programs"], made["_shade"], made["_kinds"]) == (None, None, [])

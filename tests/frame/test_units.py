@@ -11,7 +11,7 @@ from tallgrass import Footprint, Pose, Presser
 from tallgrass.components.body import Body
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.gl.units import BORROWED, FIRST_UNIT, SCRATCH_UNIT
-from tallgrass.systems.frame.units import STAGE, dealt
+from tallgrass.systems.features import STAGE, dealt
 from tallgrass.systems.prairie import Prairie
 
 Stage = Any
