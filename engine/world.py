@@ -76,6 +76,11 @@ class World:
         self._mine.marks[entity] = id(mark)
         return entity
 
+    def give(self, *components: object) -> int:
+        """Return a new entity of the game's own that has `components`: it outlives the prairie."""
+        self._must_be_current()
+        return esper.create_entity(*components)
+
     def check(self) -> int:
         """Return `generation`, raised if the whole world was cleared since this was asked before."""
         if self._home is not None and self._home() is None:
@@ -114,6 +119,13 @@ class World:
         self._must_be_current()
         if esper.has_component(entity, kind):
             esper.remove_component(entity, kind)
+
+    def uproot(self, entity: int, kind: type[object]) -> None:
+        """Take an entity's component of exactly this type away, and the entity where it has nothing but a pose left."""
+        self.drop(entity, kind)
+        if all(type(each) in {Pose, Resident} for each in esper.components_for_entity(entity)):
+            self._mine.marks.pop(entity, None)
+            esper.delete_entity(entity, immediate=True)
 
     def get(self, entity: int, kind: type[Component]) -> Component:
         """Return an entity's component of exactly this type; KeyError if it has none."""

@@ -12,6 +12,7 @@ from ..components.arrays import Bytes, Floats, Ints
 from ..components.course import Course
 from ..components.patch import Cell
 from ..components.pose import Pose
+from ..components.tree import Tree
 from ..components.wind import WindPrimitive, WindSource, with_course
 from ..components.words import told
 from ..engine.declared.scene import Reading
@@ -61,6 +62,8 @@ class Saving:
     seasons: Seasons
     _marked: tuple[Ground, str] | None = None
     """The ground that was marked last, and its mark: it takes a while."""
+    _became: tuple[object, Mapping[int, int]] | None = None
+    """The state that was restored last, and which entities those in it have become."""
 
     def state(self, site: Site, /, *, time: float) -> bytes:
         """Return all that a game has done until `time` [s]. Raises ValueError for a wind whose kind nobody knows."""
@@ -124,7 +127,10 @@ class Saving:
         restore_squares(site.ground.terrain, made.ground)
         self.mown.plots.resume(*made.mown)
         site.ground.density.sown.resume(*made.sown)
-        return state.time, self._bring(state, made), made.kinds
+        last, became = self._became or (None, {})
+        entities = self._bring(state, made, became if last == data else {})
+        self._became = data, entities
+        return state.time, dict(entities), made.kinds
 
     def _things(self) -> Iterator[SavedThing]:
         """Yield what else a game's entities have of ours; none that is nowhere."""
@@ -145,27 +151,39 @@ class Saving:
             self._marked = site.ground, ground_mark(site.ground)
         return mark_of(replace(site, scene=self.seasons.declared), self._marked[1])
 
-    def _bring(self, state: State, made: "_Made") -> dict[int, int]:
+    def _bring(self, state: State, made: "_Made", became: Mapping[int, int]) -> dict[int, int]:
         self.winds.pass_to(state.time)
-        entities = self._bring_winds(state, made)
+        entities = self._bring_winds(state, made, became)
         trees = {each.entity for each in state.things if each.kind == "tree"}
         self.trees.fell(state.felled, state.wild_felled, trees)
-        there = {(each.entity, each.kind) for each in self._things()}
-        for each, component in zip(state.things, made.things, strict=True):
-            entity = entities.get(each.entity, each.entity if (each.entity, each.kind) in there else None)
-            parts = component, *([] if each.pose is None else [Pose(*each.pose)])
-            if entity is None:
-                entity = self.world.create(*parts)
-            else:
-                for part in parts:
-                    self.world.add(entity, part)
-            entities[each.entity] = entity
+        self._bring_things(state.things, made.things, entities, became)
         self.pressers.resume(made.treading, entities)
         self.clearings.resume(made.cleared)
         self.shining.resume(state.light, since=state.light_since, time=state.time, way=state.light_way)
         return entities
 
-    def _bring_winds(self, state: State, made: "_Made") -> dict[int, int]:
+    def _bring_things(
+        self, saved: Sequence[SavedThing], things: Sequence[Thing], entities: dict[int, int],
+        became: Mapping[int, int],
+    ) -> None:  # fmt: skip
+        """Bring what a game's entities had of ours, and note which `entities` they are; trees planted since go."""
+        there = {(each.entity, each.kind) for each in self._things()}
+        for each, component in zip(saved, things, strict=True):
+            known = became.get(each.entity, each.entity)
+            entity = entities.get(each.entity, known if (known, each.kind) in there else None)
+            parts = component, *([] if each.pose is None else [Pose(*each.pose)])
+            if entity is None:
+                entity = self.world.give(*parts)
+            else:
+                for part in parts:
+                    self.world.add(entity, part)
+            entities[each.entity] = entity
+        stay, kinds = {entities[each.entity] for each in saved if each.kind == "tree"}, self.trees.kinds
+        for each in [*self._things()]:
+            if each.kind == "tree" and each.entity not in stay and each.fields["kind"] in kinds:
+                self.world.uproot(each.entity, Tree)
+
+    def _bring_winds(self, state: State, made: "_Made", became: Mapping[int, int]) -> dict[int, int]:
         before, sources = dict(self.world.all(WindSource)), made.sources
         declared, added = self.winds.declared, self.winds.added
         kept, stay = list[int](), {wind.entity for wind in state.added}
@@ -185,8 +203,9 @@ class Saving:
         own_now = list(entities.values())
         own = {*declared, *added}
         for wind in state.winds:
-            is_there = wind.entity in before and wind.entity not in own
-            entities[wind.entity] = self._put(wind, sources, wind.entity if is_there else None)
+            known = became.get(wind.entity, wind.entity)
+            is_there = known in before and known not in own
+            entities[wind.entity] = self._put(wind, sources, known if is_there else self.world.give())
         now = entities | {wind.entity: entity for wind, entity in zip(state.declared, kept, strict=True) if wind}
         self.winds.take(kept, own_now, {now[entity]: wind for entity, wind in made.runs.items()})
         return entities

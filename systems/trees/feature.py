@@ -163,6 +163,11 @@ class Trees(Feature):
             )
         return False
 
+    @property
+    def kinds(self) -> Mapping[str, TreeKind]:
+        """Those that the scene has, by their names."""
+        return self._grown.scene.trees
+
     def planted(self) -> set[int]:
         """Return the entities of the scene's own trees that are as they were planted."""
         own = {entity for number, entity in enumerate(self.entities) if self._is_as_planted(number)}

@@ -23,7 +23,7 @@ GLSL = {"NEARER": NEARER}
 
 
 class Rims:
-    """How far places are from the next rim of a terrain. Changes are followed: a rim that goes still counts.
+    """How far places are from the next rim of a terrain, whatever it was before: changes are followed.
 
     Where the terrain becomes another window of its ground, they are those of the one that it was.
     """
@@ -55,30 +55,45 @@ class Rims:
         if self._changes == changes.count or self._first != self.terrain.first:
             return
         parts = changes.since(self._changes)
-        for part in [Part(0, 0, *self.terrain.heights.shape)] if parts is None else parts:
-            self._look(part)
+        whole = Part(0, 0, *self.terrain.heights.shape)
+        for part in [whole] if parts is None else parts:
+            if within := part.within(whole.rows, whole.columns):
+                self._look(within)
         self._changes = changes.count
 
     def _look(self, part: Part) -> None:
-        top, left = max(part.row - 2, 0), max(part.column - 2, 0)
-        window = self.terrain.heights[top : part.row + part.rows + 2, left : part.column + part.columns + 2]
-        row, column = np.nonzero(_sharp(window, self.terrain.cell))
-        if not len(row):
+        """Look again at the squares in which a part may have made or taken rims."""
+        each = self._each
+        rows, columns = (slice(max(some.start - 1, 0) // each, some.stop // each + 1) for some in part.slices)
+        there = self._in(rows, columns)
+        known = self._known[rows, columns]
+        come, gone = np.argwhere(there & ~known) + np.array([rows.start, columns.start]), (known & ~there).any()
+        if not (gone or len(come)):
             return
-        squares = np.unique(np.column_stack([(row + top) // self._each, (column + left) // self._each]), axis=0)
-        squares = squares[~self._known[squares[:, 0], squares[:, 1]]]
-        if not len(squares):
-            return
-        self._known[squares[:, 0], squares[:, 1]] = True
-        if self.far.shape == (1, 1):
-            self.far = np.full(self._known.shape, NOWHERE, np.float32)
-        self.far = np.minimum(self.far, _far_from(squares, self.far.shape, self._each * self.terrain.cell))
+        self._known[rows, columns] = there
+        if gone:
+            self.far, come = np.full((1, 1), NOWHERE, np.float32), np.argwhere(self._known)
+        if len(come):
+            self.far = np.minimum(self.far, _far_from(come, self._known.shape, self._each * self.terrain.cell))
         self.version += 1
+
+    def _in(self, rows: slice, columns: slice) -> Mask:
+        """Return which squares of some rows and columns of them have a rim in them."""
+        each, (count, across) = self._each, self._known[rows, columns].shape
+        top, left = rows.start * each, columns.start * each
+        above, before = max(top - 1, 0), max(left - 1, 0)
+        window = self.terrain.heights[above : top + count * each + 1, before : left + across * each + 1]
+        row, column = np.nonzero(_sharp(window, self.terrain.cell))
+        row, column = row + above - top, column + before - left
+        inside = (row >= 0) & (column >= 0) & (row < count * each) & (column < across * each)
+        found = np.zeros((count, across), np.bool_)
+        found[row[inside] // each, column[inside] // each] = True
+        return found
 
     @property
     def any(self) -> bool:
         """Whether there are any."""
-        return self.version > 0
+        return self.far.size > 1
 
     def near_to(self, places: Doubles, eye: Doubles, /) -> Doubles:
         """Return how far off places (n, 2) count as, seen from an eye (2,), for the mesh of rims (n,) [m]."""

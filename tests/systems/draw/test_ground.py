@@ -284,6 +284,21 @@ def test_rims_are_found_where_the_ground_breaks_off_and_nowhere_else() -> None:
     assert flat.any
 
 
+def test_rims_that_a_game_makes_and_takes_away_are_those_of_the_ground_as_it_is() -> None:
+    random = np.random.default_rng(3)
+    terrain = Terrain(np.zeros((300, 290), np.float32), 1.0)
+    followed = Rims(terrain)
+    for height in (3.0, 0.0, 5.0, 0.0, 0.0):
+        row, column = random.integers(0, 280, 2).tolist()
+        part = Part(row, column, 10, 10) if height else Part(0, 0, 300, 145)
+        shape = part.rows, part.columns
+        terrain.put(part, np.full(shape, height, np.float32), np.zeros(shape, np.bool_))
+        followed.follow()
+        found = Rims(terrain)
+        np.testing.assert_array_equal(followed.far, found.far)
+        assert followed.any == found.any
+
+
 def test_t1_the_points_of_the_ground_lie_on_the_terrain_and_beyond_it_as_high_as_its_edge(
     corners: Corners, hills: Terrain
 ) -> None:

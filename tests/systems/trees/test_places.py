@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from tallgrass import Pose, Prairie, Tree
+from tallgrass import Breeze, Pose, Prairie, Tree, WindSource
 from tallgrass.engine.declared.tree import TreeKind
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.systems.features import one
@@ -197,6 +197,23 @@ def test_what_is_felled_and_changed_of_a_large_forest_stays_so_and_states_know_i
         poses = {(pose.x, pose.z): tree.height for _, (tree, pose) in esper.get_components(Tree, Pose)}
         assert (felled.x, felled.z) not in poses
         assert poses[grown_up.x, grown_up.z] == 2.0
+
+
+def test_a_restore_takes_trees_planted_since_and_what_it_makes_is_the_games_own() -> None:
+    with little_prairie(scene=LITTLE + "trees: { oak: { habit: oak } }\n") as prairie:
+        old = esper.create_entity(Tree("oak", 9.0), Pose(5.0, 5.0))
+        blown = esper.create_entity(WindSource(Breeze(strength=0.5), "mine"))
+        state = prairie.state()
+        named, other = esper.create_entity(Tree("oak", 4.0), Pose(1.0, 5.0), "an oak"), esper.create_entity("a man")
+        esper.create_entity(Tree("oak", 3.0), Pose(2.0, 5.0))
+        elm = esper.create_entity(Tree("elm", 3.0), Pose(9.0, 5.0))  # of another prairie
+        for entity in (old, blown):
+            esper.delete_entity(entity, immediate=True)
+        became = prairie.restore(state)
+        assert prairie.restore(state) == became
+        assert {entity for entity, _ in esper.get_component(Tree)} == {became[old], elm}
+        assert esper.components_for_entity(named) == (Pose(1.0, 5.0), "an oak")
+    assert {*esper.get_entities()} == {*became.values(), named, other, elm}
 
 
 def standing(prairie: Prairie) -> list[list[float]]:
