@@ -1,40 +1,42 @@
 // The carpet: what is seen of its grass, and of the ground between. With EDGED, grass ends or has been cut there.
 #define PIXELS_ASK
 #include "lib/light.glsl"
+#include "systems/show/carpet/within.glsl"
 #include "systems/show/carpet/litter.glsl"
 
 // With many kinds, pixels work out themselves what FEW kinds bring along: carpet.vert says what is what.
 #if KINDS > 4
 #define FEW
 #else
-#define FEW in
+#define FEW WITHIN in
 #endif
 
 #ifdef EDGED
 #define BROUGHT
 #define OF_SOIL
-#define OF_SLOPE in
+#define OF_SLOPE WITHIN in
+vec3 place;
 in vec3 over;
-in float lies_over;
-in float raises;
-in float hung;
+WITHIN in float lies_over;
+WITHIN in float raises;
+WITHIN in float hung;
 #else
-#define BROUGHT in
+#define BROUGHT WITHIN in
+in vec3 place;
 #define OF_SOIL FEW
 #define OF_SLOPE FEW
 #endif
 
-BROUGHT vec3 place;
-in float carpet;
+WITHIN in float carpet;
 OF_SLOPE vec2 rise;
-in float crest;
-in float lowered;
-in float past;
+WITHIN in float crest;
+WITHIN in float lowered;
+WITHIN in float past;
 BROUGHT float tall;
 BROUGHT float dense;
 BROUGHT ByKind met;
 BROUGHT vec3 soil_seen;
-in mat4 lit;
+WITHIN in mat4 lit;
 #ifdef HEADS
 BROUGHT ByKind riper;
 #endif

@@ -2,6 +2,7 @@
 // cut there: pixels make out themselves what is BROUGHT along otherwise.
 #define PIXELS_ASK  // pools of light and shadows are smaller than the mesh
 #include "lib/light.glsl"
+#include "systems/show/carpet/within.glsl"
 #include "systems/show/carpet/laid.glsl"
 #include "systems/show/carpet/met.glsl"
 #include "systems/show/carpet/reading.glsl"
@@ -16,46 +17,47 @@
 #if KINDS > 4
 #define FEW
 #else
-#define FEW out
+#define FEW WITHIN out
 #endif
 
 #ifdef EDGED
 #define BROUGHT
 #define OF_SOIL
-#define OF_SLOPE out
+#define OF_SLOPE WITHIN out
+vec3 place;
 out vec3 over;       // place on the mesh, which is raised to the carpet of whole grass,
-out float lies_over;      // how high that is over the ground [m],
-out float raises;      // and of how high the carpet is on level ground
-out float hung;        // how far it hangs down there from the border of its tile, of how high that lies
+WITHIN out float lies_over;      // how high that is over the ground [m],
+WITHIN out float raises;      // and of how high the carpet is on level ground
+WITHIN out float hung;        // how far it hangs down there from the border of its tile, of how high that lies
 #else
-#define BROUGHT out
+#define BROUGHT WITHIN out
+out vec3 place;
 #define OF_SOIL FEW
 #define OF_SLOPE FEW
 #endif
 
-BROUGHT vec3 place;
-out float carpet;    // how much of what is seen is carpet's
+WITHIN out float carpet;    // how much of what is seen is carpet's
 OF_SLOPE vec2 rise;  // of the ground, along x and z
-out float crest;     // how fast the rise falls off along the line of sight [1/m]
-out float past;      // what it meets that passes over a rim, as past_rim has it
+WITHIN out float crest;     // how fast the rise falls off along the line of sight [1/m]
+WITHIN out float past;      // what it meets that passes over a rim, as past_rim has it
 BROUGHT float tall;     // height of the carpet [m]
 BROUGHT float dense;    // leaf area seen from the side, of the ground's area
 BROUGHT ByKind met;     // by kind: how much of what a line of sight meets
 BROUGHT vec3 soil_seen;  // radiance of the soil, without haze
-out mat4 lit;        // the light on leaves of the kinds that are met; beside it, how what is met changes as the wind bends them
+WITHIN out mat4 lit;        // the light on leaves of the kinds that are met; beside it, how what is met changes as the wind bends them
 #ifdef HEADS
 BROUGHT ByKind riper;   // by kind: how much more of its heads than an image shows; all the others at 1, none at -1
 #endif
 FEW float stands;         // how high the grass stands, of its height at rest
 FEW float strips_before;  // how much strips show of what lines of sight come through above the carpet
 #ifdef COARSE
-out vec2 blown;           // how far leaves are moved [m]
-out float on_level;       // slope on level ground of a line of sight that goes as far through the grass
-out float on_strips;      // root of the leaf area on strips above it, of the grass's: that falls off more evenly
-out vec3 soil_shaded;     // the soil where nothing is seen of the sun, as it is shown, for litter whose brightness is 1
-out vec4 lies_at;         // places along blades and heights at the top of the grass, and by how much less they are at its bottom
+WITHIN out vec2 blown;           // how far leaves are moved [m]
+WITHIN out float on_level;       // slope on level ground of a line of sight that goes as far through the grass
+WITHIN out float on_strips;      // root of the leaf area on strips above it, of the grass's: that falls off more evenly
+WITHIN out vec3 soil_shaded;     // the soil where nothing is seen of the sun, as it is shown, for litter whose brightness is 1
+WITHIN out vec4 lies_at;         // places along blades and heights at the top of the grass, and by how much less they are at its bottom
 #else
-out float lowered;        // how much lower the carpet lies than where no strips stand [m]
+WITHIN out float lowered;        // how much lower the carpet lies than where no strips stand [m]
 FEW float sways;          // how far leaves sway, of the wind's message [m]
 FEW vec2 slow;            // slow noises of the pigment, where leaves are seen
 #endif

@@ -7,27 +7,28 @@
 #include "systems/show/carpet/lying.glsl"
 #include "systems/show/carpet/outline.glsl"
 #include "systems/show/carpet/texel.glsl"
+#include "systems/show/carpet/within.glsl"
 
 in vec3 place;
-in float carpet;
-in vec2 rise;
-in float crest;
-in float past;
-in float tall;
-in float dense;
-in ByKind met;
-in vec3 soil_seen;  // as it is shown, for litter whose brightness is 1
-in vec3 soil_shaded;
-in mat4 lit;
+WITHIN in float carpet;
+WITHIN in vec2 rise;
+WITHIN in float crest;
+WITHIN in float past;
+WITHIN in float tall;
+WITHIN in float dense;
+WITHIN in ByKind met;
+WITHIN in vec3 soil_seen;  // as it is shown, for litter whose brightness is 1
+WITHIN in vec3 soil_shaded;
+WITHIN in mat4 lit;
 #ifdef HEADS
-in ByKind riper;
+WITHIN in ByKind riper;
 #endif
-in float stands;
-in vec2 blown;
-in float on_level;
-in float on_strips;
-in vec4 lies_at;
-in float elevation;
+WITHIN in float stands;
+WITHIN in vec2 blown;
+WITHIN in float on_level;
+WITHIN in float on_strips;
+WITHIN in vec4 lies_at;
+WITHIN in float elevation;
 
 out vec4 pixel;
 

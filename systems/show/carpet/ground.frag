@@ -5,14 +5,14 @@
 #include "systems/show/carpet/stubble.glsl"
 
 in vec3 place;
-in vec3 haze;
+centroid in vec3 haze;
 #ifndef EDGED
-in vec3 soil_seen;
-in vec3 sunlit;
-in vec3 skylit;
-in float soil_way;
-in float soil_through;
-in vec3 lush;
+centroid in vec3 soil_seen;
+centroid in vec3 sunlit;
+centroid in vec3 skylit;
+centroid in float soil_way;
+centroid in float soil_through;
+centroid in vec3 lush;
 #endif
 
 out vec4 pixel;

@@ -7,14 +7,14 @@
 uniform float pushed;  // how much farther it is taken to lie, of the depths that there are
 
 out vec3 place;
-out vec3 haze;       // radiance of what lies before it
+centroid out vec3 haze;       // radiance of what lies before it
 #ifndef EDGED
-out vec3 soil_seen;  // its radiance, without haze
-out vec3 sunlit;     // that of the sun's light without any grass,
-out vec3 skylit;     // and of the sky's
-out float soil_way;  // how many leaves the sun's light meets
-out float soil_through; // how much of it comes through the grass
-out vec3 lush;       // pigment of the understorey, of that of the ground between
+centroid out vec3 soil_seen;  // its radiance, without haze
+centroid out vec3 sunlit;     // that of the sun's light without any grass,
+centroid out vec3 skylit;     // and of the sky's
+centroid out float soil_way;  // how many leaves the sun's light meets
+centroid out float soil_through; // how much of it comes through the grass
+centroid out vec3 lush;       // pigment of the understorey, of that of the ground between
 #endif
 
 void main() {

@@ -4,12 +4,12 @@
 #include "systems/show/carpet/edged.glsl"
 
 in vec3 over;
-in float lies_over;
-in float raises;
-in float slope;
-in float crest;
+centroid in float lies_over;
+centroid in float raises;
+centroid in float slope;
+centroid in float crest;
 #endif
-in vec3 color;
+centroid in vec3 color;
 
 out vec4 pixel;
 

@@ -14,13 +14,13 @@ const float SHADED = 0.6;  // how far down what is seen stands, of how deep is s
 const float FLAT_SIGHT = 0.07;  // slope of a line of sight by which grass counts as sparse: a walker's over some 25 m
 const float ON_TOP = 0.9;  // where it stands if nothing is seen into it, of the height of the grass
 
-out vec3 color;  // radiance
+centroid out vec3 color;  // radiance
 #ifdef EDGED
 out vec3 over;   // place, where all grass is whole; with EDGED it ends there, or has been cut,
-out float lies_over;  // how high that is over the ground [m],
-out float raises;  // and of how high the carpet is on level ground
-out float slope; // of the line of sight to the ground
-out float crest; // how fast the rise of the ground falls off along it [1/m]
+centroid out float lies_over;  // how high that is over the ground [m],
+centroid out float raises;  // and of how high the carpet is on level ground
+centroid out float slope; // of the line of sight to the ground
+centroid out float crest; // how fast the rise of the ground falls off along it [1/m]
 #endif
 
 // How deep it lies, of the height of the grass: as deep as is seen into it, from above and through a crest.

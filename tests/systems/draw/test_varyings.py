@@ -1,6 +1,7 @@
 """What comes through from vertices to pixels: never more than every OpenGL 3.3 takes, however many kinds there are."""
 
 import ctypes
+import re
 from collections.abc import Mapping, Sequence
 from ctypes import c_char_p, c_int, c_uint, c_void_p
 from pathlib import Path
@@ -99,3 +100,12 @@ def test_pixels_take_no_more_numbers_than_are_sure_to_come_through(
         if "carpet" not in name:  # whole vectors, as not every driver packs what is smaller together
             assert sum(-(-each // 4) * 4 for each in found) <= SURE, name
     assert len(tried) >= 8
+
+
+@pytest.mark.parametrize("name", ["carpet", "coarse", "ground", "under"])
+def test_of_several_samples_a_pixel_none_asks_beyond_a_tiles_edge_where_numbers_have_any_value(name: str) -> None:
+    folder = Path(shaders.__file__).parents[2] / "systems/show/carpet"
+    text = (folder / f"{name}.frag").read_text("utf-8")
+    wild = re.findall(r"^in \w+ (\w+);", text, re.MULTILINE)
+    assert {*wild} <= {"place", "over"}, "of these, only differences count, to the next pixel"
+    assert not re.search(r"^#define \w+ in$", text, re.MULTILINE)
