@@ -211,11 +211,11 @@ class Holding:
 
         In the end make what receivers hear other winds with than there are now.
         """
-        painters = list(self.painters.values())
+        makers: list[RepresentationPainter | Part] = [*self.painters.values(), *self.parts]
         yield  # what the first frame draws with is made for it
-        yield from self._beside.making(chain.from_iterable(painter.texts() for painter in painters))
-        for painter in painters:
-            yield from painter.making()
+        yield from self._beside.making(chain.from_iterable(each.texts() for each in makers))
+        for each in makers:
+            yield from each.making()
         if self._winds is None:
             yield from self._making_for_winds(self._kinds(site), self.air, self.painters)
 

@@ -1,6 +1,6 @@
 """Drawing what flies over the prairie: opaque, with a soft border along the outline."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from math import cos, sin
 
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ...components.body import Body
 from ...components.shade import Shade
+from ...engine.gl.shaders import Texts
 from ...engine.gl.stream import Stream, attributes, release_all
 from ..frame.block import FrameBlock, joined
 from ..light.color import linear
@@ -51,6 +52,11 @@ def axes(body: Body, /) -> tuple[Axis, Axis, Axis]:
     )
 
 
+FILES = "systems/bodies/body.vert", "systems/bodies/body.frag"
+TOLD: Sequence[Mapping[str, str | int]] = {}, {"BORDER": 1}
+"""What the programs of the body itself and of the border along its outline are told."""
+
+
 class _Layer:
     """A mesh with its program: the body itself, or the border along its outline."""
 
@@ -69,21 +75,25 @@ class _Layer:
         release_all(self.array, *self.buffers, self.program)
 
 
+def texts_of_bodies(block: FrameBlock, /) -> Iterator[Texts]:
+    """Return what the programs of saucers are made of."""
+    return (block.texts(*FILES, told) for told in TOLD)
+
+
+def programs_of_bodies(
+    ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /
+) -> Iterator[moderngl.Program]:
+    """Return them, each made when it is its turn."""
+    return (joined(ctx, block, units, *FILES, told) for told in TOLD)
+
+
 class BodyPainter:
-    """Draws saucers."""
+    """Draws saucers with their programs."""
 
-    def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
+    def __init__(self, ctx: moderngl.Context, programs: Iterable[moderngl.Program]) -> None:
         self.stream = Stream(ctx, PLACED)
-        mesh = saucer()
-
-        def layer(mesh: tuple[NDArray[np.void], NDArray[np.int32]], defines: dict[str, str | int]) -> _Layer:
-            return _Layer(
-                joined(ctx, block, units, "systems/bodies/body.vert", "systems/bodies/body.frag", defines),
-                mesh,
-                self.stream,
-            )
-
-        self.solid, self.border = layer(mesh, {}), layer(borders(*mesh), {"BORDER": 1})
+        mesh, (solid, border) = saucer(), programs
+        self.solid, self.border = _Layer(solid, mesh, self.stream), _Layer(border, borders(*mesh), self.stream)
 
     def write(self, bodies: Sequence[Body]) -> None:
         """Send the bodies that are in the air."""

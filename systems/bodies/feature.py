@@ -1,6 +1,6 @@
 """Bodies: what flies over a prairie."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from math import dist
 from typing import Self
 
@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from ...components.body import Body
 from ...components.shade import Shade
+from ...engine.gl.shaders import Texts
+from ...engine.gl.stream import release_all
 from ...engine.world import World
 from ..around.outlook import Outlook
 from ..frame.block import BODIES, FrameBlock
@@ -17,7 +19,7 @@ from ..frame.feature import Feature, Part, Start
 from ..shadows.shades import round_of
 from ..space.grown import Grown
 from ..wind.quarantine import Quarantine
-from .draw import BodyPainter, shade_of
+from .draw import BodyPainter, programs_of_bodies, shade_of, texts_of_bodies
 from .fly import flying
 
 
@@ -47,7 +49,7 @@ class Bodies(Feature):
 
 
 class BodiesPart(Part):
-    """Draws what flies; it makes nothing before something does."""
+    """Draws what flies."""
 
     def __init__(self, bodies: Bodies, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
         self._bodies, self._ctx, self._block, self._units = bodies, ctx, block, units
@@ -58,6 +60,22 @@ class BodiesPart(Part):
         del grown
         self._make()
 
+    def texts(self) -> Iterator[Texts]:
+        """Return what its programs are made of."""
+        return iter(()) if self.painter is not None else texts_of_bodies(self._block)
+
+    def making(self) -> Iterator[None]:
+        """Make what draws them, a program at a time."""
+        made = list[moderngl.Program]()
+        try:
+            for each in self._programs() if self.painter is None else ():
+                made.append(each)
+                yield
+            if made and self.painter is None:
+                self.painter, made = BodyPainter(self._ctx, made), []
+        finally:
+            release_all(*made)
+
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Pretend that something flies, and casts a shadow."""
         body = Body((0.0, 0.0, 0.0))
@@ -67,7 +85,10 @@ class BodiesPart(Part):
 
     def _make(self) -> None:
         if self.painter is None:
-            self.painter = BodyPainter(self._ctx, self._block, self._units)
+            self.painter = BodyPainter(self._ctx, self._programs())
+
+    def _programs(self) -> Iterator[moderngl.Program]:
+        return programs_of_bodies(self._ctx, self._block, self._units)
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Send what is in the air, and write what casts shadows."""

@@ -1,6 +1,6 @@
 """Features: what a prairie has beside its grass, and all that painters, reloads and the frame block ask of it."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Protocol, Self, TypeVar
 
@@ -8,6 +8,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...engine.gl.shaders import Texts
 from ...engine.world import World
 from ..around.outlook import Outlook
 from ..space.grown import Grown
@@ -56,6 +57,14 @@ class Part:
 
     def use(self) -> None:
         """Bind what programs read throughout the frame."""
+
+    def texts(self) -> Iterator[Texts]:
+        """Return what the programs are made of that no frame has drawn with yet."""
+        return iter(())
+
+    def making(self) -> Iterator[None]:
+        """Make them, one at a time, before somebody waits for them."""
+        return iter(())
 
     def breathe(self, air: "Heard", /) -> int:
         """Take up what the patches around the viewer have heard of the wind; return the number of draw calls."""

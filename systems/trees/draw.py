@@ -1,13 +1,13 @@
 """Drawing trees: what of each is shown, and in what order; and the maps of what they leave of the light."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
-from ...engine.gl.shaders import tell_asked, tell_due
+from ...engine.gl.shaders import Texts, tell_asked, tell_due
 from ...engine.gl.stream import Stream, release_all
 from ..around.outlook import Outlook
 from ..frame.block import FrameBlock
@@ -93,6 +93,14 @@ class TreePart(Part):
         if self._kinds and self._shade is None:
             self._shade = ShadeMap(self._ctx)
             self._placed, self._stood = Stream(self._ctx, PLACED), Stream(self._ctx, TOLD)
+
+    def texts(self) -> Iterator[Texts]:
+        """Return what its programs that are not there yet are made of."""
+        return iter(()) if self._programs is None else self._programs.texts(in_rows=self._standing().in_rows)
+
+    def making(self) -> Iterator[None]:
+        """Make them, one at a time."""
+        return iter(()) if self._programs is None else self._programs.making(in_rows=self._standing().in_rows)
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Pretend until the next frame that a tree of each model is drawn in every way that there is."""

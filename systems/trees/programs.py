@@ -1,11 +1,12 @@
-"""The programs that trees are drawn with, each made when it is first asked for."""
+"""The programs that trees are drawn with, each made when it is first asked for, or ahead of that."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...engine.gl.shaders import Texts
 from ...engine.gl.stream import Stream, release_all
 from ..frame.block import FrameBlock, joined
 from .card import CAST, FAR, IN_ROWS, LEAVES, NEAR, PICTURED, WOOD, ModelOnCard
@@ -55,6 +56,25 @@ class Programs:
         self._arrays: dict[tuple[int, str, str, bool], moderngl.VertexArray] = {}
         self._quads = ctx.buffer(_quads())
 
+    def texts(self, *, in_rows: bool) -> Iterator[Texts]:
+        """Return what is not there yet of all that may be drawn is made of, far trees in rows or one by one."""
+        for sort, edges in self._due(in_rows=in_rows):
+            yield self._block.texts(*_shaders(sort, edges=edges, baked=False))
+
+    def making(self, *, in_rows: bool) -> Iterator[None]:
+        """Make what is not there yet of that, one at a time."""
+        for sort, edges in self._due(in_rows=in_rows):
+            self._program(sort, edges=edges, baked=False)
+            yield
+        for what in MADE.keys() - self._makers:
+            self._maker(what)
+            yield
+
+    def _due(self, *, in_rows: bool) -> list[tuple[str, str]]:
+        sorts = NEAR, LEAVES, WOOD, IN_ROWS if in_rows else FAR
+        drawn = [*((sort, edges) for sort in sorts for edges in (HARD, SOFT)), (CAST, HARD)]
+        return [(sort, edges) for sort, edges in drawn if (sort, edges, False) not in self._programs]
+
     def array(
         self, sort: str, stream: Stream, model: ModelOnCard | None = None, /, *, edges: str = HARD, baked: bool = False
     ) -> moderngl.VertexArray:  # fmt: skip
@@ -79,29 +99,37 @@ class Programs:
         """Return what makes out what `MADE` has of each tree of a stream, or with `told` of each of its twigs."""
         key = id(stream), what, HARD, False
         if key not in self._arrays:
-            program = self._makers.get(what)
-            if program is None:
-                name, written, defines = MADE[what]
-                shader = f"systems/trees/{name}.vert"
-                program = joined(self._ctx, self._block, self._units, shader, None, defines, varyings=written)
-                self._makers[what] = program
+            program = self._maker(what)
             each = "/v" if told is None else "/i"
             streams = [one.binding(program, each=each) for one in (stream, told) if one is not None]
             self._arrays[key] = self._ctx.vertex_array(program, streams)
         return self._arrays[key]
 
+    def _maker(self, what: str) -> moderngl.Program:
+        if what not in self._makers:
+            name, written, defines = MADE[what]
+            shader = f"systems/trees/{name}.vert"
+            made = joined(self._ctx, self._block, self._units, shader, None, defines, varyings=written)
+            self._makers[what] = made
+        return self._makers[what]
+
     def _program(self, sort: str, *, edges: str, baked: bool) -> moderngl.Program:
         key = sort, edges, baked
         if key not in self._programs:
-            vertex, fragment, told = SORTS[sort]
-            told = {**told, edges: 1} if not baked else {**{k: v for k, v in told.items() if k != "STANDS"}, "BAKED": 1}
-            names = f"systems/trees/{vertex}.vert", f"systems/trees/{fragment}.frag"
-            self._programs[key] = joined(self._ctx, self._block, self._units, *names, told)
+            shaders = _shaders(sort, edges=edges, baked=baked)
+            self._programs[key] = joined(self._ctx, self._block, self._units, *shaders)
         return self._programs[key]
 
     def release(self) -> None:
         """Give everything back."""
         release_all(*self._arrays.values(), *self._programs.values(), *self._makers.values(), self._quads)
+
+
+def _shaders(sort: str, *, edges: str, baked: bool) -> tuple[str, str, Mapping[str, str | int]]:
+    """Return the vertex and the fragment shader of what is drawn, and what they are told."""
+    vertex, fragment, told = SORTS[sort]
+    told = {**told, edges: 1} if not baked else {**{k: v for k, v in told.items() if k != "STANDS"}, "BAKED": 1}
+    return f"systems/trees/{vertex}.vert", f"systems/trees/{fragment}.frag", told
 
 
 def _quads() -> NDArray[np.uint32]:

@@ -16,9 +16,14 @@ from tallgrass.engine.gl import beside
 from tallgrass.engine.gl.beside import Beside
 from tallgrass.engine.gl.rasteriser import draws_in_software
 from tallgrass.engine.gl.shaders import Texts
+from tallgrass.systems.bodies.feature import BodiesPart
+from tallgrass.systems.features import UNITS
+from tallgrass.systems.frame.feature import Part
 from tallgrass.systems.light.draw import LightPart
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.show.strips.painter import StripsPainter
+from tallgrass.systems.trees.draw import TreePart
+from tallgrass.systems.trees.programs import Programs
 from tallgrass.testing import LITTLE
 
 Stage = Any
@@ -88,6 +93,28 @@ def test_nothing_that_happens_to_grass_for_the_first_time_makes_a_program(
             esper.delete_entity(entity, immediate=True)
         assert np.abs(after - before).max() > 20.0, happens
         assert made == [], happens
+
+
+@pytest.mark.usefixtures("ahead")
+def test_what_trees_and_bodies_are_drawn_with_can_be_made_before_the_first_of_them_is_there(
+    made: list[str], load: Load, stage: Stage, camera: Aim
+) -> None:
+    prairie = load(CALM)
+    stage.shot(prairie, camera(0.0, 2.0, 18.0))
+    painter = prairie.painter
+    assert painter is not None
+    made.clear()
+    assert len([*painter.part(BodiesPart).making()]) == len(made) == 2
+    painter.block.defines = {**painter.block.defines, "TREES": 1}
+    trees = Programs(stage.ctx, painter.block, UNITS)
+    texts = [each.vertex for each in trees.texts(in_rows=False)]
+    made.clear()
+    steps = len([*trees.making(in_rows=False)])
+    assert steps == len(made) > len(texts) > 8
+    assert made[: len(texts)] == texts, "as a driver is asked for them beside the frames"
+    assert [*trees.making(in_rows=False), *trees.texts(in_rows=False), *painter.part(BodiesPart).texts()] == []
+    trees.release()
+    assert TreePart.making is not Part.making
 
 
 @pytest.fixture

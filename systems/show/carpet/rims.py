@@ -34,9 +34,11 @@ class Rims:
         rows, columns = terrain.heights.shape
         each = -(-max(rows, columns) // MOST)
         self._each = each
-        self.far: Floats = np.full((1, 1), NOWHERE, np.float32)
-        """How far the middle of each square is from the next one at least [m], row 0 at the far edge (-z)."""
         self._known: Mask = np.zeros((-(-rows // each), -(-columns // each)), np.bool_)
+        self.far: Floats = np.full(self._known.shape, NOWHERE, np.float32)
+        """How far the middle of each square is from the next one at least [m], row 0 at the far edge (-z)."""
+        self.any = False
+        """Whether there are any."""
         self.version = 0
         """A number that is another one whenever that has changed."""
         self._look(Part(0, 0, rows, columns))
@@ -72,9 +74,10 @@ class Rims:
             return
         self._known[rows, columns] = there
         if gone:
-            self.far, come = np.full((1, 1), NOWHERE, np.float32), np.argwhere(self._known)
+            self.far, come = np.full(self._known.shape, NOWHERE, np.float32), np.argwhere(self._known)
         if len(come):
             self.far = np.minimum(self.far, _far_from(come, self._known.shape, self._each * self.terrain.cell))
+        self.any = bool(self._known.any())
         self.version += 1
 
     def _in(self, rows: slice, columns: slice) -> Mask:
@@ -89,11 +92,6 @@ class Rims:
         found = np.zeros((count, across), np.bool_)
         found[row[inside] // each, column[inside] // each] = True
         return found
-
-    @property
-    def any(self) -> bool:
-        """Whether there are any."""
-        return self.far.size > 1
 
     def near_to(self, places: Doubles, eye: Doubles, /) -> Doubles:
         """Return how far off places (n, 2) count as, seen from an eye (2,), for the mesh of rims (n,) [m]."""
