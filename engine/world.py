@@ -123,7 +123,8 @@ class World:
     def uproot(self, entity: int, kind: type[object]) -> None:
         """Take an entity's component of exactly this type away, and the entity where it has nothing but a pose left."""
         self.drop(entity, kind)
-        if all(type(each) in {Pose, Resident} for each in esper.components_for_entity(entity)):
+        left: tuple[object, ...] = esper.components_for_entity(entity)
+        if all(isinstance(each, Pose | Resident) for each in left):
             self._mine.marks.pop(entity, None)
             esper.delete_entity(entity, immediate=True)
 
