@@ -28,7 +28,7 @@ from .studio.take import Take
 from .studio.walker import Ground, Move, moved, settled, start, toggled, turned
 from .suited import suited_rate
 from .watch import Watch
-from .weather import Weather
+from .weather import Raised, Weather
 
 MOVES: dict[int, Move] = {
     key.W: "ahead", key.UP: "ahead", key.S: "back", key.DOWN: "back",
@@ -36,6 +36,9 @@ MOVES: dict[int, Move] = {
     key.E: "up", key.Q: "down", key.LSHIFT: "run", key.RSHIFT: "run",
 }  # fmt: skip
 """What a held key asks for."""
+
+WINDS: dict[int, Raised] = {ord("1"): "gust", ord("2"): "whirlwind", ord("3"): "blast"}
+"""What a key sets off where the camera looks; pyglet numbers keys so, but its names of them are private."""
 
 OVERLAYS: tuple[frozenset[Layer], ...] = (
     frozenset(),
@@ -213,18 +216,6 @@ class Walk:
         else:
             self.walker, self.flight = self.flight.leave(self.ground), None
 
-    def gust(self) -> None:
-        """Set off a gust where the camera looks."""
-        self.weather.raise_wind("gust", self.camera, self.ground)
-
-    def whirlwind(self) -> None:
-        """Set off a whirlwind where the camera looks."""
-        self.weather.raise_wind("whirlwind", self.camera, self.ground)
-
-    def blast(self) -> None:
-        """Set off a blast where the camera looks."""
-        self.weather.raise_wind("blast", self.camera, self.ground)
-
     def show_help(self) -> None:
         """Show the keys, or hide them."""
         self.helping = not self.helping
@@ -290,6 +281,8 @@ class Walk:
             self._held.add(symbol)
         elif symbol in _ACTIONS:
             getattr(self, _ACTIONS[symbol])()
+        elif symbol in WINDS:
+            self.weather.raise_wind(WINDS[symbol], self.camera, self.ground)
         return pyglet.event.EVENT_HANDLED
 
     def on_key_release(self, symbol: int, modifiers: int) -> None:
@@ -363,9 +356,6 @@ _ACTIONS = {
     key.SPACE: "pause",
     key.F: "fly",
     key.G: "board",
-    ord("1"): "gust",  # pyglet numbers keys so, but its names of them are private
-    ord("2"): "whirlwind",
-    ord("3"): "blast",
     key.F1: "show_help",
     key.F2: "next_overlay",
     key.F3: "show_statistics",

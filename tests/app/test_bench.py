@@ -157,6 +157,7 @@ def test_a_graphics_card_is_timed_by_its_own_clock(
         assert timer.elapsed > 0
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("few_frames")
 def test_a_rival_is_drawn_with_grass_that_sways(ctx: moderngl.Context, scene: Path) -> None:
     with Studio(Take(str(scene), (192, 108))) as studio:
@@ -274,6 +275,7 @@ def test_without_the_evaluator_the_picture_benchmark_says_what_installs_it(
     assert capsys.readouterr().err.strip() == said
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("ctx")
 def test_r2_n6_the_walk_benchmark_tells_every_key_of_the_contract(
     scene: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch

@@ -78,9 +78,10 @@ MEASURED = {"performance.md"}
 """Pages that tell how much grass there is."""
 
 LONG = {
-    "cameras.md", "embedding.md", "farm.md", "gallery.md", "ground.md", "mowing.md", "music.md", "world.md",
+    "cameras.md", "embedding.md", "farm.md", "gallery.md", "ground.md", "mowing.md", "music.md", "smooth.md",
+    "systems.md", "world.md",
 }  # fmt: skip
-"""Pages that take 5 to 17 s. What they call is called by the tests of frames, hosts and examples as well."""
+"""Pages that take 2 to 17 s. What they call is called by the tests of frames, hosts and examples as well."""
 
 COARSE = {
     r"^tallgrass (shot|film)": r"\g<0> --preset low",

@@ -40,7 +40,7 @@ STORM = GRASS + (
 FEWER = CALM.replace("carpet: 16", "carpet: 16\n  pixels: 0.5")
 """With fewer pixels, which are filtered up."""
 
-FRAMES = 50
+FRAMES = 40
 """After which all that came with a viewer is over."""
 
 CALLS = 1550, 2280, 1880

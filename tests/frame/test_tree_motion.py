@@ -31,7 +31,7 @@ quality:
   carpet_to: 4
   carpet: 16
 """
-RATE, COUNT = 25.0, 200
+RATE, COUNT = 25.0, 144
 
 
 @pytest.fixture(scope="module")

@@ -33,7 +33,7 @@ from tallgrass.engine.scene.compose import read_document
 from tallgrass.systems.wind.blow import blowing, hear, places_alone
 from tallgrass.systems.wind.quarantine import Quarantine
 
-COUNT = int(os.environ.get("TALLGRASS_FUZZ", "500"))
+COUNT = int(os.environ.get("TALLGRASS_FUZZ", "300"))
 SEED = int(os.environ.get("TALLGRASS_FUZZ_SEED", "1"))
 FIRST = int(os.environ.get("TALLGRASS_FUZZ_FROM", "0"))
 LONGEST = 10.0
