@@ -1,7 +1,9 @@
 """Options and arguments that several commands take, and what is read from them."""
 
 import math
-from typing import Annotated
+from collections.abc import Callable
+from functools import partial
+from typing import Annotated, TypeVar
 
 import typer
 
@@ -10,6 +12,8 @@ from ..engine.declared.quality import PresetName
 from ..systems.overlay.layers import LAYERS, Layer, parse_layers
 from .studio.errors import InputError
 from .studio.take import LARGEST, SAMPLES, parse_frames, parse_size
+
+Value = TypeVar("Value")
 
 
 def bundled(beginning: str) -> list[str]:
@@ -45,10 +49,7 @@ Fullscreen = Annotated[bool, typer.Option("--fullscreen", help="Fill the screen.
 
 def size_of(text: str, /, *, reference: bool = False) -> tuple[int, int]:
     """Return the width and height [pixels] of `--size`; raises InputError, as all of these do."""
-    try:
-        size = parse_size(text)
-    except ValueError as error:
-        raise InputError(f"--size: {error}") from None
+    size = _read("--size", parse_size, text)
     if reference and max(size) > LARGEST // SAMPLES:
         raise InputError(f"--size: {text}: with --reference each side must be at most {LARGEST // SAMPLES} pixels")
     return size
@@ -60,23 +61,22 @@ def overlay_of(text: str | None, /, *, reference: bool = False) -> frozenset[Lay
         return frozenset()
     if reference:
         raise InputError("--overlay: a reference has no levels of detail to show; leave one of the two out")
-    try:
-        return parse_layers(text)
-    except ValueError as error:
-        raise InputError(f"--overlay: {error}") from None
+    return _read("--overlay", parse_layers, text)
 
 
 def frames_of(text: str | None, /) -> tuple[int, int | None]:
     """Return the first frame of `--frames`, and the one after the last; None is the film's end."""
-    try:
-        return (0, None) if text is None else parse_frames(text)
-    except ValueError as error:
-        raise InputError(f"--frames: {error}") from None
+    return (0, None) if text is None else _read("--frames", parse_frames, text)
 
 
 def camera_of(text: str, /) -> Camera:
     """Return the camera of `--camera`; its angle of view is left to the scene."""
+    return _read("--camera", partial(parse_camera, view=math.radians(40.0)), text)
+
+
+def _read(option: str, parse: Callable[[str], Value], text: str) -> Value:
+    """Return what an option's text says; raises InputError with what is wrong with it."""
     try:
-        return parse_camera(text, view=math.radians(40.0))
+        return parse(text)
     except ValueError as error:
-        raise InputError(f"--camera: {error}") from None
+        raise InputError(f"{option}: {error}") from None

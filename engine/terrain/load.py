@@ -1,6 +1,6 @@
 """Terrains from elevation maps and from noise."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from logging import getLogger
 from math import ceil
@@ -11,7 +11,6 @@ import numpy as np
 from ...components.arrays import Doubles, Floats, Mask
 from ..declared.array import HeightFunction, MapArray
 from ..declared.terrain import TerrainSource
-from .ask import ask_heights
 from .blocks import BLOCK, PARTS, Blocks
 from .density import load_holes, stretched
 from .elevation import Elevation, check_finite
@@ -43,6 +42,9 @@ UNLESS_TOLD = [200.0, 200.0]
 RANGE = 100.0
 """Height of a whole 16-bit range, where a scene gives none [m]."""
 
+SQUARE = 256
+"""Samples along a side of what a function is asked for at a time."""
+
 _log = getLogger(__name__)
 
 
@@ -66,7 +68,7 @@ def _streamed(asked: HeightFunction, source: TerrainSource, window: float, about
         raise MapError(None, f"a window of {window:g} m has more than {SIDE - 1} cells of {cell:g} m: enlarge cell")
 
     def ask(x: Doubles, z: Doubles) -> tuple[Floats, Mask | None]:
-        elevation = Elevation(ask_heights(asked, x, z), None)
+        elevation = Elevation(_ask_heights(asked, x, z), None)
         open_: Mask = np.isnan(elevation.values)
         if open_.all():
             return np.full(open_.shape, source.offset, np.float32), open_
@@ -100,7 +102,7 @@ def _of_function(asked: HeightFunction, source: TerrainSource) -> Terrain:
     size = source.size or UNLESS_TOLD
     cell = max(min(source.cell, SMOOTH), max(size) / (SIDE - 1))
     x, z = (_places(side, cell) for side in size)
-    given = ask_heights(asked, x, z)
+    given = _ask_heights(asked, x, z)
     elevation = Elevation(given, None)
     open_ = _holes_in(None, elevation)
     return Terrain(_metres(None, elevation, source, open_), cell, open_)
@@ -200,3 +202,39 @@ def _noise(source: TerrainSource) -> Terrain:
         scale = kind.scale if source.scale is None else source.scale
         heights += landscape(source.noise, x, z, seed=source.seed, feature=feature) * np.float32(scale)
     return Terrain(heights, cell)
+
+
+def _ask_heights(asked: HeightFunction, x: Doubles, z: Doubles, /) -> Floats:
+    """Return the heights [m] that a function gives where columns at `x` and rows at `z` [m] meet, (rows, columns).
+
+    NaN is a hole. Raises `MapError` where it raises something itself, or returns what are no heights of these places.
+    """
+    heights = np.empty((len(z), len(x)), np.float32)
+    for rows, columns in _squares(*heights.shape):
+        heights[rows, columns] = _asked(asked, *np.meshgrid(x[columns], z[rows]))
+    return heights
+
+
+def _squares(rows: int, columns: int) -> Iterator[tuple[slice, slice]]:
+    for row in range(0, rows, SQUARE):
+        for column in range(0, columns, SQUARE):
+            yield slice(row, row + SQUARE), slice(column, column + SQUARE)
+
+
+def _asked(asked: HeightFunction, x: Doubles, z: Doubles) -> Floats:
+    where = f"{asked.name}, asked for x from {x[0, 0]:g} to {x[0, -1]:g} and z from {z[0, 0]:g} to {z[-1, 0]:g} m"
+    try:
+        with np.errstate(all="ignore"):
+            given = np.asarray(asked.function(x, z))
+    except Exception as error:  # a program's own function may raise anything
+        raise MapError(None, f"{where}, raised {type(error).__name__}: {' '.join(str(error).split())}") from error
+    if given.shape not in (x.shape, ()) or given.dtype.kind not in "fiu":
+        raise MapError(
+            None, f"{where}, must return {x.shape[0]} by {x.shape[1]} numbers, and returned an array of "
+            f"{given.dtype} of shape {given.shape}"
+        )  # fmt: skip
+    with np.errstate(over="ignore"):  # what is too large for single precision is refused as infinity
+        heights = given.astype(np.float32)
+    if np.isinf(heights).any():
+        raise MapError(None, f"{where}, returned a height that is infinite")
+    return np.broadcast_to(heights, x.shape)

@@ -8,7 +8,7 @@ import pytest
 
 from tallgrass.components.arrays import Doubles
 from tallgrass.engine.scene import SceneError, load_maps, read_scene
-from tallgrass.engine.terrain.ask import SQUARE
+from tallgrass.engine.terrain.load import SQUARE
 from tallgrass.engine.terrain.record import Terrain
 
 Heights = Callable[[Doubles, Doubles], object]
