@@ -8,7 +8,6 @@ import moderngl
 
 from ..components.wind import WindPrimitive
 from ..engine.declared.quality import LodName
-from ..engine.plugins import wind_kinds
 from ..engine.scene.compose import read_document
 from ..engine.scene.read import LoadedScene
 from ..engine.scene.validate import validate
@@ -63,7 +62,7 @@ def little_prairie(
     with every problem of the text.
     """
     document = read_document(scene, file="<scene>")
-    declared = validate(document, find=wind_kinds().find)
+    declared = validate(document)
     loaded = LoadedScene(declared, Path("scene.yaml"), Path(), document)
     prairie = Prairie(loaded, ctx=ctx, lod=lod, transitions=transitions)
     try:

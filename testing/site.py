@@ -9,7 +9,6 @@ import numpy as np
 from ..components.arrays import Floats
 from ..components.viewer import Viewer
 from ..engine.camera import Camera, View, camera_at, projection_matrix, view_matrix
-from ..engine.plugins import wind_kinds
 from ..engine.scene.compose import read_document
 from ..engine.scene.read import LoadedScene
 from ..engine.scene.validate import validate
@@ -40,7 +39,7 @@ def little_site(scene: str = LITTLE) -> Site:
     problem of the text.
     """
     document = read_document(scene, file="<scene>")
-    declared = validate(document, find=wind_kinds().find)
+    declared = validate(document)
     return found_site(LoadedScene(declared, Path("scene.yaml"), Path(), document))
 
 

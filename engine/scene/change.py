@@ -8,7 +8,6 @@ from pydantic import BaseModel, ValidationError
 from ...components.words import told
 from ..declared.grass import GrassKind
 from ..declared.scene import Scene
-from ..plugins import wind_kinds
 from .validate import validate
 from .values import values_document
 
@@ -38,4 +37,4 @@ def changed_kind(scene: Scene, name: str, values: Mapping[str, object], /) -> Gr
         said["head"] = {key: getattr(kind.head, key) for key in kind.head.model_fields_set} | dict(head)
         values = {key: value for key, value in values.items() if key != "head"}
     whole = {"tallgrass": scene.tallgrass, "grass": {name: said | dict(values)}, "quality": scene.quality}
-    return validate(values_document(whole), find=wind_kinds().find).grass[name]
+    return validate(values_document(whole)).grass[name]

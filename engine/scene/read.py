@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 
 from ... import scenes
 from ..declared.scene import Scene
-from ..plugins import wind_kinds
 from .compose import MOST_BYTES, decode, read_document
 from .document import Document, Where
 from .problem import MOST_PROBLEMS, Problem, SceneError
@@ -151,7 +150,7 @@ def load_document(
     """
     given, folder = pictures or {}, _folder(path)
     missing = _missing_files(document, folder, given)
-    scene = validate(document, find=wind_kinds().find, folder=folder, also=missing)
+    scene = validate(document, folder=folder, also=missing)
     files = {name: stamp for name in _names(document.root.data) if (stamp := stamp_of(folder / name))}
     return LoadedScene(scene, path, folder, document, files, given)
 
@@ -167,7 +166,7 @@ def stamp_of(path: Path, /) -> Stamp | None:
 
 def parse_scene(text: str, /, *, file: str = "<scene>") -> Scene:
     """Return the scene that a text declares; the files it names are not looked for. Raises SceneError."""
-    return validate(read_document(text, file=file), find=wind_kinds().find)
+    return validate(read_document(text, file=file))
 
 
 def _path(scene: str | Path) -> Path:
