@@ -12,7 +12,7 @@ from ...engine.gl.stream import Stream, release_all
 from .bark import RUNS, SENT, sent
 from .lies import Lies
 from .model import Model
-from .outline import Around
+from .outline import NOWHERE
 from .standing import COLUMN, HUNG, LEAFY, PLACED, SHOWN, TOLD
 from .twig import RANKS, ROW, TWIG
 from .wood import Parts, parts
@@ -92,8 +92,8 @@ class ModelOnCard:
         self.met: moderngl.TextureArray | None = None
         self.lies = Lies()
         """How its leaves lie."""
-        self.around = Around((), [])
-        """Corners about what its pictures show."""
+        self.around = self.core = NOWHERE
+        """Corners about what its pictures show, and about what they cover so that it is drawn as solid."""
 
     def bark(self, program: moderngl.Program) -> tuple[moderngl.Buffer | str, ...]:
         """Return the vertices of its wood, as a vertex array takes them: those fields that a program has."""

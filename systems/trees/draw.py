@@ -21,7 +21,6 @@ from .group import Group
 from .kind import KindOnCard
 from .leafy import leaf_by_leaf, leafy
 from .motion import PERIOD
-from .outline import CORNERS
 from .programs import HANG, HANG_LEAVES, HARD, SAMPLED, SOFT, STAND, Programs
 from .shade import ShadeMap
 from .standing import LEAFY, PLACED, TOLD, Standing, columns_of, shown, shows
@@ -328,25 +327,27 @@ class TreePart(Part):
         """Return what is drawn: what is solid from near to far, as it hides what is drawn after it."""
         calls = list[Call]()
         soft, sampled = edges == SOFT, self.leaves_from is not None
+        whole = soft or sampled or all_wood
         of_far = IN_ROWS if self._standing().in_rows else FAR
         for kind in self._kinds:
             for model in kind.models:
+                outline, around = (kind.outline, model.around) if whole else (kind.core, model.core)
                 for sort, name, first, vertices in (
                     (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads),
-                    *((NEAR, name, 0, len(kind.outline)) for name in CARDS),
+                    *((NEAR, name, 0, len(outline)) for name in CARDS),
                     *((WOOD, name, *part_of_wood(model, name, soft=soft, whole=all_wood or sampled)) for name in WOODS),
-                    (FAR, BACK if soft else FAR, 0, 2 * CORNERS),
+                    (FAR, BACK if soft else FAR, 0, 2 * len(around.high)),
                 ):
                     stream = model.hung.get(name, model.streams[name])
                     if stream.count and vertices > 0 and not (soft and sampled and sort != FAR):
-                        corners = kind.outline if name in CARDS else []
                         drawn_as, sampling = (of_far, edges) if sort == FAR else (sort, SAMPLED if sampled else edges)
                         array = programs.array(drawn_as, stream, model, edges=sampling)
                         nearest = 0.0 if soft else self._nearest(model.placed[name])
-                        hard, around = all_wood or name in CARDS, model.around if sort == FAR else None
+                        hard = all_wood or name in CARDS
                         opaque = SOLID if hard else CLOSED if sort == FAR else OPAQUE
-                        told = kind.due(array.program, model)
-                        told = told + told_of_call(array.program, corners, around, opaque)
+                        told = kind.due(array.program, model) + told_of_call(
+                            array.program, outline if name in CARDS else [], around if sort == FAR else None, opaque
+                        )
                         reads = kind.reads(array.program, model, noise=sort in (WOOD, FAR))
                         form = moderngl.TRIANGLE_STRIP if name in CARDS or sort == FAR else moderngl.TRIANGLES
                         calls.append(Call(nearest, array, first, vertices, stream.count, form, told, reads))

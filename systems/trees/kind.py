@@ -21,10 +21,11 @@ from .kept import keep_pictures, kept_pictures, kind_key
 from .lies import Lies, lies_of, lies_on
 from .model import models_of
 from .noise import bark_noise
-from .outline import BOX, around, outline, pairs
+from .outline import BOX, CLOSE, FAINTEST, around, core, covered_at, outline, pairs
 from .programs import Programs
 from .twig import FINER_EACH, HANGING_OFF, SHOOTS_LONG, SHOOTS_OFF
 from .twig import PICTURES as OF_TWIGS
+from .wood import CLOSED, SOLID
 
 ASIDE, TURNED, BACK, ON = 0.95, 0.25, 0.3, 1.2
 """How far leaves reach from their twig, of their length: aside, by the sine of their angle and so much more, as that
@@ -32,6 +33,9 @@ differs; back from its foot, and on from its tip."""
 
 SHOOTS_ASIDE, HANGING_ASIDE = 0.7, 0.35
 """How far side shoots reach aside, of the length of the longest; and shoots that hang side by side."""
+
+ONE = 255.0
+"""Coverage of a texel that is covered wholly."""
 
 DARKER = 0.62
 """Pigment of a kind's darkest leaves, of its brightest, where a scene has one colour for both."""
@@ -53,8 +57,8 @@ class KindOnCard:
         self._seed = seed
         self.models = [ModelOnCard(ctx, each) for each in models_of(declared.habit, seed)]
         self.card: moderngl.TextureArray | None = None
-        self.outline = pairs(BOX)
-        """Corners about what its card shows."""
+        self.outline = self.core = pairs(BOX)
+        """Corners about what its card shows, and about what it covers so that it is drawn as solid."""
         self._lies = Lies()
         self._hides: tuple[float, ...] = (1.0,) * OF_TWIGS
         """How much its card covers on each of its pictures, of what it does on the first."""
@@ -81,13 +85,18 @@ class KindOnCard:
         for model, shows, met in zip(self.models, found[1::2], found[2::2], strict=True):
             model.far, model.met = filtered(self.ctx, shows), filtered(self.ctx, met)
             model.lies = lies_on(model.model.twigs, self._lies, turn=self.habit.leaf.form == NEEDLES)
-            model.around = around(covers(shows[0], model.model.wide, model.model.lines))
+            seen = covers(shows[0], model.model.wide, model.model.lines)
+            model.around = around(seen)
+            model.core = core(seen, ONE * CLOSED, model.around)
 
     def _use(self, twig: list[Bytes]) -> None:
         """Show twigs as in this picture."""
         if self.card is None:
             self.card = filtered(self.ctx, [on_cards(each) for each in twig])
-            self.outline = pairs(outline(twig[0][::2, ..., 3].max(axis=0)))
+            shown = [each[::2, ..., 3].max(axis=0) for each in twig]
+            solid = covered_at(shown, ONE * SOLID)
+            self.outline = pairs(outline(shown[0] > FAINTEST))
+            self.core = pairs(outline(solid, CLOSE)) if solid.any() else []
             self._lies = lies_of(twig[0][:2])
             cover = twig[0][::2, ..., 3].mean(axis=(1, 2))
             self._hides = tuple((cover / cover[0]).tolist())

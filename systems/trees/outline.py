@@ -23,7 +23,7 @@ ROWS = 80
 """Rows of texels that are looked at."""
 
 CLOSE = 2
-"""As many of a tree's pictures: shaders add what coarser ones spread."""
+"""As many of a tree's pictures, as shaders add what coarser ones spread; and where those have been looked at."""
 
 LEAST_WEIGHT = 1e-3
 """Weight of a corner in a row that it is moved for at least."""
@@ -47,6 +47,10 @@ class Around(NamedTuple):
     """How far out they are [of half their height]: of each picture to the left, and then to the right."""
 
 
+NOWHERE = Around((), [])
+"""Those about nothing."""
+
+
 def around(covers: Bytes, /) -> Around:
     """Return corners about what pictures (n, tall, wide) of a tree cover, with about as little area as they can have.
 
@@ -64,8 +68,25 @@ def around(covers: Bytes, /) -> Around:
         area = float(((lines[:, 1:] + lines[:, :-1]) * np.diff(high)).sum())
         if area < least:
             least, best, found = area, high, lines
-    told = np.minimum(found, 0.5 * wide) / (0.5 * tall)
-    return Around(tuple((2.0 * best / tall - 1.0).tolist()), [tuple(each) for each in told.tolist()])
+    return Around(tuple((2.0 * best / tall - 1.0).tolist()), _told(found, tall, wide))
+
+
+def core(covers: Bytes, least: float, whole: Around, /) -> Around:
+    """Return corners about what such pictures cover more than so much, as high as those about all that they show.
+
+    The depth of what is drawn follows from the heights of corners.
+    """
+    _, tall, wide = covers.shape
+    covered = covers > least
+    if not covered.any():
+        return NOWHERE
+    lines = _drawn_in(*_reaches(covered), 0.5 * tall * (1.0 + np.array(whole.high)))
+    return Around(whole.high, _told(lines, tall, wide))
+
+
+def _told(lines: Doubles, tall: int, wide: int) -> list[tuple[float, ...]]:
+    """Return lines [texels] of pictures as `reaches`."""
+    return [tuple(each) for each in (np.minimum(lines, 0.5 * wide) / (0.5 * tall)).tolist()]
 
 
 def _reaches(covered: Mask) -> tuple[Doubles, Doubles]:
@@ -98,15 +119,29 @@ def _drawn_in(rows: Doubles, reach: Doubles, high: Doubles) -> Doubles:
     return lines
 
 
-def outline(cover: Bytes, /) -> Doubles:
+def covered_at(covers: list[Bytes], least: float, /) -> Mask:
+    """Return where a picture (n, n) is covered more than so much at any of its sizes, read between texels, (n, n)."""
+    side = len(covers[0])
+    found = np.zeros((side, side), np.bool_)
+    for cover in covers:
+        at = ((np.arange(side) + 0.5) * len(cover) / side - 0.5).clip(0.0, len(cover) - 1.0)
+        first = at.astype(np.intp)
+        part, second = at - first, np.minimum(first + 1, len(cover) - 1)
+        rows = cover[first] * (1.0 - part[:, None]) + cover[second] * part[:, None]
+        found |= rows[:, first] * (1.0 - part) + rows[:, second] * part > least
+    return found
+
+
+def outline(covered: Mask, beyond: int = AROUND, /) -> Doubles:
     """Return the corners about what a picture (n, n) covers, left and right in turn, shape (2 CORNERS, 2).
 
-    They are across from -1 to 1, and up from 0 to 1, with about as little area as they can have.
+    They are across from -1 to 1, and up from 0 to 1, with about as little area as they can have, and so many texels
+    beyond it.
     """
-    side, covered = len(cover), cover > FAINTEST
+    side = len(covered)
     if not covered.any():
         return BOX
-    rows, left, right = _spans(covered)
+    rows, left, right = _spans(covered, beyond)
     corners = np.stack([_edge(rows, -left), _edge(rows, right)], axis=1)
     corners[:, 0, 0] *= -1.0
     corners[..., 0] = corners[..., 0] / side * 2.0 - 1.0
@@ -120,14 +155,14 @@ def pairs(corners: Doubles, /) -> list[tuple[float, float]]:
     return [(x, y) for x, y in corners.tolist()]
 
 
-def _spans(covered: Mask) -> tuple[Doubles, Doubles, Doubles]:
+def _spans(covered: Mask, beyond: int) -> tuple[Doubles, Doubles, Doubles]:
     """Return edges of rows about what is covered, and from where to where it goes there [texels]."""
     side, any_there = len(covered), covered.any(axis=1)
-    first = np.where(any_there, covered.argmax(axis=1), side) - AROUND
-    last = np.where(any_there, side - covered[:, ::-1].argmax(axis=1), 0) + AROUND
+    first = np.where(any_there, covered.argmax(axis=1), side) - beyond
+    last = np.where(any_there, side - covered[:, ::-1].argmax(axis=1), 0) + beyond
     rows = np.flatnonzero(any_there)
-    edges = np.unique(np.linspace(max(rows[0] - AROUND, 0), min(rows[-1] + 1 + AROUND, side), ROWS).astype(np.intp))
-    near = [slice(max(edge - 2 * AROUND, 0), min(edge + 2 * AROUND, side)) for edge in edges]
+    edges = np.unique(np.linspace(max(rows[0] - beyond, 0), min(rows[-1] + 1 + beyond, side), ROWS).astype(np.intp))
+    near = [slice(max(edge - 2 * beyond, 0), min(edge + 2 * beyond, side)) for edge in edges]
     left = np.array([first[part].min() for part in near], np.float64)
     right = np.array([last[part].max() for part in near], np.float64)
     return edges.astype(np.float64), left, right

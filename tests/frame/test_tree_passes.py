@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tallgrass import Prairie
+from tallgrass.engine.camera import Camera
 from tallgrass.systems.trees.call import Call
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.wood import CLOSED
@@ -27,7 +28,10 @@ light: { azimuth: 130, elevation: 40, haze: 1e6, clouds: 0 }
 )
 SIZE = 96
 FAR_OFF = looking(0.0, 2.0, 34.0, pitch=3.0, view=20.0)
+NEAR_BY = looking(0.0, 1.7, 6.0, pitch=4.0, view=50.0)
 NOTHING_IS_OPAQUE = 2.0
+LIKE = 8.0  # of 255
+FEW_PIXELS = 0.002  # corners lie elsewhere: what is read between them is rounded otherwise
 
 
 @pytest.fixture(scope="module")
@@ -97,3 +101,30 @@ def test_nothing_of_trees_is_made_in_a_scene_without_any(ctx: moderngl.Context, 
         assert "TREES" not in without.painter.block.defines
         made = vars(without.painter.part(TreePart))
         assert (made["_programs"], made["_shade"], made["_kinds"]) == (None, None, [])
+
+
+@pytest.mark.parametrize("camera", [FAR_OFF, NEAR_BY])
+def test_n6_what_covers_pixels_wholly_is_all_within_its_own_outline(
+    stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch, camera: Camera
+) -> None:
+    assert prairie.painter is not None
+    part = vars(prairie.painter.part(TreePart))
+    seen = stage.shot(prairie, camera)
+    for kind in part["_kinds"]:
+        assert area_of(kind.core) < area_of(kind.outline)
+        monkeypatch.setattr(kind, "core", kind.outline)
+        for model in kind.models:
+            assert np.mean(model.core.reaches) < np.mean(model.around.reaches)
+            monkeypatch.setattr(model, "core", model.around)
+    part["_calls"].clear()
+    apart = np.abs(np.asarray(stage.shot(prairie, camera), np.float64) - seen).max(axis=-1)
+    part["_calls"].clear()
+    assert (apart > LIKE).mean() <= FEW_PIXELS
+
+
+def area_of(corners: list[tuple[float, float]]) -> float:
+    """Return the area within an outline whose corners are left and right in turn."""
+    left, right = np.array(corners[::2]), np.array(corners[1::2])
+    around = np.concatenate([left, right[::-1]])
+    x, y = around.T
+    return abs(0.5 * float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum()))
