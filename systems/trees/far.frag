@@ -12,10 +12,7 @@ uniform sampler2DArray tree_met;  // how many leaves light has met, by direction
 #ifndef CAST
 uniform sampler2DArray tree_cards;  // in place of twigs' cards: noise that repeats
 #endif
-uniform float moment;
 uniform float lines;   // as far.vert has it
-
-vec2 sides = lines * vec2(1.0 / slim, 1.0);  // of its model's pictures, across and up [texels]
 
 in vec3 on;            // as far.vert has it
 flat in vec4 tiles;
@@ -31,12 +28,15 @@ flat in vec4 wooden;
 flat in vec4 skylit;
 flat in vec3 below;
 flat in vec3 hazy;
+flat in vec3 old_bark;
+flat in vec2 sides;
+flat in vec2 waves;
+flat in vec3 gives;
 #endif
 flat in vec4 told;
 
 out vec4 pixel;
 
-const vec2 SHIMMER_HERTZ = vec2(1.7, 1.3);  // how fast limbs swing, along and across a picture [Hz]
 const float SHIMMER_TURNS = 15.0;  // how much their swing changes over a crown [rad]
 const float HIDES_MOST = 0.96;  // of the sun's light, where leaves cover a texel wholly
 
@@ -56,14 +56,9 @@ void mix_pictures(vec2 at, vec2 parts, out vec4 texel, out vec4 shading) {
         }
 }
 
-// Where on it that is, each way from 0 to 1.
-vec2 on_picture() {
-    return 0.5 + 0.5 * vec2(slim, 1.0) * on.xy;
-}
-
 // A place on one that is nowhere its neighbours'.
 vec2 within(vec2 at) {
-    vec2 edge = TILE_EDGE / sides;
+    vec2 edge = TILE_EDGE / lines * vec2(slim, 1.0);
     return clamp(at, edge, 1.0 - edge);
 }
 
@@ -75,23 +70,22 @@ const vec2 LOWER = vec2(1.0, 0.35);  // how many times as high a picture is as o
 // Where a pixel is on the picture of its tree, of those that stand side by side.
 vec2 on_own() {
     if (row_told.x <= 1.0)
-        return on_picture();
-    vec2 at = 0.5 + 0.5 * on.xy;
-    float along = at.x * row_told.x, number = floor(along);
+        return on.xy;
+    float along = on.x * row_told.x, number = floor(along);
     vec3 own = fract(number * APART + told.x * ROWS_APART);
     float aside = (fract(along) - 0.5) * row_told.y * (own.z > 0.5 ? 1.0 : -1.0);
-    return vec2(0.5 + aside, at.y * (LOWER.x + LOWER.y * own.x));
+    return vec2(0.5 + aside, on.y * (LOWER.x + LOWER.y * own.x));
 }
 #else
 vec2 on_own() {
-    return on_picture();
+    return on.xy;
 }
 #endif
 
 #ifdef CAST
 void main() {
     vec4 texel, shading;
-    mix_pictures(within(on_picture()), mixed, texel, shading);
+    mix_pictures(within(0.5 + 0.5 * vec2(slim, 1.0) * on.xy), mixed, texel, shading);
     texel *= float(max(slim * abs(on.x), abs(on.y)) < 1.0);
     float leaves = -log(1.0 - HIDES_MOST * texel.a) * mix(1.0, foot.z, 1.0 - texel.g);
     vec2 inner = max(1.0 - dot(on.xy, on.xy) / vec2(shades.x * shades.x, foot.x * foot.x), 0.0);
@@ -101,25 +95,22 @@ void main() {
 #else
 // Where the wind has blown what a pixel shows of a picture.
 vec2 blown_from(vec2 at) {
-    vec2 waves = sin(AROUND * (SHIMMER_HERTZ * moment + told.x) + SHIMMER_TURNS * at.yx + vec2(0.0, 1.0));
+    vec2 aside = told.y * at.y * sin(waves + SHIMMER_TURNS * at.yx);
     float high = clamp(on.z, 0.0, 1.0);
-    at += vec2(slim, 1.0) * (told.y * at.y * waves + vec2(told.z * (high - cantilever(high)), 0.0));
-    return within(at);
+    aside.x += told.z * (high - cantilever(high));
+    return within(at + vec2(slim, 1.0) * aside);
 }
 
 const float CLUMP = 7.0;       // a clump of leaves across [texels]
 const mat2 CLUMPS = mat2(0.857, 0.515, -0.515, 0.857) / CLUMP;  // of noise over texels: they lie askew, cells two ways
 const float CLUMPS_FINER = log2(CLUMP / NOISE_FINER);  // levels by which texels of noise are larger than a picture's
 const float EVENLY = 1.6;      // how far noise is spread, whose values lie about the middle: as many clumps give way at each step
-const float GIVES_WAY = 0.25;  // part of the way from one picture to the next on which a clump of leaves gives way to another
-const float BLENDS = 2.0;      // how many times as much more that is on each level, until a pixel is many clumps
 
 // How much of the second picture a place shows: clumps of leaves give way one after another, as two views blended are a blur.
 vec2 clump_by_clump(vec2 at) {
-    vec2 cell = CLUMPS * (at * sides) + told.x * NOISE_CELLS;
-    float noise = textureLod(tree_cards, vec3(cell / NOISE_CELLS, 0.0), max(told.w - CLUMPS_FINER, 0.0)).r;
-    float turn = clamp(0.5 + EVENLY * (noise - 0.5), 0.0, 1.0), way = GIVES_WAY + GIVES_WAY * BLENDS * told.w;
-    return clamp(((1.0 + way) * mixed - turn) / way, 0.0, 1.0);
+    vec2 cell = CLUMPS / NOISE_CELLS * (at * sides) + told.x;
+    float noise = textureLod(tree_cards, vec3(cell, 0.0), max(told.w - CLUMPS_FINER, 0.0)).r;
+    return clamp(gives.xy - gives.z * clamp(0.5 - 0.5 * EVENLY + EVENLY * noise, 0.0, 1.0), 0.0, 1.0);
 }
 
 void main() {
@@ -135,6 +126,7 @@ void main() {
     vec3 sky = sky_on(skylit.rgb, below, open, skylit.a * (1.0 - wood));
     Light light = Light((sunlit.rgb + wooden.rgb * wood) * seen, sky, hazy, 0.0, 0.0, vec2(0.0));
     float aged = aged_at(wooden.a * texel.b / max(texel.g, LEAST_COVER));
-    pixel = drawn(shade(Surface(pigment_of(texel.r * whole, wood, aged), 1.0, AMONG_LEAVES), light), cover);
+    vec3 pigment = pigment_of(texel.r * whole, wood, mix(young_bark, old_bark, aged));
+    pixel = drawn(shade(Surface(pigment, 1.0, AMONG_LEAVES), light), cover);
 }
 #endif

@@ -32,9 +32,14 @@ flat out vec4 wooden;  // how much more its wood sends of that; how thick THICKE
 flat out vec4 skylit;  // the sky's light; and how far up what is seen of its leaves looks, -1 to 1
 flat out vec3 below;
 flat out vec3 hazy;
+flat out vec3 old_bark; // its pigment, in the mean
+flat out vec2 sides;   // of its pictures, across and up [texels]
+flat out vec2 waves;   // how its limbs swing just now, along and across its picture [rad]
+flat out vec3 gives;   // how far clumps of leaves have given way to those of the second, both ways, and by how much they do so apart
 #endif
 
-out vec3 on;           // where on its picture, of half its height, or across a row; and how high over its foot, of the tree's height
+out vec3 on;           // where on its picture, each way from 0 to 1, or across a row, with CAST of half its height; and how high over
+                       // its foot, of the tree's height
 flat out vec4 tiles;   // where on their texture the pictures begin that are mixed, the first and the second
 flat out vec2 mixed;   // how much of the second
 flat out vec4 told;    // what tells it from others; how far its limbs seem to swing, and how far aside its top is, of its picture; its level
@@ -44,6 +49,9 @@ const vec2 MIXES = vec2(0.3, 0.7);  // between which parts of the way from one p
 const float ASKEW_ROWS = 2.0;  // by how much of an angle rows of trees are turned from one another: else all would be parallel [rad]
 const float OVERHEAD = 0.999;  // sine of the elevation from which on a tree counts as seen from straight above
 
+const vec2 SHIMMER_HERTZ = vec2(1.7, 1.3);  // how fast limbs swing, along and across a picture [Hz]
+const float GIVES_WAY = 0.25;  // part of the way from one picture to the next on which a clump of leaves gives way to another
+const float BLENDS = 2.0;      // how many times as much more that is on each level, until a pixel is many clumps
 const float SHIMMER = 0.12;  // how far its limbs seem to swing, of how far they do, of a picture
 const float CAST_COARSER = 0.6;  // levels more for the map, which is read between texels: the mean of many leaves and none shades too much
 const float UPRIGHT_SENDS = 0.25;  // what an upright stem sends of level light from behind the eye, of what faces it, over half a turn [1/rad]
@@ -113,6 +121,16 @@ vec4 over_ground(vec3 seen_at, float under, float front) {
     return vec4(at.xy, nearer.z / nearer.w * at.w, at.w);
 }
 
+// What its pixels ask that is the same for all of them.
+void tell_pixels() {
+    float way = GIVES_WAY + GIVES_WAY * BLENDS * told.w;
+    gives = vec3((1.0 + way) * mixed, 1.0) / way;
+    waves = AROUND * (SHIMMER_HERTZ * moment + told.x) + vec2(0.0, 1.0);
+    sides = lines * vec2(1.0 / slim, 1.0);
+    old_bark = old_bark_mean();
+    on.xy = 0.5 + 0.5 * vec2(columns > 1.0 ? 1.0 : slim, 1.0) * on.xy;
+}
+
 // The crown is asked for its light in the middle of its sunny side.
 void light_up(vec3 middle_of, vec3 ray) {
     Light light = light_in_crown(middle_of, vec4(0.0), 1.0);
@@ -175,6 +193,7 @@ void main() {
     on.z = (seen_at.y - root.y) / (tall * scale);
     seen_at.xz += sways * (seen_at.y - root.y);  // its corners go along a line, and pixels from that to the trunk's
     light_up(middle_of, -to);
+    tell_pixels();
     gl_Position = just_behind(over_ground(seen_at, under, half_tall));
 #endif
 }

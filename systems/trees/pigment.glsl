@@ -12,7 +12,16 @@ float aged_at(float radius) {
     return clamp((radius - ripens.x) * ripens.y, 0.0, 1.0);
 }
 
-// The pigment of leaves, dark to bright, or of bark so old.
+// The pigment of old bark in the mean.
+vec3 old_bark_mean() {
+    return bark * bark_mean();
+}
+
+// The pigment of leaves, dark to bright, or of bark.
+vec3 pigment_of(float tone, float wood, vec3 on_stem) {
+    return mix(mix(dark, bright, tone), on_stem, wood);
+}
+
 vec3 pigment_of(float tone, float wood, float aged) {
-    return mix(mix(dark, bright, tone), mix(young_bark, bark * bark_mean(), aged), wood);
+    return pigment_of(tone, wood, mix(young_bark, old_bark_mean(), aged));
 }

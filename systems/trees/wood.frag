@@ -8,12 +8,15 @@ uniform sampler2DArray tree_cards;  // in place of twigs' cards: noise that repe
 in vec2 on_skin;
 in vec3 facing;
 in vec3 seen_at;
-in vec3 sunlit;
-in vec3 skylit;
-in vec3 hazy;
-in float thick;
+#ifdef BAKED
 in vec4 inside;
-in float rounds;
+#else
+in vec3 from_sun;
+in vec3 from_sky;
+flat in vec3 hazy;
+#endif
+in float thick;
+flat in float rounds;
 in vec2 fading;
 in float aged;
 in float stands;
@@ -49,9 +52,9 @@ float soiled_at(float height) {
 }
 
 #ifdef SOFT
-// The bark's pigment in the mean: what is drawn in part are thin stems, and edges a pixel wide.
+// How bright the bark is there, of its mean.
 float bark_there() {
-    return soiled_at(stands) * mix(1.0, bark_mean(), aged);
+    return soiled_at(stands);
 }
 #else
 float noise(vec2 at) {
@@ -71,7 +74,7 @@ float furrowed_at(vec2 on, float broad) {
     return mix(1.0, RIDGES.x + RIDGES.y * (DEEP * furrows + (1.0 - DEEP) * cracks), rough);
 }
 
-// The bark's pigment there, of its own: furrows along an old stem, or dark bands across it.
+// How bright the bark is there, of its ground: furrows along an old stem, or dark bands across it.
 float bark_there() {
     float fades = clamp(FINEST_BARK.x - FINEST_BARK.y * max(fwidth(on_skin.x), fwidth(on_skin.y)), 0.0, 1.0);
     float broad = noise(on_skin * (rough < 0.0 ? BANDED.z : WINDINGS));
@@ -95,8 +98,9 @@ void main() {
     vec3 ray = normalize(seen_at - eye);
     float cover = thick * edge_cover(ray);
     must_cover(cover);
-    vec3 normal = normalize(facing - ray * (rounds * sqrt(max(1.0 - dot(facing, facing), 0.0))));
-    Light light = Light(sunlit * (SENDS * max(dot(normal, sun), 0.0)), skylit, hazy, 0.0, among_grass.y, vec2(0.0, among_grass.x));
-    pixel = drawn(shade(Surface(mix(young_bark, bark, aged) * worn, stands, 0.0), light), cover);
+    vec3 out_to = facing - ray * (rounds * sqrt(max(1.0 - dot(facing, facing), 0.0)));
+    float lit = max(dot(out_to, sun), 0.0) * inversesqrt(dot(out_to, out_to));
+    vec2 seen = comes_through(vec2(among_grass.y, OPEN_SKY) * leaves_above(stands, vec2(0.0, among_grass.x)));
+    pixel = drawn(worn * worn * (from_sun * (lit * seen.x) + from_sky * seen.y) + hazy, cover);
 #endif
 }

@@ -3,6 +3,7 @@
 #include "systems/trees/tree.glsl"
 #include "systems/trees/behind.glsl"
 #include "systems/trees/far.py"
+#include "systems/trees/leaf_sends.glsl"
 #include "systems/trees/pigment.glsl"
 #include "systems/trees/wood.py"
 
@@ -20,12 +21,15 @@ uniform mat4 baked;
 out vec2 on_skin;
 out vec3 facing;
 out vec3 seen_at;
-out vec3 sunlit;
-out vec3 skylit;
-out vec3 hazy;
-out float thick;  // coverage
+#ifdef BAKED
 out vec4 inside;
-out float rounds; // how much it is a ribbon, which looks as if it were round
+#else
+out vec3 from_sun;  // of the sun's light, what bark in the mean sends that faces it, and of the sky's; above the grass
+out vec3 from_sky;
+flat out vec3 hazy;
+#endif
+out float thick;  // coverage
+flat out float rounds; // how much it is a ribbon, which looks as if it were round
 out vec2 fading;  // how much its edges fade; how far out they are, of where they would end
 out float aged;   // how old its bark is, 0 to 1; or how thick the stem is, of THICKEST
 out float stands; // how high over the ground, of the grass there
@@ -43,8 +47,8 @@ vec3 aside_of(vec3 middle_at) {
 
 void main() {
     on_skin = own.xy;
-    inside = shading;
 #ifdef BAKED
+    inside = shading;
     facing = 2.0 * side.xyz - 1.0;
     rounds = 0.0;
     seen_at = stem.xyz + stem.w * facing;
@@ -52,7 +56,6 @@ void main() {
     aged = stem.w / THICKEST;
     fading = vec2(0.0, 1.0);
     among_grass = vec2(0.0);
-    sunlit = skylit = hazy = vec3(0.0);
     gl_Position = baked * vec4(seen_at, 1.0);
 #else
     vec3 middle_at = swayed(stem.xyz, pivot, own.z, own.w, message);
@@ -69,8 +72,12 @@ void main() {
     stands = (seen_at.y - root.y) / stands_in.x;
     among_grass = stands_in.yz;
     Light light = light_in_crown(seen_at, shading, facing.y);
-    sunlit = light.sun;
-    skylit = light.sky;
+    vec3 pigment = mix(young_bark, bark, aged);
+#ifdef SOFT
+    pigment *= mix(1.0, bark_mean(), aged);  // what is drawn in part are thin stems, and edges a pixel wide
+#endif
+    from_sun = SENDS * pigment * pigment * light.sun;
+    from_sky = pigment * pigment * light.sky;
     hazy = light.haze;
     gl_Position = just_behind(clip * vec4(seen_at, 1.0));
 #endif
