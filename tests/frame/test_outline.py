@@ -140,25 +140,33 @@ def test_x5_strips_grow_out_of_the_ground(story: Story) -> None:
 
 
 SCENES = Path(__file__).parents[2] / "scenes"
+HIGHER = 28.3
+"""How far above where they are looked at grass behind a crest is seen [m]."""
+
 BESIDE = 25.6
 """How far to the right of where the bundled hills are looked at their far hillside falls off [degrees]."""
 
 
 @pytest.fixture(scope="module")
-def hillside(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Doubles, Doubles]]:
-    """A hillside against the sky, on which strips give way to the carpet: as it is drawn, and every blade of it."""
+def hills(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Prairie]:
     scene: Path = tmp_path_factory.mktemp("hills") / "hills.yaml"
     scene.write_text((SCENES / "hills.yaml").read_text("utf-8").replace("quality: high", QUALITY), "utf-8")
+    prairie = Prairie.load(scene, ctx=ctx, live=False)
+    prairie.advance(MOMENT)
+    yield prairie
+    prairie.release()
+
+
+@pytest.fixture(scope="module")
+def hillside(ctx: moderngl.Context, hills: Prairie) -> Iterator[tuple[Doubles, Doubles]]:
+    """A hillside against the sky, on which strips give way to the carpet: as it is drawn, and every blade of it."""
     with testing.stage(ctx, (160, 450)) as stage:
-        prairie = Prairie.load(scene, ctx=ctx, live=False)
-        prairie.advance(MOMENT)
-        camera = camera_at(prairie.scene.camera, None, prairie.height_at)
+        camera = camera_at(hills.scene.camera, None, hills.height_at)
         view, projection = stage.matrices(replace(camera, yaw=camera.yaw + np.radians(BESIDE)))
         stage.begin()
-        prairie.draw(view, projection)
+        hills.draw(view, projection)
         seen = stage.read()
-        yield seen, draw_truth(prairie, view, projection, (160, 450), samples=4).picture.astype(np.float64)
-        prairie.release()
+        yield seen, draw_truth(hills, view, projection, (160, 450), samples=4).picture.astype(np.float64)
 
 
 def hidden(picture: Doubles) -> Doubles:
@@ -186,6 +194,15 @@ def test_x5_an_outline_is_as_rough_as_that_of_every_blade(hillside: tuple[Double
 def test_g5_no_line_shows_where_strips_give_way_to_the_carpet_on_a_hillside(hillside: tuple[Doubles, Doubles]) -> None:
     below = [picture[190:260, 40:80].mean(axis=(1, 2)).reshape(-1, 5).mean(axis=1) for picture in hillside]
     assert np.abs(below[0] / below[1] - 1.0).max() < 0.06
+
+
+def test_x5_no_dark_dashes_lie_along_a_crest_before_the_same_tile(ctx: moderngl.Context, hills: Prairie) -> None:
+    """Looking to +x, where a tile's nearer triangles would be drawn first."""
+    at = camera_at(hills.scene.camera, None, hills.height_at).position
+    with testing.stage(ctx, (160, 40)) as stage:
+        seen = stage.shot(hills, Camera((at[0], at[1] + HIGHER, at[2]), *np.radians([105.0, -8.5, 2.96]).tolist()))
+    rows = seen[..., 1].reshape(40, 16, 10).mean(axis=2)
+    assert (rows[2:-2] / np.minimum(rows[:-4], rows[4:])).min() > 0.88
 
 
 def test_x5_no_light_line_parts_strips_from_the_crest_they_stand_behind(ctx: moderngl.Context) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Floats
+from ....components.viewer import Viewer
 from ....engine.gl.functions import NUMBERS, functions_of
 from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.rasteriser import anisotropy
@@ -18,7 +19,7 @@ from ...frame.block import EVERYWHERE, FrameBlock, joined
 from .layer import BARE, EDGED, EDGED_CARPET, EVEN, UNDER, GroundShelf, Layer
 from .stock import CarpetStock
 from .textures import image_count
-from .tiles import TILE, hanging_grid, tile_grid
+from .tiles import TILE, hanging_grid, in_orders, order_toward, tile_grid
 
 Defines = dict[str, str | int]
 """What a program is told."""
@@ -68,10 +69,9 @@ class GroundPainter:
         self.units, self._side = units, side
         self._ctx, self.rims = ctx, ctx.texture((1, 1), 1, dtype="f4")
         self._coarser = COARSER if coarse else 1
-        self.grid = ctx.buffer(tile_grid()[0]), *(ctx.buffer(tile_grid(wider)[1]) for wider in (1, COARSER))
-        self.hanging = (
-            ctx.buffer(hanging_grid()[0]),
-            *(ctx.buffer(hanging_grid(wider)[1]) for wider in (1, COARSER)),
+        self.grid, self.hanging = (
+            (ctx.buffer(make()[0]), *(ctx.buffer(in_orders(*make(wider))) for wider in (1, COARSER)))
+            for make in (tile_grid, hanging_grid)
         )
         self.shelves = Shelves(partial(GroundShelf, ctx, side))
         self.bare: list[Layer] = []
@@ -235,9 +235,10 @@ class GroundPainter:
         shelf.shares.write(shares)
         shelf.shown = shares
 
-    def look_from(self, centre: NDArray[np.int32], *, beyond: float) -> None:
-        """Take over the viewer's cell, and how much carpet shows `beyond` the patches around it."""
-        self._block.record["carpet_window"] = *centre, self._side // 2, beyond
+    def look_from(self, viewer: Viewer, *, beyond: float) -> None:
+        """Take over the viewer's cell and where it looks, and how much carpet shows `beyond` the patches around it."""
+        self.shelves.now.order = order_toward(viewer.cone[0])
+        self._block.record["carpet_window"] = *viewer.centre, self._side // 2, beyond
         self._block.record["windows_a_patch"] = 1.0 / self._side
 
     def use(self) -> None:

@@ -7,7 +7,7 @@ import moderngl
 from ....engine.gl.shaders import Texts, tell
 from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import Stream, release_all
-from .tiles import TILE
+from .tiles import ORDERS, TILE
 
 BARE, EVEN, EDGED, EDGED_CARPET, UNDER = STREAMS = range(5)
 """What tiles are parted into, as `by_layer` has them, and once more those of the even carpet: near to far.
@@ -27,6 +27,8 @@ class GroundShelf:
         """What draws the tiles of a stream as a layer does, with corners so far apart, once it is asked for."""
         self.wider = 1
         """How many times as far apart points of the mesh are as tiles say."""
+        self.order = 0
+        """The order in which each tile's triangles are drawn, as `order_toward` has it."""
         self.tiles: object = None
         self.shown: object = None
         """What was sent last."""
@@ -89,5 +91,7 @@ class Layer:
         program, told["wider"] = self.program, shelf.wider
         for name, value in told.items():
             tell(program, name, value)
-        self._array(stream, shelf.wider).render(moderngl.TRIANGLES, instances=count)
+        array = self._array(stream, shelf.wider)
+        corners = array.vertices // ORDERS
+        array.render(moderngl.TRIANGLES, corners, first=shelf.order * corners, instances=count)
         return 1

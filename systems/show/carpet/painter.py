@@ -188,7 +188,7 @@ class CarpetPainter(RepresentationPainter):
         shares = self._laid.of(viewer.name, laid, partial(_shares, patches, cover))
         if shares is not shelf.shown:
             self.ground.write_shares(shares)
-        self.ground.look_from(viewer.centre, beyond=float(cover is not None))
+        self.ground.look_from(viewer, beyond=float(cover is not None))
 
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Write the depth at which grass stops light from a place [m]; return the number of draw calls."""
@@ -251,7 +251,7 @@ class CarpetPainter(RepresentationPainter):
         self.ground.write(by_layer(tiles, np.ones(len(tiles), np.bool_), np.zeros(len(tiles), np.bool_)))
         everywhere = np.full(len(outlook.patches.progress), 255, np.uint8)
         self.ground.write_shares(everywhere)
-        self.ground.look_from(outlook.viewer.centre, beyond=1.0)
+        self.ground.look_from(viewer, beyond=1.0)
         self.ground.raise_carpet(height)
 
     def lay_as_always(self) -> None:

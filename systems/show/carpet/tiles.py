@@ -1,5 +1,7 @@
 """Square tiles of the ground, coarser with distance: which there are, are seen, and are drawn by each layer."""
 
+from math import cos, sin
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -26,6 +28,9 @@ that is split must lie inside it."""
 
 OUTWARD = np.array([False, True, True, False])
 """Of the sides of a border, to low z, high z, low x and high x: whether triangles down from it look out of the tile."""
+
+ORDERS = 8
+"""Orders in which the triangles of a tile are drawn."""
 
 GLSL = {"PARTED": 1.5 * SPREAD * GRID, "GRID": float(GRID)}
 """How far tiles reach at least, of their spacing, that are a quarter of one."""
@@ -172,6 +177,26 @@ def hanging_grid(wider: int = 1, /) -> tuple[NDArray[np.float32], NDArray[np.int
     first, other = np.where(OUTWARD[:, None], upper, lower), np.where(OUTWARD[:, None], lower, upper)
     hangs = np.stack([first, other, first + wider, first + wider, other, other + wider], axis=-1).reshape(-1, 6)
     return np.concatenate([corners, *beyond]).astype(np.float32), np.concatenate([quads, hangs]).astype(np.int32)
+
+
+def in_orders(corners: NDArray[np.float32], triangles: NDArray[np.int32], /) -> NDArray[np.int32]:
+    """Return triangles (m, 6) of a tile in each order that `order_toward` may choose, (ORDERS * m, 6).
+
+    Over a crest a carpet lets through what is behind, but writes its depth: so that has to be drawn before.
+    """
+    x, z = corners[triangles].mean(axis=1).T
+    keys = [(x * (1 - 2 * (number & 1)), z * (1 - (number & 2))) for number in range(ORDERS)]
+    queues = (np.lexsort(key if number < ORDERS // 2 else key[::-1]) for number, key in enumerate(keys))
+    return np.concatenate([triangles[queue] for queue in queues])
+
+
+def order_toward(azimuth: float, /) -> int:
+    """Return which of `in_orders` goes from far to near for who looks that way [rad]: first along the nearer axis.
+
+    With bit 0 it is by x downwards, with bit 1 by z downwards, and with bit 2 by x first.
+    """
+    right, back = sin(azimuth), -cos(azimuth)
+    return (right > 0.0) + 2 * (back > 0.0) + 4 * (abs(right) > abs(back))
 
 
 def by_layer(tiles: NDArray[np.void], laid: Mask, edged: Mask, /) -> list[NDArray[np.void]]:

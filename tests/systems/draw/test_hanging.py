@@ -1,9 +1,9 @@
-"""Borders of the carpet's tiles that hang down to the ground (F4)."""
+"""Borders of the carpet's tiles that hang down to the ground, and orders of their triangles (F4)."""
 
 import numpy as np
 import pytest
 
-from tallgrass.systems.show.carpet.tiles import GRID, hanging_grid, tile_grid
+from tallgrass.systems.show.carpet.tiles import GRID, ORDERS, hanging_grid, in_orders, order_toward, tile_grid
 
 
 @pytest.mark.parametrize("wider", [1, 2])
@@ -20,3 +20,17 @@ def test_triangles_of_a_border_look_out_of_the_tile_on_all_sides_as_those_of_the
     seen_from = np.abs(outwards) > GRID / 2.0 - 1e-3
     assert (seen_from.sum(axis=1) == 1).all()
     assert ((sides[sheet:, ::2] * outwards)[seen_from] > 0.0).all()
+
+
+@pytest.mark.parametrize("degrees", range(10, 360, 20))
+def test_of_a_tile_what_is_farther_off_is_drawn_before_what_is_nearer(degrees: int) -> None:
+    corners, quads = tile_grid()
+    order = in_orders(corners, quads).reshape(ORDERS, *quads.shape)[order_toward(np.radians(degrees))]
+    heading = np.array([np.sin(np.radians(degrees)), -np.cos(np.radians(degrees))])
+    main = int(np.abs(heading).argmax())
+    middle = corners[order].mean(axis=1)
+    far = middle * np.sign(heading)
+    assert (np.diff(far[:, main]) <= 0.0).all()
+    same = np.diff(far[:, main]) == 0.0
+    assert (np.diff(far[:, 1 - main])[same] < 0.0).all()
+    assert sorted(map(tuple, order)) == sorted(map(tuple, quads))
