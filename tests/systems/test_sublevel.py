@@ -107,6 +107,19 @@ def test_n2_what_is_left_of_strips_does_not_jump_where_the_eye_crosses_a_border(
     np.testing.assert_array_equal(kept[0], kept[1])
 
 
+def test_g3_a_long_lens_shows_rows_of_strips_only_where_blades_look_as_thin(laid: Laid, look: Look) -> None:
+    bowl = 0.012 * (40.0 - np.arange(81.0)[:, None]) ** 2
+    site = laid(terrain=Terrain(np.tile(bowl, 81).astype(np.float32), 1.0))
+    outlook, strips = look(site, 0.6, 0.6), site.representations[1]
+    rows = np.flatnonzero(outlook.patches.alive & (outlook.patches.distance > APART))
+    away, none = outlook.patches.away[rows].astype(np.float32), np.zeros(len(rows), np.bool_)
+    usual, rowed = strips.left(outlook, rows, away), strips.unfit(outlook, rows, none, slack=0)
+    outlook.lens.zoom = 3.0
+    np.testing.assert_array_equal(strips.left(outlook, rows, 3.0 * away), usual)
+    assert strips.left(outlook, rows, away).mean() > usual.mean() + 0.1
+    assert strips.unfit(outlook, rows, none, slack=0).sum() < 0.5 * rowed.sum()
+
+
 def test_g3_on_a_hillside_strips_are_finer_where_a_strong_wind_bends_the_grass(laid: Laid, look: Look) -> None:
     bowl = 0.004 * (40.0 - np.arange(81.0)[:, None]) ** 2
     site = laid(terrain=Terrain(np.tile(bowl, 81).astype(np.float32), 1.0))

@@ -163,18 +163,20 @@ class StripRepresentation(Representation):
 
     def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:
         """Return which patches (n,) are seen from so high that strips would show as rows, however fine."""
-        away = outlook.patches.away[rows]
+        away = outlook.patches.away[rows].astype(np.float32) / np.float32(outlook.lens.factor)
         slope, height, spacing = self._seen(outlook, rows, away)
         return shows_rows(slope, away, has, height=height, spacing=spacing, slack=slack)
 
     def left(self, outlook: Outlook, rows: Rows, away: Floats, /) -> Floats:
         """Return how much of strips is left on patches (n,): they sink where they come near to being unfit."""
+        away = away / np.float32(outlook.lens.factor)
         slope, height, spacing = self._seen(outlook, rows, away)
         return left_of(slope, away, height=height, spacing=spacing)
 
     def _seen(self, outlook: Outlook, rows: Rows, away: Floats | NDArray[np.int32], /) -> tuple[Floats, Floats, float]:
         """Return as how steep patches (n,) count, how high strips stand there, and how far apart the finest do.
 
+        A patch is as far `away` as one that is seen as large without a long lens: rows show by how thin blades look.
         Where all of a patch is mown short, the strips are as short.
         """
         patches, side = outlook.patches, self.quality.patch

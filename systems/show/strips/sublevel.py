@@ -58,7 +58,7 @@ def strip_ring(
 
 
 def shows_rows(
-    slope: Floats, distance: Ints, has: Mask, /, *, height: Floats | float, spacing: float, slack: int
+    slope: Floats, distance: Ints | Floats, has: Mask, /, *, height: Floats | float, spacing: float, slack: int
 ) -> Mask:
     """Return on which patches (n,) the finest strips would show as rows, seen at these slopes and distances.
 
