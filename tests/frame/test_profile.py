@@ -29,6 +29,19 @@ quality:
   carpet_to: 16
   carpet: 64
 """
+NEAR = """\
+tallgrass: 2
+seed: 3
+terrain: {{ noise: flat, size: [20, 20] }}
+grass: {{ reed: {{ profile: {profile}, height: [0.5, 0.6], width: 0.05, blades: 700, lean: 0.1 }} }}
+light: {{ elevation: 50 }}
+quality:
+  models: 2
+  blade_rings: [{{ to: 2, segments: 3 }}]
+  strip_rings: [{{ to: 4, strips: 4, texel: 0.012 }}]
+  carpet_to: 6
+  carpet: 64
+"""
 CAMERA = Camera((0.0, 0.12, 8.0), 0.0, 0.0, np.radians(11.0))
 FACES = np.radians([0.0, 30.0, 60.0, 80.0])
 
@@ -94,6 +107,24 @@ def test_the_two_faces_of_a_fold_are_lit_apart_with_an_edge_between_them(room: S
         picture = room.shot(load(SCENE.format(profile=profile)), seen).mean(axis=2)[60:]
         steps.append(np.abs(np.diff(picture, axis=1)).mean())
     assert steps[1] > 1.1 * steps[0]
+
+
+@pytest.mark.parametrize("profile", ["rush", "fold"])
+def test_blades_just_before_the_eye_hide_and_shine_as_those_of_the_reference(
+    ctx: moderngl.Context, load: Load, profile: str
+) -> None:
+    """Some reach behind the eye: they are as opaque as others, and lit on the side that is to the sun."""
+    size, apart, unlike = (96, 54), [], 0
+    prairie, room = load(NEAR.format(profile=profile)), Stage(ctx, size)
+    for x, z, yaw in ((-0.9, 0.1, 0.0), (-0.76, 0.13, 1.0), (-0.21, 0.25, 5.0)):
+        camera = Camera((x, 0.3, z), yaw, np.radians(20.0), np.radians(60.0))
+        seen = room.shot(prairie, camera).astype(np.float64)
+        truth = draw_truth(prairie, *room.matrices(camera), size, samples=2).picture.astype(np.float64)
+        unlike += int((np.abs((seen - truth) @ (0.0, -1.0, 1.0)) > 70.0).sum())  # sky in place of leaf, or leaf of sky
+        apart.append(np.abs(seen - truth).mean())
+    room.release()
+    assert unlike < 200
+    assert np.mean(apart) < 9.5
 
 
 @pytest.mark.slow

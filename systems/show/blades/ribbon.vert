@@ -108,8 +108,15 @@ const float SMALL = 4.0;  // length up to which what stands on the tip of a stem
 #endif
 
 #ifdef SOFT
-// Move a point aside on the screen, so that the ribbon reaches half a pixel beyond its edge.
-vec4 widened(Point point, float t) {
+// Whether the `side` of a ribbon that a point is on is seen on the other side of its line, where that runs upwards on the screen.
+bool is_turned(Point point, float side) {
+    vec3 across = vec3(clip[0].x, clip[1].x, clip[2].x), up = vec3(clip[0].y, clip[1].y, clip[2].y), ahead = vec3(clip[0].w, clip[1].w, clip[2].w);
+    float face = dot(cross(point.tangent, vec3(point.across.x, 0.0, point.across.y)), point.place - eye);
+    return side * face * dot(cross(across, up), ahead) < 0.0;  // in a mirror the other way round
+}
+
+// Move a point to one side, -1 or 1, on the screen, so that the ribbon reaches half a pixel beyond its edge.
+vec4 widened(Point point, float t, float to) {
     vec4 middle = clip * vec4(point.place, 1.0);
 #ifdef ORGANS
     onward = 0.0;
@@ -117,7 +124,8 @@ vec4 widened(Point point, float t) {
 #endif
     vec4 edge = clip * vec4(point.across.x, 0.0, point.across.y, 0.0);
     if (middle.w < NEAREST) {
-        aside = half_width = UNEDGED;
+        half_width = UNEDGED;
+        aside = (half_width - 0.5) * to;  // its edges are not soft, and it covers all between
         return middle + edge;
     }
     vec3 along = point.tangent;
@@ -131,7 +139,7 @@ vec4 widened(Point point, float t) {
     vec2 wide = (edge.xy * middle.w - middle.xy * edge.w) * half_screen / (middle.w * middle.w);
     vec2 normal = vec2(-run.y, run.x) / max(length(run), LEAST_SQUARE);
     half_width = abs(dot(wide, normal));
-    aside = (half_width + 0.5) * (gl_VertexID % 2 == 0 ? -1.0 : 1.0);
+    aside = (half_width + 0.5) * to;
     middle.xy += normal * aside / half_screen * middle.w;
 #ifdef ORGANS
     if (is_small) {
@@ -261,10 +269,19 @@ void main() {
     Light reaches = unbundled(lit);
     if (any_casters())
         reaches = shaded(reaches, past_casters(point.place), 1.0 - fract(joints.z));
-    vec3 pigment = mix(low.rgb, high.rgb, t), light = shade(leaf_at(pigment * (1.0 + side * told_beside(lit)), high_up), reaches);
+    float face = side, to = side;  // whose light it has, and to which side of its line it is moved
+#ifdef SOFT
+    // Far off, points are moved to both sides by turns, or a ribbon would be twisted where it is seen edge-on.
+    if (is_turned(point, side)) {
+        bool is_near = distance(foot.xyz, eye) < foot.w + NEAREST;
+        face = is_near ? side : -side;
+        to = is_near ? -side : side;
+    }
+#endif
+    vec3 pigment = mix(low.rgb, high.rgb, t), light = shade(leaf_at(pigment * (1.0 + face * told_beside(lit)), high_up), reaches);
 #ifdef FOLDS
     bool is_folded = is_blade(int(stands.z)) && kinds[k].apart > 0.0 && kinds[k].narrowed > 0.0;
-    keel = is_folded ? side * (shown_of(light) - shown_of(shade(leaf_at(pigment, high_up), reaches))) : vec3(0.0);
+    keel = is_folded ? to * (shown_of(light) - shown_of(shade(leaf_at(pigment, high_up), reaches))) : vec3(0.0);
 #endif
 #ifdef MORPH
     bring(point, light, t, k);
@@ -277,7 +294,7 @@ void main() {
     number = number_at(foot.xz);
 #endif
 #ifdef SOFT
-    gl_Position = widened(point, t);
+    gl_Position = widened(point, t, to);
 #else
     gl_Position = clip * vec4(point.place.x + point.across.x, point.place.y, point.place.z + point.across.y, 1.0);
 #endif
