@@ -11,6 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...components.arrays import Doubles
+from .repeating import BILLOWS, CLOUDS_SIDE
 
 CLOUDS_AT = 450.0
 """How high above the eye their undersides are [m]."""
@@ -18,8 +19,13 @@ CLOUDS_AT = 450.0
 BENT = 0.12
 """How they bend down: at this sine of elevation a level layer of them would be half as far off as without."""
 
-RISE, SLICES = 160.0, (0.0, 0.5, 1.0)
-"""How far their tops are above their bases [m]; and how high the slices are, of that: bases, sides and tops."""
+CONNECTED = 0.17
+"""Sine of the elevation down to which slices look like one cloud."""
+
+RISE, SLICES = 2.0 * CLOUDS_SIDE / BILLOWS * (CONNECTED + BENT), (0.0, 0.5, 1.0)
+"""How far their tops are above their bases [m]; and how high the slices are, of that: bases, sides and tops.
+
+Seen ten degrees up, a slice lies no farther behind the one below than a heap is wide."""
 
 STEP = 0.12
 """How much denser the map is where a cloud is as high as that, of its range from 0 to 1."""

@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 from tallgrass.engine.camera import forward
 from tallgrass.engine.declared.light import Light
 from tallgrass.systems.light.air import EYE, GROUND, from_all_sides, seen, sunlight
+from tallgrass.systems.light.clouds import BENT, RISE, SLICES
 from tallgrass.systems.light.color import display, luminance
 from tallgrass.systems.light.daylight import daylight
-from tallgrass.systems.light.repeating import SIDE, cloud_map
+from tallgrass.systems.light.repeating import CLOUDS_SIDE, SIDE, cloud_map
 from tallgrass.systems.light.sky import BRIGHTER, COLUMNS, NIGHT, ROWS, SUN, Sky, clear_air, scattered, sky_of
 from tallgrass.systems.light.sun import sun_at, to_sun, transmitted
 
@@ -150,3 +151,10 @@ def test_clouds_are_of_heaps_and_as_many_as_a_scene_says() -> None:
     around = sum(np.roll(dense, way * apart, axis) for way in (-1, 1) for axis in (0, 1)) / 4.0
     half = (dense > 60.0) & (dense < 200.0)
     assert (around - dense)[half].std() > 6.0  # 3.5 without heaps
+
+
+def test_twenty_degrees_up_a_slice_of_clouds_still_looks_like_the_one_below() -> None:
+    dense = cloud_map(seed=3) - 127.5
+    behind = round(RISE * (SLICES[1] - SLICES[0]) / (0.34 + BENT) / CLOUDS_SIDE * SIDE)
+    alike = [(dense * np.roll(dense, behind, axis)).mean() / dense.var() for axis in (0, 1)]
+    assert np.mean(alike) > 0.35  # 0.16 where tops are 160 m above the bases: flat layers of their own
