@@ -144,12 +144,11 @@ def test_a_software_rasteriser_has_no_card_to_time(renderer: str, monkeypatch: p
     ctx.query.assert_not_called()
 
 
-@pytest.mark.usefixtures("few_frames")
 def test_a_graphics_card_is_timed_by_its_own_clock(
     ctx: moderngl.Context, scene: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(rasteriser, "SOFTWARE", ("none such",))
-    assert card_timer(ctx) is not None
+    monkeypatch.setattr("tallgrass.app.bench.still.WARM_UP", 1)
     with Studio(Take(str(scene), (96, 54))) as studio:
         still, timer = Still(studio), card_timer(ctx)
         assert timer is not None
