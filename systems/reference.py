@@ -1,6 +1,6 @@
 """The truth to compare with: every blade in 3D at the finest level, supersampled."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -31,9 +31,6 @@ from .wind.grass import grass_of
 Place = tuple[float, float, float]
 ROOM = 1.5
 """How far a blade may reach from its root, in its own lengths: more than it can be bent and leaned to."""
-
-LOWER = 1.5
-"""How many times lower than `GONE` a tree is in the picture that does not come near a change of what is shown of it."""
 
 CHUNK = 400
 """Patches drawn at a time in a reference, so that a large terrain needs no large buffers."""
@@ -131,11 +128,20 @@ class EveryBlade:
         self.outlook: Outlook = prairie.viewers["main"]
         self.blades = self.painter.blade_painter(prairie.site.finest)
 
-    def draw(self, view: View, cells: Ints, *, reach: int | None = None, leaves_from: float = 0.0) -> None:
+    def draw(
+        self,
+        view: View,
+        cells: Ints,
+        *,
+        reach: int | None = None,
+        leaves_from: float = 0.0,
+        seen_at: Sequence[Place] = (),
+    ) -> None:
         """Draw sky, ground, all trees and all blades of `cells` (n, 2) into the framebuffer that is bound.
 
         With `reach` only blades up to this discrete distance are drawn; beyond them lies the prairie's own carpet.
-        Trees lower than `leaves_from` are drawn as the prairie has them far off [pixels].
+        Trees that are no higher than `leaves_from` from any place of `seen_at` are drawn as the prairie has them far
+        off [pixels, m]; without those, from the viewer's.
         """
         cover = None
         if reach is not None:
@@ -146,11 +152,11 @@ class EveryBlade:
         cells = cells[self.prairie.clearings.spare(cells)]
         carpet_painter(self.painter).lay(self.outlook, cover)
         trees = self.painter.part(TreePart)
-        trees.leaves_from = leaves_from
+        trees.leaves_from, trees.leaves_seen_at = leaves_from, seen_at
         try:
             self.painter.draw(view, blades=self._chunks(cells, view))
         finally:
-            trees.leaves_from = None
+            trees.leaves_from, trees.leaves_seen_at = None, ()
 
     def _chunks(self, cells: Ints, seen: View) -> Iterator[BladePainter]:
         for start in range(0, len(cells), CHUNK):
@@ -226,13 +232,14 @@ def draw_truth(
     *,
     samples: int = 4,
     reach: int | None = None,
+    seen_at: Sequence[Place] = (),
 ) -> Truth:
     """Return the reference picture of a prairie that has been drawn, and how sure it is.
 
     Each pixel is the mean of `samples` by `samples` of a larger picture, in display space as blending is. With
     `reach`, blades stand only up to this discrete distance, and beyond it lies the carpet that the prairie draws; trees
-    that are far too low in the picture to change are as the prairie draws them far off. The matrices may show a part of
-    what the prairie was drawn with, as those of `cropped` do.
+    that the prairie draws as they are far off, from here or from every place of `seen_at` [m], are drawn so. The
+    matrices may show a part of what the prairie was drawn with, as those of `cropped` do.
     """
     seen = view_of(view, projection)
     every = EveryBlade(prairie)
@@ -248,8 +255,9 @@ def draw_truth(
         target.clear(depth=1.0)
         site = prairie.site
         cells = cells_within(site.ground, every.outlook.viewer.eye, view_cone(seen), sway=site.sway)
-        leaves_from = 0.0 if reach is None else samples * GONE / LOWER
-        every.draw(seen, cells_in_picture(prairie, cells, seen), reach=reach, leaves_from=leaves_from)
+        leaves_from = 0.0 if reach is None else samples * GONE
+        cells = cells_in_picture(prairie, cells, seen)
+        every.draw(seen, cells, reach=reach, leaves_from=leaves_from, seen_at=seen_at)
         return box_filtered(target, size, samples)
     finally:
         quarantine.live = live

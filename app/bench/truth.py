@@ -11,7 +11,7 @@ from ..studio.encode import Picture
 from ..studio.studio import Matrix, Studio
 from ..studio.take import SAMPLES
 from .flicker import TILE
-from .stroll import Leg, Moment, raise_gusts
+from .stroll import Leg, Moment, moments, raise_gusts
 
 TINY = (16, 9)
 """Size of the picture by which the prairie comes to an instant; nobody sees it [pixels]."""
@@ -45,9 +45,11 @@ class Truth:
         return draw_truth(self._prairie, view, projection, self._studio.take.size, samples=SAMPLES).picture
 
     def near(self, moment: Moment) -> Picture:
-        """Return every blade up to where strips end; beyond it lies the prairie's own carpet, which does not change."""
-        view, projection = self._go(moment)
-        return self._near(view, projection, self._studio.take.size)
+        """Return what may change on the leg: every blade up to where strips end, and every leaf of trees that do.
+
+        Beyond lies the prairie's own carpet, and other trees are its own pictures of them.
+        """
+        return self._near(moment, self._go(moment), self._studio.take.size)
 
     def tile(self, moment: Moment, corner: tuple[int, int]) -> Picture:
         """Return what `near` shows of a tile, and of a pixel around it: shape (TILE + 2, TILE + 2, 3).
@@ -56,12 +58,13 @@ class Truth:
         """
         view, projection = self._go(moment)
         first, part = (corner[0] - 1, corner[1] - 1), (TILE + 2, TILE + 2)
-        return self._near(view, cropped(projection, first, part, self._studio.take.size), part)
+        return self._near(moment, (view, cropped(projection, first, part, self._studio.take.size)), part)
 
-    def _near(self, view: Matrix, projection: Matrix, size: tuple[int, int]) -> Picture:
+    def _near(self, moment: Moment, matrices: tuple[Matrix, Matrix], size: tuple[int, int]) -> Picture:
         room = room_for(self._studio.prairie.site.reach, self._prairie.viewers["main"].lens.factor)
         reach = farthest(room)[-1]
-        return draw_truth(self._prairie, view, projection, size, samples=SAMPLES, reach=reach).picture
+        seen_at = tuple(each.camera.position for each in moments(self._prairie, moment.leg))
+        return draw_truth(self._prairie, *matrices, size, samples=SAMPLES, reach=reach, seen_at=seen_at).picture
 
     def _go(self, moment: Moment) -> tuple[Matrix, Matrix]:
         matrices = self._studio.matrices(moment.camera)

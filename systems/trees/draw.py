@@ -1,12 +1,13 @@
 """Drawing trees: what of each is shown, and in what order; and the maps of what they leave of the light."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
+from ...engine.camera import Place
 from ...engine.gl.shaders import Texts, tell_asked, tell_due
 from ...engine.gl.stream import Stream, release_all
 from ..around.outlook import Outlook
@@ -67,6 +68,8 @@ class TreePart(Part):
         self.leaves_from: float | None = None
         """Height from which all trees are drawn leaf by leaf [pixels], as a reference has them, and lower ones as they
         are far off; None where that is for the size of their leaves to say."""
+        self.leaves_seen_at: Sequence[Place] = ()
+        """From where that height is seen: it is the greatest of all these places [m]; without any, the viewer's."""
         self.held = False
         """Whether as much of each is shown as in the last frame where this was not so, wherever the viewer is."""
         self.hidden = False
@@ -172,9 +175,10 @@ class TreePart(Part):
         """Send what is drawn of each tree, unless that is what was sent last."""
         record, viewer = self._block.record[0], outlook.viewer
         seen = record["clip"].tobytes(), float(record["half_screen"][1]), viewer.eye, viewer.sides.tobytes()
-        if self._chosen_by == (standing, *seen, self.leaves_from, self.held):
+        chosen_by = standing, *seen, self.leaves_from, self.leaves_seen_at, self.held
+        if self._chosen_by == chosen_by:
             return
-        self._chosen_by = standing, *seen, self.leaves_from, self.held
+        self._chosen_by = chosen_by
         if not self.held:
             self._from = np.array(viewer.eye)
         clip = record["clip"].reshape(4, 4).T.astype(np.float64)
@@ -223,10 +227,9 @@ class TreePart(Part):
         order = np.argsort(off)
         seen, off = seen[order], off[order]
         rows, scale, middle = group.rows[seen], group.scale[seen], group.middle[seen]
-        chosen = np.linalg.norm(middle - self._from, axis=1) if self.held else off
-        pixels = focal * rows["height"] / np.maximum(chosen, NEAREST)
+        pixels = focal * rows["height"] / np.maximum(self._chosen_off(middle, off), NEAREST)
         if self.leaves_from is not None:
-            pixels = np.where(pixels < self.leaves_from, 0.0, ANY_HEIGHT)
+            pixels = np.where(pixels <= self.leaves_from, 0.0, ANY_HEIGHT)
         pixels[rows["ring"] > 1] = 0.0
         told = shown(rows, pixels, grown.height, kind.declared.variety)
         told["columns"] = columns_of(rows, scale * grown.radius)
@@ -246,6 +249,12 @@ class TreePart(Part):
         model.write(told[near], wide[near], twigs, told[far])
         if self.leaves_from is not None:
             model.most[LEAVES] = len(grown.twigs)
+
+    def _chosen_off(self, middle: Doubles, off: Doubles) -> Doubles:
+        """Return how far off trees (n, 3) count for what is shown of them, that are so far off [m], shape (n,)."""
+        if self.leaves_from is not None and self.leaves_seen_at:
+            return np.asarray(np.min([np.linalg.norm(middle - eye, axis=1) for eye in self.leaves_seen_at], axis=0))
+        return np.asarray(np.linalg.norm(middle - self._from, axis=1)) if self.held else off
 
     def breathe(self, air: Heard, /) -> int:
         """Make out of each tree what is the same all over it; return the number of draw calls."""

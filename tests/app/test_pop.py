@@ -3,12 +3,14 @@
 import json
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from PIL import Image
 
 from tallgrass.app.bench import pop, stroll
+from tallgrass.app.bench import truth as truth_of_walk
 from tallgrass.app.bench.flicker import TILE
 from tallgrass.app.bench.pop import HARD
 from tallgrass.app.bench.steps import Record, merged, walked
@@ -18,7 +20,10 @@ from tallgrass.app.bench.verdict import Step
 from tallgrass.app.cli import run
 from tallgrass.app.studio.studio import Studio
 from tallgrass.app.studio.take import Take
+from tallgrass.engine.camera import Place
 from tallgrass.systems.around.transitions import SEAMLESS
+from tallgrass.systems.reference import Truth as Drawn
+from tallgrass.systems.reference import draw_truth
 
 pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("ctx")]
 
@@ -134,7 +139,16 @@ def test_n3_frames_that_are_not_held_against_the_reference_show_less_than_those_
     assert len(hard.worst) <= hard.judged < len(hard.changing)
 
 
-def test_n3_a_tile_of_the_reference_is_cut_from_it(scene: Path) -> None:
+def test_n3_a_tile_of_the_reference_is_cut_from_it_and_its_trees_are_chosen_once_for_the_leg(
+    scene: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen_at = list[tuple[Place, ...]]()
+
+    def drawn(*given: Any, **keys: Any) -> Drawn:
+        seen_at.append(keys["seen_at"])
+        return draw_truth(*given, **keys)
+
+    monkeypatch.setattr(truth_of_walk, "draw_truth", drawn)
     with Studio(Take(str(scene), (192, 108))) as studio:
         walk = legs(studio.prairie)[:1]
         first, then = list(moments(studio.prairie, walk[0]))[2:4]
@@ -145,6 +159,8 @@ def test_n3_a_tile_of_the_reference_is_cut_from_it(scene: Path) -> None:
     assert tile.shape == cut.shape
     assert np.abs(tile.astype(int) - cut).mean() < 0.1
     assert np.abs(later.astype(int) - cut).mean() > 1.0
+    assert len(set(seen_at)) == 1
+    assert {first.camera.position, then.camera.position} < set(seen_at[0])
 
 
 def test_n3_a_picture_too_small_to_compare_is_refused_in_a_line(

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass import Prairie
-from tallgrass.systems.reference import LOWER, cropped, draw_truth
+from tallgrass.systems.reference import cropped, draw_truth
 from tallgrass.systems.trees.card import FAR, LEAVES
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.standing import GONE
@@ -82,15 +82,18 @@ def test_n3_a_tile_of_a_reference_shows_what_the_whole_does_whichever_was_drawn_
         assert apart < 3.0, (left, top)
 
 
-def test_n3_within_a_reach_trees_too_low_to_change_are_drawn_as_they_are_far_off(
+def test_n3_within_a_reach_trees_that_nowhere_come_near_are_drawn_as_they_are_far_off(
     stage: Stage, prairie: Prairie
 ) -> None:
     reference(stage, prairie)
     assert streams(prairie)[FAR] == [0, 0]
     assert min(streams(prairie)[LEAVES]) > 0
-    high = GONE / LOWER
-    assert high > SIZE[1]  # higher than any tree in this picture
-    near = reference(stage, prairie, reach=99)
+    assert GONE > SIZE[1]  # higher than any tree in this picture
+    far = reference(stage, prairie, reach=99)
     assert streams(prairie)[LEAVES] == [0, 0]
     assert min(streams(prairie)[FAR]) > 0
-    assert (near[10:20, :, 0] - near[10:20, :, 1]).max() > 30.0
+    assert (far[10:20, :, 0] - far[10:20, :, 1]).max() > 30.0
+    reference(stage, prairie, reach=99, seen_at=((0.0, 1.7, 20.0), (0.0, 6.0, -30.0)))  # the second is among birches
+    screen, thorn = zip(*(streams(prairie)[name] for name in (LEAVES, FAR)), strict=True)
+    assert min(screen) > 0  # of a row, some come near, and some do not
+    assert thorn == (0, 1)
