@@ -37,15 +37,26 @@ const vec2 NEEDLES_BLUR = vec2(0.8, 0.45);  // pixel from which on they blur, of
 // How much of a pixel is needles, which part from their foot.
 float needles_cover(vec2 on) {
     float fan = on.x / (TUFT_FOOT + (1.0 - TUFT_FOOT) * on.y), each = abs(fract(fan * TUFT_NEEDLES) - 0.5) * 2.0;
-    float needle = each - 0.5 - NEEDLE_TAPERS * on.y, soft = max(fwidth(fan) * (2.0 * TUFT_NEEDLES), LEAST_WIDTH);
-    float ends = clamp((1.0 - TUFT_ROUNDED * abs(fan) - on.y) / max(fwidth(on.y), LEAST_WIDTH) + 0.5, 0.0, 1.0);
+    float needle = each - 0.5 - NEEDLE_TAPERS * on.y, short_of = 1.0 - TUFT_ROUNDED * abs(fan) - on.y;
+#ifdef SAMPLED
+    return step(0.0, min(needle, short_of)) * step(abs(fan), 1.0);
+#else
+    float soft = max(fwidth(fan) * (2.0 * TUFT_NEEDLES), LEAST_WIDTH);
+    float ends = clamp(short_of / max(fwidth(on.y), LEAST_WIDTH) + 0.5, 0.0, 1.0);
     float cover = mix(clamp(needle / soft + 0.5, 0.0, 1.0), NEEDLES_BLUR.y, clamp(soft - NEEDLES_BLUR.x, 0.0, 1.0));
     return cover * ends * step(abs(fan), 1.0);
+#endif
 }
 
-// How much of a pixel is leaf, at a place on its quad: across from -1 to 1, and along from 0 to 1.
+// How much of a pixel is leaf, at a place on its quad: across from -1 to 1, and along from 0 to 1. A sample is on it or not: edges as
+// wide as a sample would go beyond the quad of a leaf that is narrower, and such leaves would hide too little.
 float leaf_cover(vec2 on) {
     if (form == NEEDLES)
         return needles_cover(on);
-    return sharpened(half_width(clamp(on.y, LEAST_PART, 1.0 - LEAST_PART)) - abs(on.x), 0.0, LEAST_WIDTH);
+    float inside = half_width(clamp(on.y, LEAST_PART, 1.0 - LEAST_PART)) - abs(on.x);
+#ifdef SAMPLED
+    return step(0.0, inside);
+#else
+    return sharpened(inside, 0.0, LEAST_WIDTH);
+#endif
 }
