@@ -88,7 +88,7 @@ def test_n3_within_a_reach_trees_that_nowhere_come_near_are_drawn_as_they_are_fa
     reference(stage, prairie)
     assert streams(prairie)[FAR] == [0, 0]
     assert min(streams(prairie)[LEAVES]) > 0
-    assert GONE > SIZE[1]  # higher than any tree in this picture
+    assert SIZE[1] < GONE  # higher than any tree in this picture
     far = reference(stage, prairie, reach=99)
     assert streams(prairie)[LEAVES] == [0, 0]
     assert min(streams(prairie)[FAR]) > 0
