@@ -17,6 +17,8 @@ HOLE = 9
 """Samples along a side: 20 m."""
 
 WARM, TIMES = 40, 40
+SHALLOW = 2.0
+"""Depth [m] whose sides are steep enough to have rims, so that none comes or goes: the mesh would be laid out anew."""
 
 
 def main() -> None:
@@ -36,7 +38,7 @@ def main() -> None:
         for number in range(-WARM, 3 * TIMES):
             start = process_time()
             if number % 3 == 0:
-                depth = 1.0 + number % 2
+                depth = SHALLOW + number % 2
                 prairie.set_heights((-10.0, -30.0), np.full((HOLE, HOLE), -depth, np.float32))
             prairie.advance(1.0 / 60.0)
             prairie.draw(*aim)
