@@ -124,6 +124,7 @@ def test_a_reference_is_as_bright_with_few_samples_as_with_many(stage: Stage, pr
     assert seen[0][crown].mean() == pytest.approx(seen[1][crown].mean(), rel=0.02)
 
 
+@pytest.mark.slow
 def test_a_pictures_outline_is_as_rough_as_with_every_leaf(stage: Stage, prairie: Prairie) -> None:
     """Of an oak so high in the picture as no tree is that is all drawn so."""
     aim = looking(30.0, 1.7, 80.0, pitch=4.5, view=7.6)
@@ -141,6 +142,7 @@ def test_a_pictures_outline_is_as_rough_as_with_every_leaf(stage: Stage, prairie
     assert float(str(told["roughness_ratio"])) > 0.75
 
 
+@pytest.mark.slow
 def test_far_off_level_leaves_let_the_sun_through_to_who_looks_up_at_them(stage: Stage, prairie: Prairie) -> None:
     aim, blue = looking(30.0, 1.7, 80.0, pitch=4.5, view=7.6), []
     stage.shot(prairie, aim)
