@@ -25,7 +25,7 @@ def api() -> str:
     """Return an entry for every public name of `tallgrass`, as Markdown."""
     names = [name for name in tallgrass.__all__ if not inspect.ismodule(getattr(tallgrass, name))]
     winds = [name for name in names if inspect.isclass(thing := getattr(tallgrass, name)) and _is_wind(thing)]
-    winds.sort(key=lambda name: len(getattr(tallgrass, name).__mro__))
+    winds.sort(key=lambda name: sum(each.__name__ in tallgrass.__all__ for each in getattr(tallgrass, name).__mro__))
     winds += [name for name in names if name in BESIDE_WINDS]
     rest = [name for name in names if name not in winds and name != "Prairie"]
     return _page("## A prairie", tallgrass, ["Prairie", *rest]) + "\n" + _page("## Winds", tallgrass, winds)
@@ -101,9 +101,10 @@ def _entry(name: str, part: Part, told: str) -> Iterator[str]:
 
 
 def _hidden_bases(thing: type) -> Iterator[ast.ClassDef]:
-    """Yield the bases of a class that are ours and have no entry of their own: their members are the class's."""
+    """Yield the bases that are ours and that no entry tells of: their members are the class's."""
+    told = [base for base in thing.__mro__[1:] if base.__name__ in tallgrass.__all__]
     for base in thing.__mro__[1:]:
-        if base.__module__.startswith("tallgrass.") and base.__name__ not in tallgrass.__all__:
+        if base.__module__.startswith("tallgrass.") and not any(issubclass(each, base) for each in told):
             parsed = _parsed(import_module(base.__module__))
             yield from (each for each in parsed.body if isinstance(each, ast.ClassDef) and each.name == base.__name__)
 
