@@ -20,7 +20,7 @@ from ..shadows.shades import round_of
 from ..space.grown import Grown
 from ..wind.quarantine import Quarantine
 from .draw import BodyPainter, programs_of_bodies, shade_of, texts_of_bodies
-from .fly import flying
+from .fly import flying, may_fly
 
 
 class Bodies(Feature):
@@ -43,6 +43,11 @@ class Bodies(Feature):
         """Return what is in the air at a time [s]."""
         return flying(self._world, self._grown.top_at, self._quarantine, time=time)
 
+    @property
+    def are_due(self) -> bool:
+        """Whether anything is in the air, or will be as its wind blows."""
+        return may_fly(self._world, self._quarantine)
+
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "BodiesPart":
         """Return what draws them."""
         return BodiesPart(self, ctx, block, units)
@@ -62,19 +67,23 @@ class BodiesPart(Part):
 
     def texts(self) -> Iterator[Texts]:
         """Return what its programs are made of."""
-        return iter(()) if self.painter is not None else texts_of_bodies(self._block)
+        return texts_of_bodies(self._block) if self._is_due else iter(())
 
     def making(self) -> Iterator[None]:
         """Make what draws them, a program at a time."""
         made = list[moderngl.Program]()
         try:
-            for each in self._programs() if self.painter is None else ():
+            for each in self._programs() if self._is_due else ():
                 made.append(each)
                 yield
             if made and self.painter is None:
                 self.painter, made = BodyPainter(self._ctx, made), []
         finally:
             release_all(*made)
+
+    @property
+    def _is_due(self) -> bool:
+        return self.painter is None and self._bodies.are_due
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Pretend that something flies, and casts a shadow."""

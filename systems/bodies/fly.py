@@ -140,6 +140,17 @@ def _flown(_: WindSource) -> list[object]:
     return [None, None]
 
 
+def may_fly(world: World, quarantine: Quarantine, /) -> bool:
+    """Return whether anything flies, or hovers over a wind whenever that blows."""
+    if any(True for _ in world.all(Body)):
+        return True
+    for _, source in world.all(WindSource):
+        with suppress(QuarantinedError):
+            if hover_of(source, quarantine) is not None:
+                return True
+    return False
+
+
 def flying(world: World, top_at: Heights, quarantine: Quarantine, /, *, time: float) -> list[Body]:
     """Return what is in the air at `time` [s]: the bodies that entities have, and what hovers over winds.
 

@@ -9,7 +9,7 @@ import moderngl
 import numpy as np
 import pytest
 
-from tallgrass import Footprint, Gust, Pose, Presser
+from tallgrass import Blast, Footprint, Gust, Pose, Presser
 from tallgrass.components.shade import Shade
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.gl import beside
@@ -104,7 +104,11 @@ def test_what_trees_and_bodies_are_drawn_with_can_be_made_before_the_first_of_th
     painter = prairie.painter
     assert painter is not None
     made.clear()
-    assert len([*painter.part(BodiesPart).making()]) == len(made) == 2
+    bodies = painter.part(BodiesPart)
+    assert not [*bodies.texts()]
+    assert not [*bodies.making()], "nothing may fly"
+    prairie.add(Blast(start=1e4, body="saucer"))
+    assert len([*bodies.making()]) == len(made) == 2
     painter.block.defines = {**painter.block.defines, "TREES": 1}
     trees = Programs(stage.ctx, painter.block, UNITS)
     texts = [each.vertex for each in trees.texts(in_rows=False)]
@@ -112,7 +116,7 @@ def test_what_trees_and_bodies_are_drawn_with_can_be_made_before_the_first_of_th
     steps = len([*trees.making(in_rows=False)])
     assert steps == len(made) > len(texts) > 8
     assert made[: len(texts)] == texts, "as a driver is asked for them beside the frames"
-    assert [*trees.making(in_rows=False), *trees.texts(in_rows=False), *painter.part(BodiesPart).texts()] == []
+    assert [*trees.making(in_rows=False), *trees.texts(in_rows=False), *bodies.texts()] == []
     trees.release()
     assert TreePart.making is not Part.making
 
