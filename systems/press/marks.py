@@ -19,8 +19,7 @@ SIDE = 128
 GLSL = {"SQUARE": SQUARE, "SIDE": SIDE}
 
 MOST_MARKS = 96
-"""Marks that a square has at most: the latest."""
-
+"""Marks that a square has at most: the latest. What none of its squares has any more is forgotten."""
 
 ROUNDED = 1e-6
 """Instants so near to one another count as the same [s]."""
@@ -85,12 +84,13 @@ class Listed:
         ordered = stretches[np.lexsort((stretches[:, SERIAL], np.round(stretches[:, BEGUN] / ROUNDED)))]
         return cls(ordered, *touched(ordered))
 
-    def after(self, time: float) -> "Listed":
-        """Return those that were left after `time` [s]."""
+    def after(self, time: float, counts: NDArray[np.bool_]) -> "Listed":
+        """Return those that were left after `time` [s], in the squares where they still count, (m,); others go."""
         stays = self.stretches[:, LEFT] > time
-        if stays.all():
+        if stays.all() and counts.all():
             return self
-        number, those = np.cumsum(stays, dtype=np.int32) - 1, stays[self.number]
+        stays &= np.bincount(self.number[counts], minlength=len(stays)) > 0
+        number, those = np.cumsum(stays, dtype=np.int32) - 1, counts & stays[self.number]
         return Listed(self.stretches[stays], number[self.number[those]], self.square[those])
 
     def and_then(self, other: "Listed") -> "Listed":
@@ -124,6 +124,13 @@ def _marks(marks: Floats, count: NDArray[np.intp], listed: Ints) -> Marks:
     fewer = np.minimum(count, MOST_MARKS)
     first = np.cumsum(count) - fewer
     return Marks(marks, first.astype(np.int32), fewer.astype(np.int32), listed)
+
+
+def _begins(settled: Marks) -> Ints:
+    """Return the number of the first mark that counts in each square, shape (SIDE * SIDE,)."""
+    begins, full = np.zeros(SIDE * SIDE, np.int32), settled.count == MOST_MARKS
+    begins[full] = settled.listed[settled.first[full]]
+    return begins
 
 
 def square_of(place: Floats, /) -> Ints:
@@ -170,9 +177,9 @@ READY = 0.8
 class Telling:
     """What is kept, told for a second `since` [s] that comes: bit by bit, so that no frame has all of it to do."""
 
-    def __init__(self, kept: list[Listed], since: float, lasts: float) -> None:
+    def __init__(self, kept: list[Listed], settled: Marks, since: float, lasts: float) -> None:
         self.since, self.lasts = since, lasts
-        self._left = iter(kept)
+        self._left, self._passed, self._begins = iter(kept), 0, _begins(settled)
         self._turns, self._done = 1 + -(-len(kept) // AT_A_TIME), 0
         self.kept: list[Listed] = []
         """Those that still count then, in pieces."""
@@ -184,14 +191,17 @@ class Telling:
         while self._done < min(part, 1.0) * self._turns:
             self._done += 1
             for piece in islice(self._left, AT_A_TIME):
-                self._add(piece.after(self.since - self.lasts))
+                counts = self._passed + piece.number >= self._begins[piece.square]
+                self._passed += len(piece.stretches)
+                self._add(piece.after(self.since - self.lasts, counts))
             if self._done == self._turns:
                 self._count, self._listed = whole(self.kept).lists()
 
     def settle(self, stretches: Stretches) -> Marks:
         """Return all of it as marks, with others (n, NUMBERS) after them that are kept from now on."""
         self.go_on(1.0)
-        fresh = Listed.of(stretches).after(self.since - self.lasts)
+        fresh = Listed.of(stretches)
+        fresh = fresh.after(self.since - self.lasts, np.ones(len(fresh.number), np.bool_))
         count, listed = fresh.lists()
         listed = listed + np.int32(sum(map(len, self._told)))
         both = np.empty(len(self._listed) + len(listed), np.int32)
@@ -270,7 +280,7 @@ class Memory:
         """Return what is kept, told for a second: as far as that has come, if it was begun."""
         found = self._telling
         if found is None or found.since != since or found.lasts != self.lasts:
-            self._telling = found = Telling(self._kept, since, self.lasts)
+            self._telling = found = Telling(self._kept, self._settled, since, self.lasts)
         return found
 
     def _settle(self, since: float) -> None:
