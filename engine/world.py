@@ -2,7 +2,7 @@
 
 import gc
 import logging
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import count
 from operator import itemgetter
@@ -178,13 +178,18 @@ class World:
 
     def stands(self, entity: int, pose: Pose | None, what: str) -> bool:
         """Return whether an entity has a pose that is somewhere; where not, say once `what` is left out meanwhile."""
-        if pose is not None and is_somewhere(pose):
-            return True
-        if entity not in self._told:
-            self._told.add(entity)
+        return self.standing([(entity, pose)], what)[0]
+
+    def standing(self, poses: Sequence[tuple[int, Pose | None]], what: str) -> list[bool]:
+        """Return the same of several entities; one sentence tells of all that are left out since now."""
+        stand = [pose is not None and is_somewhere(pose) for _, pose in poses]
+        lost = [one for one, there in zip(poses, stand, strict=True) if not there and one[0] not in self._told]
+        if lost:
+            self._told.update(entity for entity, _ in lost)
+            (entity, pose), more = lost[0], f", and {len(lost) - 1} more likewise" if len(lost) > 1 else ""
             due = f"x, y, z [m] and yaw [rad] are finite numbers, at most {FARTHEST:.0e} either way"
-            log.warning("%s of entity %d is left out while it has %s: %s", what, entity, pose or "no Pose", due)
-        return False
+            log.warning("%s of entity %d is left out while it has %s%s: %s", what, entity, pose or "no Pose", more, due)
+        return stand
 
     def _owner(self, entity: int) -> object | None:
         mark = esper.try_component(entity, Resident)

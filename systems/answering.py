@@ -1,5 +1,6 @@
 """What there is on a site at one time, and what a prairie tells of it to those who ask."""
 
+import logging
 from functools import partial
 
 import numpy as np
@@ -29,6 +30,8 @@ from .wind.blow import ReceiverArrays
 from .wind.quarantine import Quarantine
 from .winds import Winds
 
+log = logging.getLogger("tallgrass")
+
 
 class Answering:
     """What stands, blows and walks on a site at one time, and answers what is asked of it."""
@@ -45,7 +48,7 @@ class Answering:
         self.features = begun(Start(world, site, Quarantine(live=live), live))
         self.winds, self.pressers = one(Winds, self.features), one(Pressers, self.features)
         self._mown, self._shining = one(Mowing, self.features).mown, one(Lighting, self.features).shining
-        self._clock = 0.0
+        self._clock, self._missed = 0.0, set[str]()
         # Systems keep these two, and must not keep the prairie by them
         self._entities = partial(_entities_on, world, self.clearings, self.viewers)
         self._felt = partial(_felt_of, self.winds, self.pressers)
@@ -160,8 +163,17 @@ class Answering:
         must_be_viewer(viewer)
         cells = cell_of(as_places(xz), patch=self.site.ground.patch)
         if viewer not in self.viewers:
+            self._miss(viewer)
             return np.zeros(len(cells), np.int64)
         return self._entities(self.site).at(self.viewers[viewer], cells)
+
+    def _miss(self, viewer: str) -> None:
+        """Say once of a viewer that it has never looked, where another has."""
+        others = self.viewers.values()
+        if others and viewer not in self._missed:
+            self._missed.add(viewer)
+            known = others[0].viewer.name
+            log.warning("patch_at finds nothing: viewer '%s' was never drawn, but '%s' was", viewer, known)
 
     def _must_be_there(self, purpose: str) -> None:
         if self._released:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import compress
 from math import ceil, floor, pi
 from typing import Self
 
@@ -135,15 +136,14 @@ class Pressers(Feature):
 
     def _miss(self) -> None:
         """Say of whom nobody knows where they press."""
-        for entity, _ in self._world.all(Presser):
-            if self._world.find(entity, Pose) is None:
-                self._world.stands(entity, None, "the presser")
+        every = (entity for entity, _ in self._world.all(Presser))
+        self._world.standing([(each, None) for each in every if self._world.find(each, Pose) is None], "the presser")
 
     def _standing(self, found: list[tuple[int, Presser, Pose]]) -> tuple[list[Who], Doubles]:
         """Return who of those that press is anywhere, and where they are and look (x, z, yaw), shape (n, 3)."""
         rows = as_places_of(pose for _, _, pose in found)
         if rows is None:
-            found = [row for row in found if self._world.stands(row[0], row[2], "the presser")]
+            found = [*compress(found, self._world.standing([(who, pose) for who, _, pose in found], "the presser"))]
             rows = _rows([pose for _, _, pose in found])
         return [row[:2] for row in found], rows
 

@@ -47,9 +47,9 @@ class Lamps(Feature):
 
     def _games(self) -> list[Lit]:
         found = self._world.all(Lamp)
-        lit = [(who, lamp, self._world.find(who, Pose)) for who, lamp in found]
-        placed = [(lamp, _placed(who, pose)) for who, lamp, pose in lit]
-        return [one for (who, *_), one in zip(lit, placed, strict=True) if self._world.stands(who, one[1], "the lamp")]
+        placed = [(who, _placed(who, self._world.find(who, Pose))) for who, _ in found]
+        stand = self._world.standing(placed, "the lamp")
+        return [(lamp, pose) for (_, lamp), (_, pose), there in zip(found, placed, stand, strict=True) if there]
 
     def _scenes(self, declared: Sequence[LampOnPath], time: float) -> list[Lit]:
         poses = [one.pose(time=time) for one in declared]

@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Mapping
+from itertools import compress
 from typing import Self
 
 import moderngl
@@ -130,7 +131,7 @@ class Trees(Feature):
     def _look(self, time: float) -> None:
         """Take over which entities stand where."""
         found = [each for each in self._world.both(Tree, Pose) if self._knows(each[1])]
-        there = [each for each in found if self._world.stands(each[0], each[2], "the tree")]
+        there = [*compress(found, self._world.standing([(who, pose) for who, _, pose in found], "the tree"))]
         self._let_go({entity for entity, _, _ in found}, time)
         self._rows, self._there = _rows(there, self._grown), [entity for entity, _, _ in there]
         self._shade_grass()

@@ -53,6 +53,17 @@ def test_d2_a_pose_that_is_nowhere_leaves_out_its_entity_until_it_has_another_an
     assert prairie.bent_at(where).any()
 
 
+def test_d2_many_that_are_nowhere_are_told_of_in_one_sentence(
+    prairie: Prairie, caplog: pytest.LogCaptureFixture
+) -> None:
+    first, *_ = [esper.create_entity(Presser()) for _ in range(20)]
+    for _ in range(3):
+        watch(prairie)
+    assert [message.split(":")[0] for message in caplog.messages] == [
+        f"the presser of entity {first} is left out while it has no Pose, and 19 more likewise"
+    ]
+
+
 @pytest.mark.parametrize(
     ("what", "said"),
     [

@@ -24,6 +24,9 @@ FIELD[:, 2:, 0], FIELD[:2, :2, 1] = 0.4, 1.0
 
 TALL, RUSHES, NOTHING = (10.0, 0.0), (-10.0, -10.0), (-10.0, 10.0)
 
+FROM_ABOVE = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, -9], [0, 0, 0, 1.0]]), np.diag([0.1, 0.1, -0.01, 1.0])
+"""Matrices of a viewer 9 m up who looks down."""
+
 
 @pytest.fixture
 def prairie(world: World) -> Iterator[Prairie]:
@@ -112,3 +115,15 @@ def test_a_patch_that_a_game_has_cleared_has_no_grass_that_stands(prairie: Prair
     found = prairie.grass_at([TALL, RUSHES])
     assert found.cleared.tolist() == [True, False]
     assert found.height[0] == 0.0 < found.height[1]
+
+
+def test_f13_who_asks_for_patches_of_a_viewer_that_was_never_drawn_is_told_once(
+    prairie: Prairie, caplog: pytest.LogCaptureFixture
+) -> None:
+    assert not prairie.patch_at([TALL]).any()
+    assert not caplog.messages  # nobody has looked yet
+    prairie.follow(*FROM_ABOVE, viewer="map")
+    for _ in range(2):
+        assert not prairie.patch_at([TALL]).any()
+        assert prairie.patch_at([TALL], viewer="map").all()
+    assert caplog.messages == ["patch_at finds nothing: viewer 'main' was never drawn, but 'map' was"]
