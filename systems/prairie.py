@@ -1,6 +1,6 @@
 """A prairie: what a game loads, advances and draws."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -320,19 +320,18 @@ class Prairie(Tending):
         self._must_be_there("save it")
         return self._saving.state(self.site, time=self.time)
 
-    def restore(self, state: bytes) -> dict[int, int]:
+    def restore(self, state: bytes, entities: Mapping[int, int] | None = None) -> dict[int, int]:
         """Bring back what `state` returned, and return what entity each of a game's own in it is now.
 
-        These are winds, pressers, lamps, shades and trees.
-
+        These are winds, pressers, lamps, shades and trees. `entities` are those that are there already, likewise.
         Raises ValueError, and changes nothing, for a state of another scene, of another format, or one that is damaged.
         """
         self._must_be_there("restore a state")
-        self._clock, entities, kinds = self._saving.restore(state, self.site, self.loaded)
+        self._clock, became, kinds = self._saving.restore(state, self.site, self.loaded, entities or {})
         self.viewers.begin_anew()
         self._move_to(self._ripening.resume(self.site, kinds))  # after it, as winds of entities stay what they are
         self._turn(at_once=True)
-        return entities
+        return became
 
     def release(self) -> None:
         """Free all that it holds: GL objects in every window, places in batches, entities, and what `install` added.

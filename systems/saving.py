@@ -95,10 +95,12 @@ class Saving:
         plots: Arrays = {"mown": mown, "mown_heights": planes(left), "sown": sown, "sown_densities": dense}
         return packed(Saved(state, {"cleared": cleared, **plots, **ground, **marks}))
 
-    def restore(self, data: object, site: Site, loaded: LoadedScene, /) -> tuple[float, dict[int, int], Recalled]:
+    def restore(
+        self, data: object, site: Site, loaded: LoadedScene, there: Mapping[int, int], /
+    ) -> tuple[float, dict[int, int], Recalled]:
         """Bring a state back but for its kinds of grass; return these, its time [s], and entities.
 
-        The entities are those that each one of a game's that it holds is now.
+        The entities are those that each one of a game's that it holds is now; some are `there` already.
 
         Raises what `unpacked` raises, and ValueError for a state of another scene: then nothing has changed.
         """
@@ -128,7 +130,7 @@ class Saving:
         self.mown.plots.resume(*made.mown)
         site.ground.density.sown.resume(*made.sown)
         last, became = self._became or (None, {})
-        entities = self._bring(state, made, became if last == data else {})
+        entities = self._bring(state, made, {**(became if last == data else {}), **there})
         self._became = data, entities
         return state.time, dict(entities), made.kinds
 

@@ -13,7 +13,7 @@ import esper
 import numpy as np
 import pytest
 
-from tallgrass import Lamp, Shade
+from tallgrass import Lamp, Shade, Tree
 from tallgrass.components.arrays import Floats
 from tallgrass.components.footprint import Footprint, Road
 from tallgrass.components.patch import Patch
@@ -313,3 +313,24 @@ def build() -> Callable[[], WindSource]:
         """A wind that nobody has registered."""
 
     return lambda: WindSource(Odd(kind="breeze"), "odd")
+
+
+def test_two_prairies_of_one_world_bring_back_what_they_share_once(played: Prairie, world: World) -> None:
+    twin, had = Prairie.load(SCENE), belongings()
+    esper.create_entity(Tree("birch"), Pose(3.0, 3.0))
+    states = [prairie.state() for prairie in (played, twin)]
+    twin.release()
+    played.release()
+    esper.switch_world("another")
+    try:
+        prairies, entities = [Prairie.load(SCENE) for _ in states], dict[int, int]()
+        for prairie, state in zip(prairies, states, strict=True):
+            entities |= prairie.restore(state, entities)
+        assert belongings() == had
+        counts = [len(esper.get_component(kind)) for kind in (Presser, Lamp, Shade, Tree)]
+        for prairie in prairies:
+            prairie.release()
+        assert counts == [3 + 2 * len(SCENE["pressers"]), 1, 2, 1]
+    finally:
+        esper.switch_world(world.name)
+        esper.delete_world("another")
