@@ -126,8 +126,15 @@ class Holding:
         for painter in self.painters.values():
             painter.settle(site, self.record)
         self.air.meet(site.scene.wind)
-        if is_other and not is_made and self._winds is not None:
+        if is_other and not is_made:
+            yield from self._making_what_comes(site)
+
+    def _making_what_comes(self, site: Site) -> Iterator[None]:
+        """Make what later frames will need: all that a game has asked for, or what no card makes beside frames."""
+        if self._winds is not None:
             yield from self._making_ready(site)
+        elif not makes_beside(self.ctx):
+            yield from self._later  # at once, as each program would hold a frame up
 
     def _fits(self, site: Site, before: Site) -> bool:
         """Return whether the programs that there are draw the grass of another site too."""
