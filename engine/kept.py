@@ -61,7 +61,17 @@ def write_whole(path: Path, data: bytes, /) -> None:
 
 
 def forget_oldest(folder: Path, suffix: str, most: int, /) -> None:
-    """Remove what has not been used for longest, so that the folder does not grow for ever."""
-    found = sorted(folder.glob("*" + suffix), key=lambda path: path.stat().st_mtime)
-    for path in found[:-most]:
-        path.unlink(missing_ok=True)
+    """Remove what has not been used for longest, so that the folder does not grow for ever.
+
+    Other programs and threads may do so just now: what is gone, or in use, is no error.
+    """
+    for path in sorted(folder.glob("*" + suffix), key=_used)[:-most]:
+        with suppress(OSError):
+            path.unlink()
+
+
+def _used(path: Path) -> float:
+    try:
+        return path.stat().st_mtime
+    except OSError:
+        return 0.0

@@ -2,6 +2,7 @@
 
 import logging
 from functools import partial
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -174,6 +175,10 @@ class Answering:
             self._missed.add(viewer)
             known = others[0].viewer.name
             log.warning("patch_at finds nothing: viewer '%s' was never drawn, but '%s' was", viewer, known)
+
+    def __reduce_ex__(self, protocol: object) -> NoReturn:
+        """Say what to keep in its place, as no prairie can be pickled or copied."""
+        raise TypeError("a prairie cannot be pickled or copied: keep state(), and restore it in another of the scene")
 
     def _must_be_there(self, purpose: str) -> None:
         if self._released:

@@ -221,13 +221,17 @@ def test_a_full_disk_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.M
 
 
 @pytest.mark.usefixtures("grows")
-def test_what_was_not_used_for_longest_is_forgotten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_was_not_used_for_longest_is_forgotten(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
     monkeypatch.setattr("tallgrass.systems.stock.cache._MOST", 48)
     for number in range(60):
         (tmp_path / f"{number}.growth").write_bytes(b"")
         os.utime(tmp_path / f"{number}.growth", (number, number))
     (tmp_path / "mine.txt").write_text("not ours")
+    (tmp_path / "gone.growth").symlink_to(tmp_path / "another program was first")
     cached_growth(KIND, SMALL, seed=5, folder=tmp_path)
+    assert not caplog.messages
     names = {path.name for path in stored(tmp_path)}
     assert len(names) == 49
     assert {"mine.txt", "59.growth"} < names

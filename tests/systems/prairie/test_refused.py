@@ -1,6 +1,8 @@
 """What a prairie refuses in a sentence, and what it answers all the same (N4, D5)."""
 
+import pickle
 from collections.abc import Callable
+from copy import copy, deepcopy
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -321,3 +323,9 @@ def test_a_released_prairie_says_so_when_it_is_asked_for_more(prairie: Prairie) 
             ask()
     prairie.remove(handle)
     assert list(esper.get_entities()) == []
+
+
+@pytest.mark.parametrize("how", [copy, deepcopy, pickle.dumps])
+def test_a_prairie_that_is_copied_says_what_to_keep(prairie: Prairie, how: Callable[[object], object]) -> None:
+    with pytest.raises(TypeError, match=r"^a prairie cannot be pickled or copied: keep state\(\), and restore it"):
+        how(prairie)
