@@ -25,7 +25,7 @@ from .motion import PERIOD
 from .programs import HANG, HANG_LEAVES, HARD, SAMPLED, SOFT, STAND, Programs
 from .shade import ShadeMap
 from .standing import LEAFY, PLACED, TOLD, Standing, columns_of, shown, shows
-from .twig import BEHIND, LEAF_PIXELS
+from .twig import LEAF_PIXELS
 from .wood import AWAY, CLOSED, OPAQUE, SOLID, SWAYS, THINNEST, nearest_ahead
 
 EVERY_LEAF = -2.0, -1.0
@@ -144,7 +144,6 @@ class TreePart(Part):
         self._numbers = {
             "leaf_pixels": LEAF_PIXELS if self.leaves_from is None else EVERY_LEAF,
             "moment": (viewer.time % PERIOD,),
-            "behind": (BEHIND,),
             "middle": tuple(((viewer.centre + 0.5) * patch).tolist()),
         }
         assert self._shade is not None
@@ -352,8 +351,8 @@ class TreePart(Part):
                         drawn_as, sampling = (of_far, edges) if sort == FAR else (sort, SAMPLED if sampled else edges)
                         array = programs.array(drawn_as, stream, model, edges=sampling)
                         nearest = 0.0 if soft else self._nearest(model.placed[name])
-                        hard = all_wood or name in CARDS
-                        opaque = SOLID if hard else CLOSED if sort == FAR else OPAQUE
+                        whole_tree = SOLID if all_wood else CLOSED if sort == FAR else OPAQUE
+                        opaque = kind.solid if name in CARDS else whole_tree
                         told = kind.due(array.program, model) + told_of_call(
                             array.program, outline if name in CARDS else [], around if sort == FAR else None, opaque
                         )

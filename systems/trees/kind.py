@@ -21,9 +21,9 @@ from .kept import keep_pictures, kept_pictures, kind_key
 from .lies import Lies, lies_of, lies_on
 from .model import models_of
 from .noise import bark_noise
-from .outline import BOX, CLOSE, FAINTEST, around, core, covered_at, outline, pairs
+from .outline import BOX, CLOSE, FAINTEST, ONE, around, core, covered_at, outline, pairs, solid_above
 from .programs import Programs
-from .twig import FINER_EACH, HANGING_OFF, SHOOTS_LONG, SHOOTS_OFF
+from .twig import BEHIND, FINER_EACH, HANGING_OFF, SHOOTS_LONG, SHOOTS_OFF
 from .twig import PICTURES as OF_TWIGS
 from .wood import CLOSED, SOLID
 
@@ -33,9 +33,6 @@ differs; back from its foot, and on from its tip."""
 
 SHOOTS_ASIDE, HANGING_ASIDE = 0.7, 0.35
 """How far side shoots reach aside, of the length of the longest; and shoots that hang side by side."""
-
-ONE = 255.0
-"""Coverage of a texel that is covered wholly."""
 
 DARKER = 0.62
 """Pigment of a kind's darkest leaves, of its brightest, where a scene has one colour for both."""
@@ -59,6 +56,8 @@ class KindOnCard:
         self.card: moderngl.TextureArray | None = None
         self.outline = self.core = pairs(BOX)
         """Corners about what its card shows, and about what it covers so that it is drawn as solid."""
+        self.solid, self._behind = SOLID, BEHIND
+        """Coverage from which on it is so; how far behind its soft edges there is nothing [m]."""
         self._lies = Lies()
         self._hides: tuple[float, ...] = (1.0,) * OF_TWIGS
         """How much its card covers on each of its pictures, of what it does on the first."""
@@ -94,7 +93,9 @@ class KindOnCard:
         if self.card is None:
             self.card = filtered(self.ctx, [on_cards(each) for each in twig])
             shown = [each[::2, ..., 3].max(axis=0) for each in twig]
-            solid = covered_at(shown, ONE * SOLID)
+            self.solid = solid_above(twig[1][0, ..., 3])  # about as large as such cards are at most
+            self._behind = BEHIND if self.solid == SOLID else self.habit.twigs.length
+            solid = covered_at(shown, ONE * self.solid)
             self.outline = pairs(outline(shown[0] > FAINTEST))
             self.core = pairs(outline(solid, CLOSE)) if solid.any() else []
             self._lies = lies_of(twig[0][:2])
@@ -164,7 +165,7 @@ class KindOnCard:
         if key not in program.extra:  # the model is kept with it: so no other one is taken for it
             told = due(program, self._numbers, model.numbers)
             lies = model.lies if "tree_far" in tell_asked(program) else self._lies
-            told += due(program, {"hides": self._hides})
+            told += due(program, {"hides": self._hides, "behind": (self._behind,)})
             told += due_all(program, told_of.NAME, self._told_of[key]) + due_all(program, "lies", lies)
             program.extra[key] = model, told
         found: Due = program.extra[key][1]

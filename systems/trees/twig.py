@@ -30,7 +30,8 @@ LEAF_PIXELS = 14.0, 22.0
 """Length of a leaf from which on twigs begin to be drawn leaf by leaf, and from which all are [pixels]."""
 
 BEHIND = 1.5
-"""How far behind them leaves must have nothing for their soft edges to be drawn [m]: others are of their colour."""
+"""How far behind them leaves must have nothing for their soft edges to be drawn [m]: others are of their colour. Of
+needles, which are more than an edge, it is the length of their own twig."""
 
 SHOOTS_OFF, SHOOTS_LONG = 0.85, 0.62
 """Angle of side shoots from their twig [rad]; length of the longest, of the twig's."""

@@ -14,7 +14,7 @@ SOLID = 0.58
 """Coverage from which on that is so of twigs on cards, and of all of a tree in a shadow map.
 
 From a half on, as much would be opaque as is covered in the mean, and soft edges of what sticks out would come
-besides.
+besides. Of needles it is more, as `solid_above` says.
 
 Soft parts are drawn from near to far: fainter ones let little of what is behind come to the front."""
 
