@@ -14,8 +14,9 @@ from .outline import Around
 class Call(NamedTuple):
     """One draw call of trees of a model."""
 
-    nearest: float
-    """How far off its nearest tree is [m]; 0 where it is of soft edges."""
+    turn: float
+    """Those of which it is less are drawn before it: how far off its nearest tree is [m], or of soft edges, how much
+    nearer than the eye its trees are in the mean."""
 
     array: moderngl.VertexArray
     first: int

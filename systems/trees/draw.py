@@ -332,7 +332,7 @@ class TreePart(Part):
         return len(self._calls[key])
 
     def _listed(self, programs: Programs, edges: str, *, all_wood: bool) -> list[Call]:
-        """Return what is drawn: what is solid from near to far, as it hides what is drawn after it."""
+        """Return what is drawn: what is solid from near to far, as it hides what is drawn after it; else from far."""
         calls = list[Call]()
         soft, sampled = edges == SOFT, self.leaves_from is not None
         whole = soft or sampled or all_wood
@@ -350,7 +350,8 @@ class TreePart(Part):
                     if stream.count and vertices > 0 and not (soft and sampled and sort != FAR):
                         drawn_as, sampling = (of_far, edges) if sort == FAR else (sort, SAMPLED if sampled else edges)
                         array = programs.array(drawn_as, stream, model, edges=sampling)
-                        nearest = 0.0 if soft else self._nearest(model.placed[name])
+                        off = self._off(model.placed[name])
+                        turn = -float(off.mean()) if soft else float(off.min())
                         whole_tree = SOLID if all_wood else CLOSED if sort == FAR else OPAQUE
                         opaque = kind.solid if name in CARDS else whole_tree
                         told = kind.due(array.program, model) + told_of_call(
@@ -358,13 +359,14 @@ class TreePart(Part):
                         )
                         reads = kind.reads(array.program, model, noise=sort in (WOOD, FAR))
                         form = moderngl.TRIANGLE_STRIP if name in CARDS or sort == FAR else moderngl.TRIANGLES
-                        calls.append(Call(nearest, array, first, vertices, stream.count, form, told, reads))
-        return in_turn(sorted(calls, key=lambda call: call.nearest))
+                        calls.append(Call(turn, array, first, vertices, stream.count, form, told, reads))
+        return in_turn(sorted(calls, key=lambda call: call.turn))
 
-    def _nearest(self, placed: NDArray[np.void]) -> float:
+    def _off(self, placed: NDArray[np.void]) -> Doubles:
+        """Return how far off the crowns of trees are, records of `PLACED` [m], shape (n,)."""
         assert self._outlook is not None
         middle = placed["root"] + placed["crown_at"][:, None] * np.array([0.0, 1.0, 0.0], np.float32)
-        return float(np.linalg.norm(middle - np.array(self._outlook.viewer.eye), axis=1).min())
+        return np.asarray(np.linalg.norm(middle - np.array(self._outlook.viewer.eye), axis=1))
 
     def release(self) -> None:
         """Give everything back."""

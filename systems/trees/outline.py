@@ -147,7 +147,7 @@ def solid_above(cover: Bytes, /) -> float:
     """
     each = np.sort(cover, axis=None)[::-1] / ONE
     solid = int(np.searchsorted(np.cumsum(1.0 - each), ROUNDED * each.sum(), side="right"))
-    return max(SOLID, float(each[min(solid, each.size - 1)]))
+    return SOLID if solid == each.size else max(SOLID, float(each[solid]))
 
 
 def outline(covered: Mask, beyond: int = AROUND, /) -> Doubles:

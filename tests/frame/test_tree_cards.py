@@ -15,7 +15,9 @@ from tallgrass.systems.trees.bake import CARD
 from tallgrass.systems.trees.card import CARDS, FAR
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.lies import LIES, Lies, lies_of
+from tallgrass.systems.trees.outline import ROUNDED, solid_above
 from tallgrass.systems.trees.twig import PICTURES
+from tallgrass.systems.trees.wood import SOLID
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 from tallgrass.testing.little import SPARSE
 
@@ -83,6 +85,18 @@ def test_how_leaves_lie_is_told_in_few_directions() -> None:
     for to in ((0.0, 0.0, 1.0), (0.6, 0.0, 0.8), (1.0, 0.0, 0.0), (0.0, -0.6, 0.8)):
         faces = (area * np.abs(normal @ to)).sum() / area.sum()
         assert (told[:, 3] * np.abs(told[:, :3] @ to)).sum() == pytest.approx(faces, abs=0.02)
+
+
+def test_needles_are_drawn_as_solid_only_where_they_cover_nearly_all_and_leaves_from_their_edges_on() -> None:
+    edged = np.zeros((16, 16), np.uint8)
+    edged[4:12, 3:13], edged[4:12, [2, 13]] = 255, 160
+    assert solid_above(edged) == SOLID
+    strewn = np.random.default_rng(2).integers(60, 230, (16, 16)).astype(np.uint8)  # a mean anywhere
+    above = solid_above(strewn)
+    assert above > SOLID
+    cover = strewn / 255.0
+    assert (1.0 - cover[cover > above]).sum() <= ROUNDED * cover.sum()
+    assert solid_above(np.full((4, 4), 255, np.uint8)) == solid_above(np.zeros((4, 4), np.uint8)) == SOLID
 
 
 def test_leaves_that_face_nowhere_are_told_to_face_out_of_the_card() -> None:

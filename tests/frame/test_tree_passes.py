@@ -94,6 +94,26 @@ def test_what_is_told_only_once_is_what_each_call_would_be_told(
     assert 0 < fewer < sum(len(each.due) + len(each.reads) for some in calls.values() for each in some)
 
 
+def test_soft_edges_are_blended_from_far_to_near_whichever_kind_is_told_first(
+    stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = stage.shot(prairie, FAR_OFF)
+    assert prairie.painter is not None
+    part = prairie.painter.part(TreePart)
+    listed, kinds = vars(TreePart)["_listed"], vars(part)["_kinds"]
+
+    def listed_backwards(*given: object, **keys: object) -> list[Call]:
+        kinds.reverse()
+        found: list[Call] = listed(part, *given, **keys)
+        kinds.reverse()
+        return found
+
+    monkeypatch.setattr(part, "_listed", listed_backwards)
+    vars(part)["_calls"].clear()
+    np.testing.assert_array_equal(stage.shot(prairie, FAR_OFF), first)
+    vars(part)["_calls"].clear()
+
+
 def test_nothing_of_trees_is_made_in_a_scene_without_any(ctx: moderngl.Context, stage: Stage) -> None:
     with private_world(), little_prairie(ctx=ctx) as without:
         stage.shot(without, FAR_OFF)
