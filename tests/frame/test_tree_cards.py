@@ -89,7 +89,7 @@ def test_how_leaves_lie_is_told_in_few_directions() -> None:
 
 def test_needles_are_drawn_as_solid_only_where_they_cover_nearly_all_and_leaves_from_their_edges_on() -> None:
     edged = np.zeros((16, 16), np.uint8)
-    edged[4:12, 3:13], edged[4:12, [2, 13]] = 255, 160
+    edged[4:12, 3:13], edged[4:12, [2, 13]] = 255, 180
     assert solid_above(edged) == SOLID
     strewn = np.random.default_rng(2).integers(60, 230, (16, 16)).astype(np.uint8)  # a mean anywhere
     above = solid_above(strewn)
