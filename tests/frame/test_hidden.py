@@ -12,6 +12,7 @@ from tallgrass import Patch
 from tallgrass.engine.camera import Camera
 from tallgrass.systems import painter
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.show.blades.painter import HIDING
 from tallgrass.testing import Stage
 
 Load = Callable[..., Prairie]
@@ -55,6 +56,15 @@ def test_g5_what_leaves_hide_costs_nothing_and_nobody_misses_it(
     assert few < 0.9 * all_
     assert np.abs(seen - due).mean() < 0.2
     assert np.quantile(np.abs(seen - due), 0.999) < 8.0
+
+
+def test_where_blades_are_few_nobody_asks_what_hides_them(
+    room: Stage, load: Load, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    prairie = load(SCENE.replace("  models: 2", f"  models: 2\n  blades: {HIDING - 1}"), lod="blades")
+    drawn_of_all = drawn(room, prairie)[1]
+    monkeypatch.setattr(painter, "_is_open", lambda *_: True)
+    assert drawn(room, prairie)[1] == drawn_of_all
 
 
 def test_n3_strips_stand_whole_as_soon_as_a_patch_is_cleared(

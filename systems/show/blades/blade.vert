@@ -1,5 +1,6 @@
 // One vertex is one blade: all about it that is the same along its ribbon. With STORED it is looked up by the number of
 // its receiver; with MORPH it is on its way between its own place and its painted place on a moving strip (paper, 4.2).
+// With HIDING others hide it up to some height.
 #define PIXELS_ASK  // or rather ribbons, for shadow maps
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
@@ -8,7 +9,9 @@
 
 #ifdef STORED
 #include "lib/received.glsl"
+#ifdef HIDING
 #include "systems/show/hidden.glsl"
+#endif
 
 in uint number;            // of its receiver, among those of blades
 uniform int each;          // blades of a patch model
@@ -202,7 +205,7 @@ void main() {
     if (is_at_tip(int(blade.organ)))
         stands.w *= uncovered(kinds[k].head, foot.xyz - eye);
 #endif
-#ifdef STORED
+#ifdef HIDING
     high.w = clamp((hidden_to(blade.root, OF(crown, k), lodged(blown)) - up.y) / blade.height, 0.0, 1.0);
 #endif
 #ifdef TOOTHED

@@ -38,6 +38,10 @@ from .store import STANDING, STANDING_ROW, BladeStore
 PARTED = 1
 """Distance up to which blades hide one another by depth [patch sides]."""
 
+HIDING = 400
+"""Blades of a patch from which on it pays to make out up to where each is hidden: with fewer that costs a graphics card
+as much as it saves (320), or more (160)."""
+
 READY_ROWS = 256
 """Rows of patches that there is room for once a game has prepared."""
 
@@ -100,10 +104,11 @@ class BladesPainter(RepresentationPainter):
         self._strips, self._units, self._received, self._models = strips, units, canvas.received, len(stock.rank)
         self._fade, self._near = canvas.transitions.fade, PARTED * quality.patch
         laid = {**self.store.defines, "STORED": 1, "RINGS": room_for(len(quality.strip_rings))}
+        hiding = {"HIDING": 1} if quality.blades >= HIDING else {}
         self.hearing = Hearing(canvas, "systems/show/blades/receivers.frag", laid, self._tell)
         self.passes = [
             blade_program(ctx, block, units, record, defines)
-            for record, defines in ((RIBBON, laid), (PAINTED, {**laid, "MORPH": 1}))
+            for record, defines in ((RIBBON, laid | hiding), (PAINTED, {**laid, **hiding, "MORPH": 1}))
         ]
         for made in self.passes:
             self._tell(made)
