@@ -21,9 +21,9 @@ GENTLY = 1.6
 NEARLY = 0.35
 """Part of a change from blades to strips after which the blades begin to be handed over to the strips."""
 
-OVERLAP = 0.35
-"""How much more than in a plain cross-fade blades and strips show half-way through the handing over. Both cover the
-same place: with less, the ground shows through; with more, edges look swollen."""
+OVERLAP = 0.7
+"""How much more than in a plain cross-fade blades and strips show in the midst of handing over, in quarters. Both cover
+the same place: with less, dark depths show through grass that covers all; with more, single blades look swollen."""
 
 BORDER = 0.3
 """Part of the strips' reach over which they give way to the carpet: over a crest, their feet come out row by row."""

@@ -109,7 +109,7 @@ def test_n3_without_morph_fade_and_growth_a_patch_is_one_thing_at_a_time() -> No
 
 @pytest.mark.parametrize(
     ("thin", "least", "most"),
-    [(0.02, 1.0, 1.17), (0.2, 1.0, 1.11), (0.4, 1.0, 1.04), (0.6, 0.96, 1.0), (0.8, 0.89, 1.0), (1.0, 0.82, 1.0)],
+    [(0.02, 1.0, 1.35), (0.2, 1.0, 1.26), (0.4, 1.0, 1.17), (0.6, 1.0, 1.08), (0.8, 0.98, 1.01), (1.0, 0.89, 1.0)],
 )
 @given(handed=parts)
 def test_x4_what_is_handed_over_covers_about_as_much_as_before_thin_grass_a_little_more_and_thick_a_little_less(
@@ -124,8 +124,8 @@ def test_x4_handing_over_begins_with_blades_alone_and_ends_with_strips_alone() -
     blades, strips = handed_over(np.linspace(0.0, 1.0, 21, dtype=np.float32), fade=True)
     assert (blades[0], strips[0]) == (1.0, 0.0)
     assert (blades[-1], strips[-1]) == (0.0, 1.0)
-    assert np.abs(np.diff(blades)).max() < 0.08
-    assert np.abs(np.diff(strips)).max() < 0.08
+    assert np.abs(np.diff(blades)).max() < 0.09
+    assert np.abs(np.diff(strips)).max() < 0.09
     hard = np.array(handed_over(np.linspace(0.0, 1.0, 21, dtype=np.float32), fade=False))
     assert set(hard.ravel().tolist()) == {0.0, 1.0}
     assert (hard.sum(axis=0) == 1.0).all()
