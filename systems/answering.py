@@ -27,6 +27,7 @@ from .pressers import Pressers
 from .site import Site
 from .space.window import as_places, cell_of
 from .standing import grass_at
+from .trees.feature import Trees
 from .wind.blow import ReceiverArrays
 from .wind.quarantine import Quarantine
 from .winds import Winds
@@ -129,6 +130,7 @@ class Answering:
         """Return what grows at ground positions (x, z) [m], shape (n, 2), and how high it stands there now."""
         self._must_be_there("ask about it")
         felt = partial(self._felt_at, time=self.time)
+        one(Trees, self.features).note(self.time)
         return grass_at(self.site, self.clearings, self._mown, felt, as_places(xz))
 
     def wind_at(self, xz: ArrayLike, time: float | None = None, *, kind: str | None = None) -> Floats:

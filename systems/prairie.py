@@ -330,7 +330,7 @@ class Prairie(Tending):
         self._clock, became, kinds = self._saving.restore(state, self.site, self.loaded, entities or {})
         self.viewers.begin_anew()
         self._move_to(self._ripening.resume(self.site, kinds))  # after it, as winds of entities stay what they are
-        self._turn(at_once=True)
+        self._turn()
         return became
 
     def release(self) -> None:
@@ -349,9 +349,9 @@ class Prairie(Tending):
         self.systems.clear()
         self._built.clear()
 
-    def _turn(self, stage: Stage = lambda *_: True, *, at_once: bool = False) -> None:
+    def _turn(self, stage: Stage = lambda *_: True) -> None:
         """Come to the kinds of grass that there are by now; `stage` brings what is new into GL."""
-        site = self._ripening.step(self.site, self.time, stage, at_once=at_once)
+        site = self._ripening.step(self.site, self.time, stage)
         scene = self._seasons.scene_at(site.scene, self.time)
         if scene is not site.scene:
             site = replace(site, scene=scene)

@@ -52,9 +52,9 @@ class Ripening:
         batch = self._seasons.batch
         return self._seasons.standing, {} if batch is None else batch.kinds
 
-    def step(self, site: Site, time: float, stage: Stage, /, *, at_once: bool = False) -> Site:
-        """Return the site as it is at a time [s]; it waits for what has to grow where nobody watches, or `at_once`."""
-        waits = at_once or not self._live
+    def step(self, site: Site, time: float, stage: Stage, /) -> Site:
+        """Return the site as it is at a time [s]; it waits for what has to grow where nobody watches."""
+        waits = not self._live
         while True:
             if self._asked is None:
                 self._asked = self._ask(site, time, waits=waits)

@@ -63,13 +63,17 @@ class Plots:
         self._free: list[int] = []
         self._alike: dict[bytes, int] = {}
         self._last: deque[Part] = deque(maxlen=MOST)
-        self._ends = [self.half[1], self.half[0], -self.half[1], -self.half[0]]
+        self._ends = self._no_ends
 
     @property
     def ends(self) -> tuple[int, int, int, int]:
-        """The first row and column of `index` that have had a page, and the last."""
+        """The first row and column of `index` that have a page, and the last."""
         top, left, bottom, right = self._ends
         return top + self.half[1], left + self.half[0], bottom + self.half[1], right + self.half[0]
+
+    @property
+    def _no_ends(self) -> list[int]:
+        return [self.half[1], self.half[0], -self.half[1], -self.half[0]]
 
     @property
     def index(self) -> Ints:
@@ -263,7 +267,7 @@ class Plots:
         most = max(len(pages), len(self.written))
         self._index, self._free, self._alike = None, [*range(len(pages), most)], {}
         self.pages, self.written = np.append(pages, self.pages[len(pages) : most], axis=0), np.full(most, count)
-        self._uses = np.bincount(where[kept, 2], minlength=most).astype(np.int64)
+        self._uses, self._ends = np.bincount(where[kept, 2], minlength=most).astype(np.int64), self._no_ends
         if kept.any():
             self.index[at[kept, 0], at[kept, 1]] = where[kept, 2]
             (top, left), (bottom, right) = at[kept].min(axis=0).tolist(), at[kept].max(axis=0).tolist()

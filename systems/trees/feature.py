@@ -103,6 +103,15 @@ class Trees(Feature):
         """Look which trees stand where; one of a kind that the scene does not have is named once, and left out."""
         if self.wild is not None:
             self.wild.follow(viewer, eye)
+        self.note(time)
+        if self.wild is not None:
+            self.standing = self.wild.standing(viewer, eye, self._rows)
+        elif self.standing.rows is not self._rows:
+            self.standing = Standing(self._rows)
+        self._shade(self.standing)
+
+    def note(self, time: float) -> None:
+        """Take note of which trees stand where at a time [s], and how much grass grows below them."""
         changes = self._grown.ground.terrain.changes.count
         seen = (trees := self._world.rows(Tree)), self._world.rows(Pose) if trees else []
         before, self._seen = (
@@ -112,13 +121,8 @@ class Trees(Feature):
         if seen != before or changes != self._heights:
             self._heights = changes
             self._look(time)
-        if self.wild is not None:
-            self.standing = self.wild.standing(viewer, eye, self._rows)
-        elif self.standing.rows is not self._rows:
-            self.standing = Standing(self._rows)
         if self._going.step(time):
             self._shade_grass()
-        self._shade(self.standing)
 
     def _shade(self, standing: Standing) -> None:
         """Let these give shade, and what is left of those that were felled."""

@@ -190,6 +190,10 @@ def test_f4_a_map_is_saved_and_brought_back_to_the_bit() -> None:
     for each in (one, other):
         sow(each, 0, AMONG, Footprint(radius=9.0), 0.3, Pose(4.0, 4.0), soft=1.0)
     np.testing.assert_array_equal(density_at(other, PLACES), density_at(one, PLACES))
+    small = meadow()
+    clear(small, BOX, Pose(20.0, 20.0), soft=0.0)
+    other.sown.resume(*small.sown.saved())
+    assert other.sown.ends == small.sown.ends != one.sown.ends, "edges are looked for where any are now"
     other.sown.resume(*meadow().sown.saved())
     np.testing.assert_array_equal(density_at(other, PLACES), density_at(meadow(), PLACES))
 

@@ -117,6 +117,17 @@ def test_a_patch_that_a_game_has_cleared_has_no_grass_that_stands(prairie: Prair
     assert found.height[0] == 0.0 < found.height[1]
 
 
+def test_grass_below_a_tree_is_as_thin_before_the_first_frame_as_after_it(world: World) -> None:
+    del world
+    birch = {"birch": {"habit": "birch", "positions": [[5, 5]]}}
+    prairie = Prairie.load({"tallgrass": 2, "grass": {"green": {}}, "trees": birch, "quality": "minimal"})
+    below = prairie.grass_at([(5.5, 5.5)]).density[0, 0]
+    assert below < 0.95 * prairie.grass_at([(-20.0, -20.0)]).density[0, 0]
+    watch(prairie)
+    assert prairie.grass_at([(5.5, 5.5)]).density[0, 0] == below
+    prairie.release()
+
+
 def test_f13_who_asks_for_patches_of_a_viewer_that_was_never_drawn_is_told_once(
     prairie: Prairie, caplog: pytest.LogCaptureFixture
 ) -> None:

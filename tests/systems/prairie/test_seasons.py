@@ -92,6 +92,14 @@ def test_f4_a_state_keeps_a_kind_on_its_way(load: Load) -> None:
     assert again.scene.grass == other.scene.grass
 
 
+def test_f4_a_state_of_a_kind_that_still_grows_shows_what_was_seen_when_it_was_saved(load: Load) -> None:
+    played, other = load(), load()
+    played.change_kind("green", height=[0.8, 1.0], over=8.0)
+    played.advance(4.0)  # and no frame has come, let alone what grows on another thread
+    other.restore(played.state())
+    assert other.grass_at([(0.0, 0.0)]).height[0] == played.grass_at([(0.0, 0.0)]).height[0]
+
+
 def test_f4_a_scene_that_is_read_again_has_its_own_kinds(prairie: Prairie) -> None:
     before = prairie.scene.grass
     prairie.change_kind("green", tip="#ff0000", withered=0.5, over=2.0)
