@@ -114,8 +114,8 @@ class Scene(Declaration):
     wind: list[Wind] = Field(default=[], max_length=200)
     """Wind primitives."""
 
-    mixing: Mixing = "priority"
-    """How winds meet: the highest priority at a place cancels the others, or they are mixed by weight."""
+    mixing: Mixing = "weight"
+    """How winds meet: by weight, each sets in softly over those of lower priority; by priority, it cancels them."""
 
     pressers: list[PresserOnPath] = Field(default=[], max_length=200)
     """Who walks through the grass and treads it down."""

@@ -25,7 +25,7 @@ def _second(values: Values) -> Values:
     grass = values.get("grass")
     kinds = {name: _with(kind, FIRST_GRASS) for name, kind in grass.items()} if isinstance(grass, dict) else grass
     told = {"grass": kinds} if "grass" in values else {}
-    return values | told | {"light": _with(values.get("light"), FIRST_LIGHT)}
+    return {"mixing": "priority"} | values | told | {"light": _with(values.get("light"), FIRST_LIGHT)}
 
 
 STEPS: Steps = {1: _second}

@@ -90,7 +90,7 @@ class Blast(PlacedWind):
     """Largest posture index in it."""
 
     soft: float = Field(default=1.5, ge=0.0, le=1000.0)
-    """Over what distance from its outline it sets in, with `mixing: weight` [m]."""
+    """Over what distance from its outline it sets in, unless winds meet by priority [m]."""
 
     swing: float = Field(default=0.18, ge=0.0, le=0.5)
     """Largest posture index of a blade's own small oscillations in it, of random direction."""

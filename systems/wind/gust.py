@@ -72,7 +72,7 @@ class Gust(WindPrimitive):
     """How far parts of the front lag behind others [m]."""
 
     soft: float = Field(default=4.0, ge=0.0, le=1000.0)
-    """Over what distance from its sides and ends it sets in, with `mixing: weight` [m]."""
+    """Over what distance from its sides and ends it sets in, unless winds meet by priority [m]."""
 
     every: Pair | None = None
     """Shortest and longest time after which it comes again, at random; without it, it comes once [s]."""

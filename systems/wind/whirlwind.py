@@ -43,7 +43,7 @@ class Whirlwind(PlacedWind):
     """How fast its stronger sides go round [turns/s]."""
 
     soft: float = Field(default=1.5, ge=0.0, le=1000.0)
-    """Over what distance from its edge it sets in, with `mixing: weight` [m]."""
+    """Over what distance from its edge it sets in, unless winds meet by priority [m]."""
 
     def rates(self) -> tuple[float]:
         """Return how fast its stronger sides go round, clockwise seen from above [turns/s]."""

@@ -36,7 +36,6 @@ def test_the_scene_is_valid_and_says_what_it_seems_to() -> None:
     scene = parse_scene(SCENE)
     assert scene.grass["feather"].height == [0.6, 1.0]
     assert [wind.kind for wind in scene.wind] == ["breeze", "gust"]
-    assert scene.mixing == "weight"
 
 
 def test_the_programs_use_only_what_the_face_offers() -> None:

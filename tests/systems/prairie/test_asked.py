@@ -152,3 +152,16 @@ def test_d4_a_prairie_of_values_has_no_file_and_goes_on_in_others(world: World) 
     assert made.height_at([(0.0, 0.0)]) == pytest.approx(4.0)
     other.release()
     made.release()
+
+
+def test_w11_a_gust_sets_in_softly_at_its_sides_unless_its_scene_asks_for_priority(load: Load, tmp_path: Path) -> None:
+    across = np.stack([np.linspace(0.0, 25.0, 101), np.zeros(101)], axis=1)  # it travels along z, and ends at x = 10
+    gust = "  - { kind: gust, position: [0, 8], direction: 0, width: 20, soft: 8, ragged: 0, hold: 9 }\n"
+    text = (tmp_path / "scene.yaml").read_text("utf-8").replace("quality:", gust + "quality:")
+    steps = []
+    for mixing in ("", "mixing: priority\n"):
+        (tmp_path / "gust.yaml").write_text(text + mixing, "utf-8")
+        wind = load(tmp_path / "gust.yaml").wind_at(across, 3.0)
+        steps.append(np.linalg.norm(np.diff(wind, axis=0), axis=1).max())
+    assert steps[0] < 0.3  # small oscillations differ from place to place, too
+    assert steps[1] > 0.6

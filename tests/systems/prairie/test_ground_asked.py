@@ -128,7 +128,7 @@ def test_grass_below_a_tree_is_as_thin_before_the_first_frame_as_after_it(world:
     prairie.release()
 
 
-def test_f13_who_asks_for_patches_of_a_viewer_that_was_never_drawn_is_told_once(
+def test_who_asks_for_patches_of_a_viewer_that_was_never_drawn_is_told_once(
     prairie: Prairie, caplog: pytest.LogCaptureFixture
 ) -> None:
     assert not prairie.patch_at([TALL]).any()
