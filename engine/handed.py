@@ -17,6 +17,9 @@ _PLAIN = frozenset({float, np.float64, np.float32})
 FARTHEST = 1e6
 """Largest coordinate that is taken for a place [m]: beyond, the numbers of cells and squares would overflow."""
 
+MOST_SEED = 2**31 - 1
+"""The largest seed of a scene."""
+
 LONGEST = 1e9
 """Longest step, and latest instant, that is taken [s]: beyond, time is not exact to the microsecond."""
 
@@ -38,6 +41,8 @@ def as_floats(thing: object, due: str, /, *, holes: bool = False) -> NDArray[np.
 
 
 def _as_singles(thing: object) -> NDArray[np.float32]:
+    if isinstance(thing, np.ndarray) and np.iscomplexobj(thing):
+        raise TypeError("complex numbers are no places")
     with np.errstate(over="ignore"):  # what is too large for single precision is refused as infinity
         return np.asarray(thing, np.float32)
 
@@ -87,6 +92,12 @@ def must_be_viewer(thing: object, /) -> None:
     """Raise TypeError for what is no viewer's name."""
     if not isinstance(thing, str):
         raise TypeError(f"a viewer is called by a text such as 'main', not by {shortened(thing)}")
+
+
+def must_be_seed(thing: object, /) -> None:
+    """Raise ValueError for what is no seed that a scene may have."""
+    if not isinstance(thing, int) or not 0 <= thing <= MOST_SEED:
+        raise ValueError(f"a seed is a whole number from 0 to {MOST_SEED}, not {shortened(thing)}")
 
 
 def must_be_known(what: str, name: str | None, known: Iterable[str], /) -> None:

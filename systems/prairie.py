@@ -13,7 +13,7 @@ from ..engine.camera import View, as_origin, camera_at, projection_matrix, view_
 from ..engine.declared.parts import DEPTHS, as_parts
 from ..engine.declared.quality import LodName
 from ..engine.gl.guest import unturned
-from ..engine.handed import must_be_a, must_be_known, must_be_viewer
+from ..engine.handed import must_be_a, must_be_known, must_be_seed, must_be_viewer
 from ..engine.plugged import bring_systems
 from ..engine.scene import LoadedScene, SceneLike, must_be_read, read_again, read_scene
 from ..engine.schedule import Phase, Schedule
@@ -123,6 +123,7 @@ class Prairie(Tending):
 
     def reseeded(self, seed: int) -> "Prairie":
         """Return another prairie of the same scene, quality and terrain, with other grass."""
+        must_be_seed(seed)
         loaded = replace(self.loaded, scene=self.scene.model_copy(update={"seed": seed}))
         return Prairie(
             loaded, ctx=self._assembly.screen.ctx, preset=self.preset, lod=self.lod,

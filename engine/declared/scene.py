@@ -20,7 +20,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from ...components.declaration import Declaration, DeclarationError
 from ...components.wind import Mixing, WindPrimitive
-from ..handed import must_be_known
+from ..handed import MOST_SEED, must_be_known
 from .camera import CameraSource
 from .grass import MOST_KINDS, GrassKind
 from .lamp import LampOnPath
@@ -102,7 +102,7 @@ class Scene(Declaration):
     tallgrass: Literal[2]
     """Version of the scene format; always the first key."""
 
-    seed: int = Field(default=1, ge=0, le=2**31 - 1)
+    seed: int = Field(default=1, ge=0, le=MOST_SEED)
     """Everything random in the scene comes from it."""
 
     terrain: TerrainSource = TerrainSource(noise="flat")

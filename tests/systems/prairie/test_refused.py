@@ -147,6 +147,7 @@ def test_a_bad_matrix_is_refused_in_a_sentence_that_names_it(prairie: Prairie, m
         ([[1.0, 2.0], [3.0]], r"\[\[1.0, 2.0\], \[3.0\]\]"),
         ("here", "'here'"),
         (None, "None"),
+        (np.ones((1, 2), complex), r"array\(\[\[1.\+0.j, 1.\+0.j\]\]\)"),
     ],
 )
 def test_places_that_are_no_pairs_are_refused_in_a_sentence(prairie: Prairie, places: object, found: str) -> None:
@@ -155,6 +156,12 @@ def test_places_that_are_no_pairs_are_refused_in_a_sentence(prairie: Prairie, pl
             ValueError, match=rf"^ground positions are finite \(x, z\) pairs, one in each row, not {found}$"
         ):
             ask(places)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("seed", [-1, 2**31, 1.0, "7", None])
+def test_what_is_no_seed_is_refused_in_a_sentence(prairie: Prairie, seed: Any) -> None:
+    with pytest.raises(ValueError, match=r"^a seed is a whole number from 0 to 2147483647, not "):
+        prairie.reseeded(seed)
 
 
 def test_no_places_have_no_heights_no_winds_and_no_patches(prairie: Prairie) -> None:
