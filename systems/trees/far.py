@@ -1,6 +1,6 @@
 """The pictures of a tree from all around, which stand for it far off (Forsyth, Impostors: Adding Clutter, 2001)."""
 
-from math import radians
+from math import log2, radians
 
 COLUMNS, ROWS = 12, 3
 """Pictures all around, and from how many elevations."""
@@ -21,8 +21,11 @@ FINER = 2
 TILE_EDGE = 0.5
 """What of a picture is its neighbours' at its edge [texels]."""
 
-FINER_BY = -0.6
-"""Level at which one is shown, from that of its pixels: it is read between texels, which blurs it."""
+FINER_BY = -0.5 * log2(3.0)
+"""Level at which one is shown, from that of its pixels: there it is as blurred as by the mean over a pixel.
+
+Across, that has a variance of 1/12 of a pixel's square. Texels are means over themselves, and are read between: of a
+texel's square, the first has 1/12 and the second 1/6."""
 
 THICKEST = 0.6
 """Radius of a stem that a picture's texel of 255 stands for [m]."""
