@@ -13,9 +13,8 @@ from tallgrass import Breeze, Pose, Prairie, Tree, WindSource
 from tallgrass.engine.declared.tree import TreeKind
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.systems.features import one
-from tallgrass.systems.trees.ages import SEEDLING, SOON, grown_to
 from tallgrass.systems.trees.feature import Trees
-from tallgrass.systems.trees.forest import Forest
+from tallgrass.systems.trees.forest import SEEDLING, SOON, Forest, grown_to
 from tallgrass.systems.trees.place import placed
 from tallgrass.testing import LITTLE, little_prairie, private_world
 
