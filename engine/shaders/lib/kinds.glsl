@@ -51,7 +51,7 @@ float figure_of(ByKind figures, int kind) {
 // through all as well: where it went on from one to the next until one was found, an NVIDIA H100 drew none where the first was not met.
 int next_kind(ByKind figures, float least, int kind) {
     int found = KINDS;
-    for (int other = KINDS - 1; other >= 0; other--)
-        found = other >= kind && OF(figures, other) > least ? other : found;
+    for (int other = 0; other < KINDS; other++)
+        found = other >= kind && OF(figures, other) > least ? min(found, other) : found;
     return found;
 }
