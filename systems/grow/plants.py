@@ -8,10 +8,11 @@ from numpy.typing import NDArray
 
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.plant import Plant
-from .blades import grow_blades, wither
+from .blades import grow_blades, let_hang, wither
 from .heads import grow_heads
 from .layout import HABITS, Layout
 from .organs import FROND, LEAF, SPRIG, STEM
+from .postures import hanging_of
 from .record import Blades
 from .rows import GOLDEN, Rows, Stems, stood, together
 
@@ -32,22 +33,27 @@ def grow_patch(kind: GrassKind, layout: Layout, /, *, patch: float, variants: in
     head last.
     """
     stand = grow_blades(kind, count=layout.plants, patch=patch, variants=variants, seed=seed)
+    leaves = stand
+    if kind.plant == "grass":
+        leaves = let_hang(stand, kind, patch=patch, variants=variants, seed=seed)
     if kind.withered:
-        stand = wither(stand, kind.withered, seed=seed)
+        leaves = wither(leaves, kind.withered, seed=seed)
     if kind.plant == "grass" and kind.head is None:
-        return stand
+        return leaves
     random = np.random.default_rng([seed, 0x706C616E])
-    return together(stand, *_parts(kind, layout, stand, variants, random))
+    return together(stand, *_parts(kind, layout, stand, leaves, variants, random))
 
 
-def _parts(kind: GrassKind, layout: Layout, stand: Blades, variants: int, random: np.random.Generator, /) -> list[Rows]:
+def _parts(
+    kind: GrassKind, layout: Layout, stand: Blades, leaves: Blades, variants: int, random: np.random.Generator, /
+) -> list[Rows]:
     bears = _bearing(layout)
     if kind.plant == "grass":
         culms = _culms(kind, stand, np.flatnonzero(bears))
-        parts = [_blades(stand, np.flatnonzero(~bears)), _stems(kind, culms)]
+        parts = [_blades(leaves, np.flatnonzero(~bears)), _stems(kind, culms)]
     else:
         every = _BRANCHED[kind.plant](kind, layout, stand, random)
-        parts = [_stems(kind, every), _leaves(kind, layout, every, variants, random)]
+        parts = [_stems(kind, every), _leaves(kind, layout, every, variants - hanging_of(variants), random)]
         culms = every.of(np.flatnonzero(bears[every.plant]))
     if kind.head is not None:
         parts.append(grow_heads(kind.head, layout, culms, random))

@@ -5,13 +5,22 @@ import numpy as np
 from ...components.arrays import Doubles
 from ...engine.declared.grass import GrassKind
 from .record import Postures
-from .simulate import LINKS, Chain, build_chain, damp, lowest_swing, place_links, settle, simulate
+from .simulate import LINKS, Chain, build_chain, damp, lowest_swing, place_links, sag, settle, simulate
 
 NEAR_FLAT = np.radians(83.0)
 """Angle of the tip from the vertical at posture index 1 [rad]."""
 
 _CALM, _STORM = 0.02, 400.0
 """Squared speeds of winds that bend blades, from the least to the most, in what their stiffness withstands."""
+
+HANGING = 2
+"""Variants of leaves that hang over, the last of all: one arches, the other is folded over."""
+
+_HEAVY_FROM, _HEAVY_TO, _SAGS = 0.02, 8.0, 60
+"""Weights of a leaf that sags, of what it carries, from the least to the most; how many between."""
+
+_FOLDED_AT, _FOLD = 8, 0.12
+"""The joint at which a leaf is folded over, and how stiff that is, of what it would be."""
 
 _GOLDEN = 0.618
 _RESTS = 200
@@ -25,18 +34,44 @@ def grow_postures(kind: GrassKind, /, *, variants: int = 4, rows: int = 129, see
     A wind that grows slowly from nothing bends simulated blades until their tips lie near flat: index 1. The
     index is the angle of the line from root to tip, as a fraction of that; 0 is upright, and a negative index
     is the mirror image. Variant 0 has even links; in the others the springs, and so each segment's
-    orientation, are random (section 2.2). Raises ValueError unless `rows` is odd and at least 3.
+    orientation, are random (section 2.2). The last `hanging_of` variants are leaves too heavy for themselves: they
+    sag, and lie at index 1. Raises ValueError unless `rows` is odd and at least 3.
     """
     if rows < 3 or rows % 2 == 0:
         raise ValueError(f"postures need an odd number of rows, at least 3, not {rows}")
-    chain = build_chain(kind, _random_factors(variants, seed))
-    angle = _bend_slowly(chain)
+    hanging = hanging_of(variants)
     half = rows // 2
     level = np.linspace(0.0, 1.0, half + 1)
-    rising = np.stack([_resample(angle[:, number], level) for number in range(variants)])
+    bent = np.moveaxis(_bend_slowly(build_chain(kind, _random_factors(variants - hanging, seed))), 1, 0)
+    sagged = np.moveaxis(_hang(kind), 1, 0)[:hanging]
+    rising = np.stack(
+        [_resample(angle[: flat_step(angle) + 1], level) for angle in bent]
+        + [_resample(angle[: _lies_from(angle) + 1], level) for angle in sagged]
+    )
     both = np.concatenate([-rising[:, :0:-1], rising], axis=1)
     index = np.concatenate([-level[:0:-1], level])
     return Postures(index=index.astype(np.float32), shape=place_links(both).astype(np.float32))
+
+
+def hanging_of(variants: int, /) -> int:
+    """Return how many of so many variants are leaves that hang over: two at least stand."""
+    return min(HANGING, max(variants - 2, 0))
+
+
+def _hang(kind: GrassKind, /) -> Doubles:
+    """Return the angles of leaves that sag ever more, first one that arches, then one that is folded over.
+
+    Shape (steps, HANGING, links); as leaves grow old they bend under their weight, or break at a weak place.
+    """
+    factors = np.ones((HANGING, LINKS))
+    factors[1, _FOLDED_AT] = _FOLD
+    sagged = sag(kind, factors, np.geomspace(_HEAVY_FROM, _HEAVY_TO, _SAGS))
+    return np.concatenate([np.zeros_like(sagged[:1]), sagged])
+
+
+def _lies_from(angle: Doubles, /) -> int:
+    """Return the first step at which the line from root to tip of a leaf (steps, links) is near flat."""
+    return int(np.argmax(chord_angle(angle) >= NEAR_FLAT))
 
 
 def rest_in_winds(chain: Chain, /) -> tuple[Doubles, Doubles]:
@@ -86,10 +121,9 @@ def flat_step(angle: Doubles, /) -> int:
 
 def _resample(angle: Doubles, level: Doubles, /) -> Doubles:
     """Return angles at evenly spaced deflections, shape (levels, links), exact 0 at the first."""
-    angle = angle[: flat_step(angle) + 1]
     chord = np.maximum.accumulate(chord_angle(angle))
     fresh = np.concatenate([[True], np.diff(chord) > 1e-9])
-    wanted = level * chord[-1]
+    wanted = level * min(chord[-1], NEAR_FLAT)
     return np.stack([np.interp(wanted, chord[fresh], link) for link in angle[fresh].T], axis=1)
 
 

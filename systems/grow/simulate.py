@@ -33,6 +33,10 @@ _MOST_TRIES, _LONGEST_TURN, _AT_REST = 60, 0.2, 1e-9
 """Newton's steps to a blade's rest at most; how far one turns a link, and below which no other follows [rad]."""
 
 
+_BREATH = 0.12
+"""Wind on a blade that sags, of its weight: enough that it gives way to one side, and not all at once."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Chain:
     """A batch of blades, each a chain of links that stands clamped at its root."""
@@ -59,19 +63,39 @@ def build_chain(kind: GrassKind, factors: Doubles, /) -> Chain:
     A plant grows as thick as its height demands: stiffness is measured from the least with which the blade
     still carries its own weight, so every kind stands. Width decides how thick the blade is for its height.
     """
-    links = factors.shape[1]
     length = 0.5 * (kind.height[0] + kind.height[1])
     thickness = np.sqrt(np.clip(kind.width / (length * _SLENDERNESS), 0.25, 4.0))
-    middle = (np.arange(links) + 0.5) / links
-    breadth = (1.0 - middle) ** kind.taper
-    mass = breadth / breadth.sum()
     density = _AREAL_DENSITY * (length / 0.5) ** 1.5 * thickness
-    along = np.arange(links) / links
-    profile = ((1.0 - along) ** kind.taper * (1.0 - 0.7 * along) ** 2) * factors
-    profile /= _least_load(profile, mass)[:, None]
-    stiffness = profile * (1.0 + _MARGIN * kind.stiffness * thickness**2)
+    mass, least = _least(kind, factors)
+    stiffness = least * (1.0 + _MARGIN * kind.stiffness * thickness**2)
     chain = Chain(mass, mass * _DRAG * length / density, stiffness, stiffness, float(np.sqrt(GRAVITY / length)))
     return damp(chain, ratio=_DAMPING_RATIO * kind.damping)
+
+
+def _least(kind: GrassKind, factors: Doubles, /) -> tuple[Doubles, Doubles]:
+    """Return the mass of each link, shape (links,), and the least stiffness of joints, stiffer by `factors` (batch,
+    links), with which a blade still carries itself, same shape."""
+    links = factors.shape[1]
+    breadth = (1.0 - (np.arange(links) + 0.5) / links) ** kind.taper
+    mass = breadth / breadth.sum()
+    along = np.arange(links) / links
+    profile = ((1.0 - along) ** kind.taper * (1.0 - 0.7 * along) ** 2) * factors
+    return mass, np.asarray(profile / _least_load(profile, mass)[:, None])
+
+
+def sag(kind: GrassKind, factors: Doubles, heavy: Doubles, /) -> Doubles:
+    """Return the angles of blades that no longer carry themselves, shape (weights, batch, links).
+
+    Their weight, shape (weights,), rises from a part of what they carry to more than that, and a breath of wind says
+    to which side they hang. Joints are stiffer by `factors`, shape (batch, links).
+    """
+    mass, least = _least(kind, factors)
+    load, stiff, reach = _load(mass), _joint_matrix(least), _reach(len(mass))
+    angle, push = np.zeros(factors.shape), _BREATH * mass
+    sagged = np.empty((len(heavy), *factors.shape))
+    for number, weight in enumerate(heavy):
+        sagged[number] = angle = _rest(angle, stiff / weight, load, reach, push)
+    return sagged
 
 
 def damp(chain: Chain, /, *, ratio: float) -> Chain:
@@ -153,14 +177,18 @@ def settle(chain: Chain, wind: Doubles, /) -> Doubles:
     angle = np.zeros(chain.stiffness.shape)
     rests = np.empty((len(wind), *angle.shape))
     for number, speed in enumerate(wind):
-        pressure = chain.area * speed * speed
-        for _ in range(_MOST_TRIES):
-            step = _towards_rest(angle, stiff, load, reach, pressure)
-            angle = angle + np.clip(step, -_LONGEST_TURN, _LONGEST_TURN)
-            if np.abs(step).max() < _AT_REST:
-                break
-        rests[number] = angle
+        rests[number] = angle = _rest(angle, stiff, load, reach, chain.area * speed * speed)
     return rests
+
+
+def _rest(angle: Doubles, stiff: Doubles, load: Doubles, reach: Doubles, pressure: Doubles, /) -> Doubles:
+    """Return the angles at which blades rest, (batch, links), looked for from others near by."""
+    for _ in range(_MOST_TRIES):
+        step = _towards_rest(angle, stiff, load, reach, pressure)
+        angle = angle + np.clip(step, -_LONGEST_TURN, _LONGEST_TURN)
+        if np.abs(step).max() < _AT_REST:
+            break
+    return angle
 
 
 def _towards_rest(angle: Doubles, stiff: Doubles, load: Doubles, reach: Doubles, pressure: Doubles, /) -> Doubles:

@@ -19,7 +19,7 @@ from ..grow.response import grow_response
 from ..show.registry import REPRESENTATIONS
 from ..show.representation import Seedling
 
-VARIANTS = 4
+VARIANTS = 6
 ROWS = 129
 
 _MIPMAPS = 4.0 / 3.0

@@ -12,8 +12,8 @@ from tallgrass.systems.grow.postures import grow_postures
 from tallgrass.systems.grow.section import Section
 
 KIND = GrassKind()
-POSTURES = grow_postures(KIND, seed=2)
-BLADES = grow_blades(KIND, count=60, patch=2.5, variants=4, seed=2)
+POSTURES = grow_postures(KIND, variants=6, seed=2)
+BLADES = grow_blades(KIND, count=60, patch=2.5, variants=6, seed=2)
 
 
 def messages() -> st.SearchStrategy[tuple[float, float]]:

@@ -9,8 +9,10 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.declared.grass import GrassKind
-from tallgrass.systems.grow.blades import grow_blades, wither
+from tallgrass.systems.grow.blades import grow_blades, let_hang, wither
 from tallgrass.systems.grow.organs import BLADE, WITHERED
+from tallgrass.systems.grow.bend import spine
+from tallgrass.systems.grow.postures import HANGING, grow_postures
 from tallgrass.systems.grow.record import Blades
 
 PATCH = 2.5
@@ -118,6 +120,38 @@ def alikeness(clumping: float, seed: int) -> tuple[float, float]:
     near, lean = (distance < 0.15) & (distance > 0.0), np.arctan2(blades.rest[:, 1], blades.rest[:, 0])
     face, lies = (np.cos(way[:, None] - way[None])[near].mean() for way in (2.0 * blades.facing, lean))
     return face, lies
+
+
+def test_widths_differ_threefold_and_share_out_the_same_leaf_area() -> None:
+    blades = meadow()
+    fifth, most = np.quantile(blades.width, [0.05, 0.95])
+    assert most > 3.0 * fifth
+    assert (blades.width @ blades.height) == pytest.approx(0.95 * 0.02 * blades.height.sum(), rel=1e-4)
+
+
+def test_the_oldest_leaves_hang_over_with_their_face_up_and_none_where_grass_is_straight_or_round() -> None:
+    kind, young = GrassKind(), meadow()
+    some = let_hang(young, kind, patch=PATCH, variants=4, seed=1)
+    hang = some.variant >= 4 - HANGING
+    assert hang.mean() == pytest.approx(0.25, abs=0.06)
+    for before, after in zip(fields(young), fields(some), strict=True):
+        np.testing.assert_array_equal(after[~hang], before[~hang])
+    index, lean = np.linalg.norm(some.rest[hang], axis=1), np.arctan2(some.rest[:, 1], some.rest[:, 0])
+    assert (index > kind.lean).mean() > 0.8  # few reach over the edge
+    assert (index <= 0.9 + 1e-6).all()
+    assert np.cos(some.facing - lean)[hang].mean() > 0.9
+    for other in (GrassKind(lean=0.0), GrassKind(profile="rush")):
+        stands = let_hang(young, other, patch=PATCH, variants=4, seed=1)
+        assert other.lean == 0.0 and not stands.rest[hang].any() or (stands.rest == young.rest).all()
+
+
+@pytest.mark.parametrize("lean", [0.2, 0.9])
+def test_leaves_that_hang_reach_no_farther_over_the_edge_than_others(lean: float) -> None:
+    kind = GrassKind(lean=lean)
+    young, postures = meadow(kind=kind), grow_postures(kind, variants=4)
+    old = let_hang(young, kind, patch=PATCH, variants=4, seed=1)
+    beyond = [np.abs(spine(each, postures, (0.0, 0.0), points=9)[..., ::2] - PATCH / 2).max() for each in (young, old)]
+    assert beyond[1] < beyond[0] + 0.02
 
 
 @settings(max_examples=20, deadline=None)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.declared.grass import GrassKind
-from tallgrass.systems.grow.postures import grow_postures
+from tallgrass.systems.grow.postures import HANGING, grow_postures
 from tallgrass.systems.grow.record import Postures
 
 KINDS = {
@@ -54,8 +54,19 @@ def test_w3_index_zero_is_upright_and_negative_indices_are_the_mirror_image(post
 def test_w3_index_one_is_near_flat(postures: Postures) -> None:
     last = postures.shape[:, -1, -1] - postures.shape[:, -1, -2]
     tip = np.degrees(np.arctan2(last[:, 0], last[:, 1]))
-    assert (tip > 80.0).all()
-    assert (tip < 90.0).all()
+    assert (tip[:-HANGING] > 80.0).all()
+    assert (tip[:-HANGING] < 90.0).all()
+
+
+def test_the_last_variants_hang_over_and_lie_at_index_one(postures: Postures) -> None:
+    shape = postures.shape[-HANGING:]
+    chord = np.degrees(np.arctan2(*np.moveaxis(shape[:, -1, -1], -1, 0)))
+    assert ((chord > 80.0) & (chord < 90.0)).all()
+    assert shape[..., 1].min() > -0.01
+    half = shape[:, 96]  # index 0.5
+    turn = np.diff(np.arctan2(*np.moveaxis(np.diff(half, axis=1), -1, 0)), axis=1)
+    assert (half[:, :, 1].max(axis=1) < 0.8).all()
+    assert turn[1].max() > 2.0 * turn[0].max()  # it is folded at one place
 
 
 def test_w3_a_higher_index_is_a_stronger_bend_in_even_steps(postures: Postures) -> None:
@@ -63,7 +74,7 @@ def test_w3_a_higher_index_is_a_stronger_bend_in_even_steps(postures: Postures) 
     deflection = np.arctan2(tip[..., 0], tip[..., 1])
     step = np.diff(deflection, axis=1)
     assert (np.diff(postures.index) > 0.0).all()
-    assert (np.diff(tip[..., 0], axis=1) > 0.0).all()
+    assert (np.diff(tip[:-HANGING, :, 0], axis=1) > 0.0).all()
     np.testing.assert_allclose(step / step.mean(axis=1, keepdims=True), 1.0, atol=0.25)
 
 
@@ -75,7 +86,7 @@ def test_blades_bend_more_towards_their_tips(postures: Postures) -> None:
 
 
 def test_g2_segments_are_oriented_at_random_in_all_variants_but_the_first() -> None:
-    shape = grow_postures(GrassKind(), seed=3).shape
+    shape = grow_postures(GrassKind(), variants=4 + HANGING, seed=3).shape[:4]
     turn = np.diff(np.arctan2(*np.moveaxis(np.diff(shape[:, 96], axis=1), -1, 0)), axis=1)
     wobble = np.abs(np.diff(turn, n=2, axis=1)).max(axis=1)
     assert (wobble[1:] > 3.0 * wobble[0]).all()
