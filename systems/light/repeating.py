@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from functools import lru_cache
+from itertools import pairwise
 
 import moderngl
 import numpy as np
@@ -11,7 +12,7 @@ from ...components.arrays import Doubles, Floats
 from ...components.wind import WindPrimitive
 from ...engine.gl.mipmaps import mipmapped_image
 from ...engine.gl.rasteriser import anisotropy
-from ..grow.raster import rasterise, ribbon_triangles
+from ..grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
 from ..wind.blow import mean_wind
 
 SIDE = 512
@@ -25,6 +26,19 @@ STRAWS = 2600
 
 TUFTS, LEAVES = 16, 16
 """Low tufts that stand on it, in rows of so many, each somewhere in its own small square; and leaves of each tuft."""
+
+FINER_DRAWN = 2
+"""How many times finer it is drawn: so edges are even, and what is thinner than a texel is faint."""
+
+KEEL = 0.18
+"""How much brighter one half of a low leaf is than the mean of both, which are folded along its middle."""
+
+SHADED_BY, DARKER = 0.012, 3.0
+"""Over which width what lies higher shades what is below [m]; and how fast light falls with how much higher it is, of
+the height of the lowest leaves."""
+
+LEAST_COVERED = 1e-6
+"""Part of a texel that counts as covered at least."""
 
 SEEN_FAR = 0.12
 """What is evened out of the ground's brightness [m]: seen from afar, larger spots would show that squares repeat."""
@@ -50,6 +64,8 @@ before; how high they are together, of what they stand out from (Worley, A Cellu
 clouds, Schneider and Vos, The Real-time Volumetric Cloudscapes of Horizon: Zero Dawn, 2015)."""
 
 GLSL = {"CLOUDS_SIDE": CLOUDS_SIDE, "LITTER_SIDE": LITTER_SIDE, "LITTER_ONE": LITTER_ONE}
+
+_DRAWN = FINER_DRAWN * SIDE, FINER_DRAWN * SIDE
 
 FASTER = 1.5
 """How much faster clouds go than the waves of the breeze."""
@@ -102,58 +118,87 @@ def litter_map(*, seed: int) -> Doubles:
     middle, turn = random.random((STRAWS, 2)) * SIDE, random.uniform(0.0, 2.0 * np.pi, STRAWS)
     along = np.stack([np.cos(turn), np.sin(turn)], axis=1) * random.uniform(10.0, 38.0, (STRAWS, 1))
     aside = np.stack([-np.sin(turn), np.cos(turn)], axis=1) * random.uniform(0.9, 2.2, (STRAWS, 1))
-    bright = random.uniform(0.35, 1.0, STRAWS) ** 2
-    left, right = (np.stack([middle - along + side, middle + along + side], axis=1) for side in (-aside, aside))
-    front = np.repeat(random.random(STRAWS), 2)[:, None].repeat(3, axis=1)
-    seen = rasterise(ribbon_triangles(left, right), front, shape=(SIDE, SIDE), wrap=True)
-    lit = np.full(SIDE * SIDE, 0.12)
-    lit[seen.sample] = (bright * (0.35 + 0.65 * random.random(STRAWS)))[seen.triangle // 2]
-    return lit.reshape(SIDE, SIDE)
+    bright = random.uniform(0.35, 1.0, STRAWS) ** 2 * (0.35 + 0.65 * random.random(STRAWS))
+    left, right = (
+        FINER_DRAWN * np.stack([middle - along + side, middle + along + side], axis=1) for side in (-aside, aside)
+    )
+    corners, front = ribbon_triangles(left, right), np.repeat(random.random(STRAWS), 2)[:, None].repeat(3, axis=1)
+    seen = rasterise(corners, front, shape=_DRAWN, wrap=True)
+    lit = np.full(_DRAWN, 0.12)
+    lit.reshape(-1)[seen.sample] = bright[seen.triangle // 2]
+    return _mean(lit * _open(_heights(seen, corners, front)))
 
 
-def understorey_map(*, seed: int) -> tuple[Doubles, NDArray[np.bool_]]:
-    """Return how bright low leaves are over the same square, and where there are any, each of shape (SIDE, SIDE).
+def _heights(seen: Fragments, corners: Doubles, high: Doubles, /) -> Doubles:
+    """Return how high what is seen lies, by the heights of triangles' corners (n, 3), 0 on the ground."""
+    up = np.zeros(_DRAWN)
+    up.reshape(-1)[seen.sample] = interpolate(corners, high, seen)
+    return up
 
-    They stand in tufts and arch over to all sides, seen from above; the deeper they are, the less light they have.
+
+def _open(up: Doubles, /) -> Doubles:
+    """Return how much light comes between what lies about to heights: the less, the deeper they lie below its mean."""
+    return np.asarray(np.exp(-DARKER * np.maximum(_blurred(up, SHADED_BY / LITTER_SIDE) - up, 0.0)))
+
+
+def _blurred(image: Doubles, width: float, /) -> Doubles:
+    """Return a square that repeats evened out over a width, of its side."""
+    wave = np.fft.fftfreq(len(image), 1.0 / len(image))
+    falls = 2.0 * (np.pi * width * np.hypot(wave[:, None], wave[None])) ** 2
+    return np.asarray(np.fft.ifft2(np.fft.fft2(image) * np.exp(-np.minimum(falls, LEAST_SEEN))).real)
+
+
+def _mean(image: Doubles, /) -> Doubles:
+    """Return the means of texels that are drawn finer, shape (SIDE, SIDE)."""
+    return np.asarray(image.reshape(SIDE, FINER_DRAWN, SIDE, FINER_DRAWN).mean(axis=(1, 3)))
+
+
+def understorey_map(*, seed: int) -> tuple[Doubles, Doubles]:
+    """Return how bright low leaves are over the same square, and how much of it they cover, each of shape (SIDE, SIDE).
+
+    They stand in tufts and arch over to all sides, seen from above; the deeper they are, the less light they have, and
+    those above them shade them. Where there are none, they are as bright as in the mean.
     """
     random = np.random.default_rng([seed, 0x756E6472])
-    count, along = TUFTS * TUFTS * LEAVES, np.linspace(0.0, 1.0, 4)
+    count, along = TUFTS * TUFTS * LEAVES, np.linspace(0.0, 1.0, 7)
     texels = SIDE / LITTER_SIDE
     middle = (np.indices((TUFTS, TUFTS)).reshape(2, -1).T + random.random((TUFTS * TUFTS, 2))) * (SIDE / TUFTS)
     root = np.repeat(middle, LEAVES, axis=0) + random.normal(0.0, 0.006 * texels, (count, 2))
     size = np.repeat(random.uniform(0.6, 1.25, TUFTS * TUFTS), LEAVES) * texels
-    length, width = size * random.uniform(0.07, 0.19, count), size * random.uniform(0.005, 0.0085, count)
+    length, width = size * random.uniform(0.07, 0.19, count), size * random.uniform(0.0035, 0.0085, count)
     heading = random.uniform(0.0, 2.0 * np.pi, (count, 1)) + random.normal(0.0, 0.7, (count, 1)) * along
     ahead = np.stack([np.cos(heading), np.sin(heading)], axis=-1)
     steps = ahead[:, 1:] * (length / (len(along) - 1))[:, None, None]
     spine = root[:, None] + np.pad(np.cumsum(steps, axis=1), ((0, 0), (1, 0), (0, 0)))
     half = width[:, None] * np.maximum(np.sin(np.pi * (0.18 + 0.82 * along)), 0.0) ** 0.8
     aside = np.stack([-ahead[..., 1], ahead[..., 0]], axis=-1) * half[..., None]
-    arch = (along * (1.0 - 0.35 * along))[:-1]
-    high = np.repeat(0.5 * random.random((count, 1)) + 0.6 * arch, 2, axis=1).reshape(-1)
-    seen = rasterise(
-        ribbon_triangles(spine - aside, spine + aside), high[:, None].repeat(3, axis=1), shape=(SIDE, SIDE), wrap=True
-    )
-    lit = np.zeros(SIDE * SIDE)
-    own = np.repeat(random.uniform(0.75, 1.15, count), 2 * (len(along) - 1))
-    lit[seen.sample] = ((0.06 + 1.1 * high * high) * own)[seen.triangle]
-    return lit.reshape(SIDE, SIDE), lit.reshape(SIDE, SIDE) > 0.0
+    own = (0.5 * random.random((count, 1)) + 0.6 * along * (1.0 - 0.35 * along))[..., None]
+    edges = [FINER_DRAWN * (spine + part * aside) for part in (-1.0, 0.0, 1.0)]
+    corners = np.concatenate([ribbon_triangles(*pair) for pair in pairwise(edges)])
+    high = np.tile(ribbon_triangles(own, own)[..., 0], (2, 1))
+    bright = random.uniform(0.75, 1.15, count) * (1.0 + KEEL * random.choice([-1.0, 1.0], count) * [[1.0], [-1.0]])
+    seen = rasterise(corners, high, shape=_DRAWN, wrap=True)
+    up, lit, covered = _heights(seen, corners, high), np.zeros(_DRAWN), np.zeros(_DRAWN)
+    lit.reshape(-1)[seen.sample] = np.repeat(bright.reshape(-1), 2 * (len(along) - 1))[seen.triangle]
+    covered.reshape(-1)[seen.sample] = 1.0
+    lit *= (0.06 + 1.1 * up * up) * _open(up)
+    part = _mean(covered)
+    return np.asarray(np.where(part > 0.0, _mean(lit) / np.maximum(part, LEAST_COVERED), 0.0)), part
 
 
 def ground_maps(*, seed: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
     """Return what is seen of the ground over a square that repeats, each of shape (SIDE, SIDE).
 
     First the root of the radiance there, in units of 1 / `LITTER_ONE` of that of the mean: that of leaves where there
-    are low ones, and that of the ground between. Then where there are leaves, 255 or 0.
+    are low ones, and that of the ground between. Then how much of it leaves cover, up to 255.
     """
-    lit, (low, covered) = litter_map(seed=seed), understorey_map(seed=seed)
-    bright = np.where(covered, low / low[covered].mean(), lit / lit[~covered].mean())
-    wave = np.fft.fftfreq(SIDE, LITTER_SIDE / SIDE)
-    falls = 2.0 * (np.pi * SEEN_FAR * np.hypot(wave[:, None], wave[None])) ** 2
-    blur = np.exp(-np.minimum(falls, LEAST_SEEN))
-    bright /= np.fft.ifft2(np.fft.fft2(bright) * blur).real
+    lit, (low, part) = litter_map(seed=seed), understorey_map(seed=seed)
+    lit /= (lit * (1.0 - part)).sum() / (1.0 - part).sum()
+    low /= (low * part).sum() / part.sum()
+    bright = lit + (low - lit) * part
+    bright /= _blurred(bright, SEEN_FAR / LITTER_SIDE)
     root = np.clip(np.rint(np.sqrt(bright) * LITTER_ONE), 0, 255)
-    return np.asarray(root, np.uint8), np.asarray(covered * np.uint8(255))
+    return np.asarray(root, np.uint8), np.asarray(np.rint(part * 255.0), np.uint8)
 
 
 def repeating_texture(ctx: moderngl.Context, *, seed: int) -> moderngl.Texture:
