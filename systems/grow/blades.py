@@ -21,7 +21,7 @@ _TUFT = 8
 """Blades of a tuft, in the mean: tillers of one plant."""
 
 _LOOSEST, _TIGHTEST = 0.05, 0.9
-"""How far blades stand drawn to the middle of their tuft, of the way there: at least, and at most at a clumping of 1."""
+"""How far blades stand drawn to the middle of their tuft, of the way: at least, and at most at a clumping of 1."""
 
 _FANNED = 0.8
 """How far azimuths at which blades lean out of their tuft are off [rad]."""

@@ -73,8 +73,10 @@ def build_chain(kind: GrassKind, factors: Doubles, /) -> Chain:
 
 
 def _least(kind: GrassKind, factors: Doubles, /) -> tuple[Doubles, Doubles]:
-    """Return the mass of each link, shape (links,), and the least stiffness of joints, stiffer by `factors` (batch,
-    links), with which a blade still carries itself, same shape."""
+    """Return the mass of each link, shape (links,), and the least stiffness with which a blade still carries itself.
+
+    That is of joints that are stiffer by `factors`, both of shape (batch, links).
+    """
     links = factors.shape[1]
     breadth = (1.0 - (np.arange(links) + 0.5) / links) ** kind.taper
     mass = breadth / breadth.sum()

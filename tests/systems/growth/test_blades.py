@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.grow.blades import grow_blades, let_hang, wither
 from tallgrass.systems.grow.organs import BLADE, WITHERED
-from tallgrass.systems.grow.bend import spine
 from tallgrass.systems.grow.postures import HANGING, grow_postures
 from tallgrass.systems.grow.record import Blades
 
@@ -142,7 +142,7 @@ def test_the_oldest_leaves_hang_over_with_their_face_up_and_none_where_grass_is_
     assert np.cos(some.facing - lean)[hang].mean() > 0.9
     for other in (GrassKind(lean=0.0), GrassKind(profile="rush")):
         stands = let_hang(young, other, patch=PATCH, variants=4, seed=1)
-        assert other.lean == 0.0 and not stands.rest[hang].any() or (stands.rest == young.rest).all()
+        assert (other.lean == 0.0 and not stands.rest[hang].any()) or (stands.rest == young.rest).all()
 
 
 @pytest.mark.parametrize("lean", [0.2, 0.9])

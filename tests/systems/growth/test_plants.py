@@ -79,7 +79,9 @@ def test_f3_all_of_a_plant_stands_on_one_root_and_comes_and_goes_at_once(kind: G
 
 def test_f3_a_grass_without_a_head_is_blades_of_which_some_hang() -> None:
     grass = GrassKind(blades=80)
-    plain = let_hang(grow_blades(grass, count=80, patch=PATCH, variants=4, seed=1), grass, patch=PATCH, variants=4, seed=1)
+    plain = let_hang(
+        grow_blades(grass, count=80, patch=PATCH, variants=4, seed=1), grass, patch=PATCH, variants=4, seed=1
+    )
     for field in fields(plain):
         np.testing.assert_array_equal(getattr(grown(grass), field.name), getattr(plain, field.name))
 
