@@ -124,7 +124,7 @@ def _inside_up_to(blades: Blades, toward: Doubles, lean: float, patch: float, /)
 
 def _leaning(lean: Doubles, toward: Doubles, /) -> NDArray[np.float32]:
     """Return posture indices at rest (n,) towards azimuths (n,) as vectors."""
-    return (lean[:, None] * np.stack([np.cos(toward), np.sin(toward)], axis=1)).astype(np.float32)
+    return np.asarray(lean[:, None] * np.stack([np.cos(toward), np.sin(toward)], axis=1), np.float32)
 
 
 def _within_a_turn(azimuth: Doubles, /) -> Doubles:
