@@ -48,6 +48,8 @@ def test_g1_each_picture_of_the_atlas_is_the_strip_that_planting_reckons_with(
                     page, (column, row) = int(extents[0, 3]), np.rint(extents[-1, :2] * (width, height)).astype(int)
                     np.testing.assert_allclose(extents[-1, 2:] * (width, height), (w, h), rtol=1e-6)
                     rows, columns = np.nonzero(strips.texels[orientation, number, ..., 3])
+                    if not len(rows):  # no tuft stands there
+                        continue
                     mine = page, row + rows, column + columns
                     np.testing.assert_array_equal(texels[mine], strips.texels[orientation, number, rows, columns])
                     np.testing.assert_array_equal(ranked[mine], strips.ranks[orientation, number, rows, columns])
@@ -122,7 +124,7 @@ def test_w3_posture_layers_hold_places_and_directions(ctx: moderngl.Context, gro
     points, rows, layers = texture.size
     table = np.frombuffer(texture.read(), np.float32).reshape(layers, rows, points, 4)
     assert layers == sum(growth.postures.shape.shape[0] for growth in growths)
-    np.testing.assert_array_equal(table[4:, :, :, :2], growths[1].postures.shape)
+    np.testing.assert_array_equal(table[len(growths[0].postures.shape) :, :, :, :2], growths[1].postures.shape)
     step = np.diff(table[..., :2], axis=2)
     np.testing.assert_allclose(table[:, :, 1:-1, 2:], (step[:, :, 1:] + step[:, :, :-1]) / 2, atol=1e-6)
     texture.release()

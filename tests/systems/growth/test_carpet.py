@@ -115,7 +115,7 @@ def test_g4_a_carpet_of_fine_texels_shows_each_ray_what_it_meets() -> None:
     truth = np.array([meet(spot, HEADINGS[1], 0.4, fine) for spot in spots])
     column, row = (spots / PATCH * 400).astype(int).T
     found = fine.texels[0, 1, row, column] / 255.0
-    assert (np.abs(found - truth).max(axis=1) < 0.05).mean() > 0.8
+    assert (np.abs(found - truth).max(axis=1) < 0.05).mean() > 0.75
     assert np.corrcoef(found[:, 1], truth[:, 1])[0, 1] > 0.85
 
 
