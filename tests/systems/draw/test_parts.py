@@ -27,7 +27,7 @@ Probe = Callable[..., NDArray[np.float32]]
 POSTURE = """#include "lib/posture.glsl"
 in vec4 row;
 out vec3 told;
-void main() { told = posture(row.x, bending(int(row.x) / 4, row.yz), row.w).place; }"""
+void main() { told = posture(row.x, bending(int(row.x) / 6, row.yz), row.w).place; }"""
 BENDING = """#include "lib/posture.glsl"
 in vec3 row;
 out vec2 told;
@@ -80,8 +80,8 @@ def test_w3_the_graphics_card_bends_blades_as_numpy_does(
     probe: Probe, postures: moderngl.TextureArray, record: NDArray[np.void], growths: list[Growth], kind: int
 ) -> None:
     wind = messages(60)
-    for variant in range(4):
-        there = bent(probe, postures, record, kind * 4 + variant, wind)
+    for variant in range(6):
+        there = bent(probe, postures, record, kind * 6 + variant, wind)
         here = spine(upright(60, variant), growths[kind].postures, wind, points=9)
         assert np.abs(there - here).max() < 4e-3
 
@@ -99,7 +99,7 @@ def test_w2_a_blade_bends_along_its_message_and_farther_with_its_index(
     probe: Probe, postures: moderngl.TextureArray, record: NDArray[np.void]
 ) -> None:
     index = np.linspace(0.05, 1.0, 20, dtype=np.float32)
-    tip = bent(probe, postures, record, 4, index[:, None] * np.array([[0.6, -0.8]], np.float32))[:, -1]
+    tip = bent(probe, postures, record, 6, index[:, None] * np.array([[0.6, -0.8]], np.float32))[:, -1]
     reach = tip[:, ::2] @ np.array([0.6, -0.8])
     np.testing.assert_allclose(tip[:, ::2], reach[:, None] * [[0.6, -0.8]], atol=1e-3)
     assert (np.diff(reach) > 0.0).all()
@@ -110,7 +110,7 @@ def test_w12_the_same_message_bends_two_kinds_differently(
     probe: Probe, postures: moderngl.TextureArray, record: NDArray[np.void], growths: list[Growth]
 ) -> None:
     wind = messages(40)
-    soft, stiff = (bent(probe, postures, record, kind * 4, wind) for kind in (0, 1))
+    soft, stiff = (bent(probe, postures, record, kind * 6, wind) for kind in (0, 1))
     assert (soft[:, -1, 1] < stiff[:, -1, 1]).all()
     ours = [spine(upright(40, 0), growth.postures, wind, points=9) for growth in growths]
     difference = (soft - stiff) - (ours[0] - ours[1])
