@@ -1,8 +1,8 @@
 """Clouds: a layer of them that drifts, higher the denser its map is; how they look, and what they leave of light.
 
-They are seen in slices, one above another: their bases, which are grey, their sides, and their tops, which the sun
-lights. Each hides what is behind it the more, the denser it is, and is lit the less, the denser the map is there.
-`sky.frag` draws what this module means.
+A cloud reaches from a level base up to where a parabola of its density ends. A line of sight asks the map at a few
+heights, takes it to change evenly from one to the next, and finds where it enters a cloud and how much of it lies
+before the sky: so bases are flat and grey, and the sun lights round tops. `sky.frag` draws what this module means.
 """
 
 from dataclasses import dataclass
@@ -19,43 +19,48 @@ CLOUDS_AT = 450.0
 BENT = 0.12
 """How they bend down: at this sine of elevation a level layer of them would be half as far off as without."""
 
-CONNECTED = 0.17
-"""Sine of the elevation down to which slices look like one cloud."""
+RISE = 0.7 * 2.0 * CLOUDS_SIDE / BILLOWS * (0.17 + BENT)
+"""How far the highest tops are above the bases [m]: a line of sight ten degrees up goes aside below them by 0.7 of the
+distance from heap to heap. With more, what is asked at two heights is of different heaps."""
 
-RISE, SLICES = 2.0 * CLOUDS_SIDE / BILLOWS * (CONNECTED + BENT), (0.0, 0.5, 1.0)
-"""How far their tops are above their bases [m]; and how high the slices are, of that: bases, sides and tops.
+HEIGHTS = (0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0)
+"""The heights at which a line of sight asks the map, of that."""
 
-Seen ten degrees up, a slice lies no farther behind the one below than a heap is wide."""
+ROUND = 0.3
+"""How much denser than at its edge a cloud is on the map that reaches to the highest tops; one of an x-th part of that
+reaches to the root of x of the height, as a dome."""
 
-STEP = 0.12
-"""How much denser the map is where a cloud is as high as that, of its range from 0 to 1."""
+LEVEL = 1.5
+"""Level of the map's mip-maps that heaps are read from: with finer ones, heights differ by more than a heap's edge."""
 
-HIDES = 0.22
-"""How much denser the map is than at the edge of a slice where that hides all; as x grows to it, (1 - (x / HIDES)^2)^2
-of what is behind is seen: so edges begin softly."""
+THICK = 160.0
+"""Optical depth of all heights where the map is denser by 1 than at a cloud's edge: only wisps are soft."""
 
-SOFT = 0.05
-"""How much thinner the map may be at an edge than where clouds would begin if edges were hard."""
+COLUMN = THICK * 2.0 / 3.0 / ROUND**0.5
+"""Optical depth of a cloud seen from below is this times its density above that at the edge, to the power of 1.5."""
 
-LIT, DEEPER = (0.74, 0.9, 1.06), (0.75, 0.7, 0.7)
-"""How much of the sun's light comes to a slice is the square of the first, less the second for each 1 that the map is
-denser there than at its edge: of the lowest to the highest."""
+SOFT = 0.023
+"""How much denser than at its edge a cloud is that hides half of what is behind it, seen from below."""
 
-SIDES = 0.0, 0.4, 0.3
-"""How much more, for each 1 that the map is denser than behind: that side is turned to the eye, and up."""
+LIT, HIGHER_UP, DEEPER = 0.7, 0.45, 0.7
+"""How much of the sun's light comes to a base is the square of the first; that grows with the height, from bases to
+the highest tops, by the second, and falls by the third for each 1 that the map is denser than at the edge."""
 
-ASIDE, SHADES, MOTTLED = 34.0, (0.3, 0.7, 0.7), 0.6
-"""How far from it, towards the sun, is what shades a cloud's side [m]; how much less of the sun's light comes to each
-slice for each 1 that the map is denser there; and how much denser undersides look for that."""
+ASIDE, SHADES, MOTTLED = 34.0, 0.9, 0.6
+"""How far from it, towards the sun, is what shades a cloud's side [m]; how much less of the sun's light comes to it
+for each 1 that the map is denser there; and how much denser undersides look for that."""
 
-SUNLIT, SILVER = 0.95, 0.8
-"""What a slice sends of the sun's light that comes to it; and of what goes through it, straight ahead of the sun."""
+MOST_SHADED = (-0.3, 0.4)
+"""How much thinner and denser that counts at most."""
+
+SUNLIT, SILVER = 0.95, 3.2
+"""What a cloud sends of the sun's light that comes to it; and its edges of what goes through, ahead of the sun."""
 
 UNDER = 0.27, 0.3
 """What clouds send in full shade, before that: of the sun's light on level ground above, and of the sky's."""
 
-HIGHER = 1.0, 1.25, 1.5
-"""How many times as much of that each slice sends, from the lowest to the highest."""
+HIGHER = 0.6
+"""How much more of that the highest tops send than bases."""
 
 PALE, DARK = 1.3, 0.6
 """How much of that it sends where the map is 0, and how much less where it is 1: thick clouds are darker beneath."""
@@ -73,18 +78,15 @@ OVERCAST, SOON = 0.6, 8.0
 """How dense the thinnest place of an overcast is, and by which power of the cover that comes."""
 
 GLSL = {
-    "CLOUDS_AT": CLOUDS_AT, "CLOUDS_BENT": BENT, "CLOUD_RISE": RISE / CLOUDS_AT, "CLOUD_STEP": STEP,
-    "CLOUD_SLICES": SLICES,
-    "CLOUD_HIDES": HIDES, "CLOUD_LIT": LIT, "CLOUD_DEEPER": DEEPER, "CLOUD_SIDES": SIDES,
-    "CLOUD_ASIDE": ASIDE, "CLOUD_SHADES": SHADES, "CLOUD_MOTTLED": MOTTLED, "CLOUD_OVERCAST": OVERCAST,
-    "CLOUD_SUNLIT": SUNLIT,
-    "CLOUD_SILVER": SILVER, "CLOUD_HIGHER": HIGHER, "CLOUD_PALE": PALE, "CLOUD_DARK": DARK,
+    "CLOUDS_AT": CLOUDS_AT, "CLOUDS_BENT": BENT, "CLOUD_RISE": RISE / CLOUDS_AT, "CLOUD_HEIGHTS": HEIGHTS,
+    "CLOUD_ROUND": ROUND, "CLOUD_LEVEL": LEVEL, "CLOUD_THICK": THICK, "CLOUD_COLUMN": COLUMN,
+    "CLOUD_LIT": LIT, "CLOUD_HIGHER_UP": HIGHER_UP, "CLOUD_DEEPER": DEEPER, "CLOUD_ASIDE": ASIDE,
+    "CLOUD_SHADES": SHADES, "CLOUD_MOTTLED": MOTTLED, "CLOUD_MOST_SHADED": MOST_SHADED, "CLOUD_OVERCAST": OVERCAST,
+    "CLOUD_SUNLIT": SUNLIT, "CLOUD_SILVER": SILVER, "CLOUD_HIGHER": HIGHER, "CLOUD_PALE": PALE, "CLOUD_DARK": DARK,
     "CLOUD_SENDS": SENDS, "CLOUD_AIR": AIR,
 }  # fmt: skip
 
 _RANKS = (np.arange(256) + 0.5) / 256.0
-_HEIGHTS = np.array(SLICES)[:, None]
-_LIT, _DEEPER, _HIGHER = (np.array(each)[:, None] for each in (LIT, DEEPER, HIGHER))
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,32 +100,31 @@ class Clouds:
     """The part of the sky that they hide, from 0 to 1."""
 
     sunlit: float
-    """What they send down of the sun's light that comes to their sides and edges, over the whole sky."""
+    """What they send down of the sun's light that comes to their bases and edges, over the whole sky."""
 
     shaded: float
-    """What they send down of what the lowest slice sends in full shade."""
+    """What they send down of what a base sends in full shade."""
 
     past: float
     """The part of the sun's light that comes past them, over the whole land."""
 
 
 def in_shade(sun: Doubles, high: float, sky: Doubles, /) -> Doubles:
-    """Return the lowest slice's radiance in full shade, (3,): under a sun of a sine of elevation, and a clear sky."""
+    """Return a base's radiance in full shade, (3,): under a sun of a sine of elevation, and a clear sky."""
     return UNDER[0] * max(high, 0.0) * sun + UNDER[1] * sky
 
 
 @lru_cache(maxsize=64)
 def clouds_of(cover: float, /) -> Clouds:
-    """Return the mean of clouds that cover a part of the sky: the values of their map are evenly spread."""
+    """Return the mean of clouds that cover a part of the sky, seen from below: values of the map are evenly spread."""
     if cover <= 0.0:
         return Clouds(2.0, 0.0, 0.0, 0.0, 1.0)
     edge = 1.0 - cover - min(SOFT, cover) - OVERCAST * cover**SOON
     least = SENDS * max(edge, 0.0)
-    above = _RANKS - edge - STEP * _HEIGHTS
-    open_ = (1.0 - np.clip(above / HIDES, 0.0, 1.0) ** 2) ** 2
-    before = np.cumprod(np.vstack([np.ones_like(_RANKS), open_]), axis=0)
-    shows = before[:-1] * (1.0 - open_)
-    sunlit = SUNLIT * np.clip(_LIT - _DEEPER * above, 0.0, 1.0) ** 2
-    shaded = _HIGHER * (PALE - DARK * _RANKS)
-    hides, sun, sky = (float(each.sum(axis=0).mean()) for each in (shows, shows * sunlit, shows * shaded))
-    return Clouds(edge, hides, sun, sky, least + (1.0 - least) * float((open_[0] * open_[-1]).mean()))
+    above = np.maximum(_RANKS - edge, 0.0)
+    open_ = np.exp(-COLUMN * above**1.5)
+    hides = 1.0 - open_
+    sunlit = hides * SUNLIT * np.clip(LIT - DEEPER * above, 0.0, 1.0) ** 2
+    shaded = hides * (PALE - DARK * _RANKS)
+    means = (float(each.mean()) for each in (hides, sunlit, shaded))
+    return Clouds(edge, *means, least + (1.0 - least) * float(open_.mean()))

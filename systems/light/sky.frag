@@ -11,25 +11,37 @@ const vec2 AUREOLE = vec2(0.35, 900.0);  // radiance of the aureole about it, of
 const float GREYS = 255.0;  // steps that a picture has from black to white
 const vec3 GRIT = vec3(0.06711056, 0.00583715, 52.9829189);  // interleaved gradient noise (Jimenez, Next Generation Post Processing, 2014)
 
-in vec4 clouding;
+in vec3 clouding;
 flat in vec3 shaded_from;
 
 // How dense the map of clouds is at a place of it.
 float dense_at(vec2 at) {
-    return textureLod(repeating, at, clouding.z).r;
+    return textureLod(repeating, at, clouding.z + CLOUD_LEVEL).r;
+}
+
+// The parts of three sections of a line of sight that lie in clouds, by how much denser than at their edges the map is at the ends.
+vec3 within(vec4 denser) {
+    vec4 inside = max(denser, 0.0), off = abs(denser);
+    return (inside.xyz + inside.yzw) / (off.xyz + off.yzw + LEAST_PART);
 }
 
 // Clouds in a direction: how much is seen past them, and what they send of the sun's light, and of light in full shade.
 vec3 clouds_in(vec3 toward) {
-    vec2 along = clouds_toward(toward), at = clouds_over(eye.xz) + along;
-    vec2 sides = at + along * (CLOUD_SLICES.y * CLOUD_RISE), tops = at + along * CLOUD_RISE;
-    vec3 dense = vec3(dense_at(at), dense_at(sides), dense_at(tops)), deep = dense - cloud_edge - CLOUD_STEP * CLOUD_SLICES;
-    vec3 past = vec3(past_slice(deep.xy), past_slice(deep.yz).y), shows = vec3(1.0, past.x, past.x * past.y) * (clouding.y - clouding.y * past);
-    float shades = shaded_from.z * (dense_at(sides + shaded_from.xy) - dense.y);
-    vec3 sunny = clamp(CLOUD_LIT - CLOUD_DEEPER * deep + CLOUD_SIDES * (dense.y - dense.z - clouding.w) - CLOUD_SHADES * shades, 0.0, 1.0);
-    float lit = dot(shows, CLOUD_SUNLIT * sunny * sunny + CLOUD_SILVER * clouding.x * past);
-    float shaded = dot(shows, CLOUD_HIGHER) * (CLOUD_PALE - CLOUD_DARK * (dense.x + CLOUD_MOTTLED * shades));
-    return vec3(1.0 - shows.x - shows.y - shows.z, lit, shaded);
+    vec2 along = clouds_toward(toward), at = clouds_over(eye.xz) + along, up = along * CLOUD_RISE;
+    vec4 dense = vec4(dense_at(at), dense_at(at + up * CLOUD_HEIGHTS.y), dense_at(at + up * CLOUD_HEIGHTS.z), dense_at(at + up));
+    vec4 denser = dense - cloud_edge - CLOUD_ROUND * CLOUD_HEIGHTS * CLOUD_HEIGHTS, inside = max(denser, 0.0);
+    vec3 held = within(denser), past = comes_through(0.5 * CLOUD_THICK * CLOUD_HEIGHTS.y * held * (inside.xyz + inside.yzw));
+    vec3 shows = (1.0 - past) * vec3(1.0, past.x, past.x * past.y), enters = (1.0 - held) * step(denser.xyz, vec3(0.0));
+    float hides = shows.x + shows.y + shows.z, one = 1.0 / max(hides, LEAST_PART);
+    float high = one * dot(shows, CLOUD_HEIGHTS.xyz + CLOUD_HEIGHTS.y * enters);
+    float deep = one * dot(shows, mix(dense.xyz, dense.yzw, enters));
+    float aside = dense_at(at + up * high + shaded_from.xy) - deep;
+    float shades = shaded_from.z * clamp(aside, CLOUD_MOST_SHADED.x, CLOUD_MOST_SHADED.y);
+    float sunny = clamp(CLOUD_LIT + CLOUD_HIGHER_UP * high - CLOUD_DEEPER * (deep - cloud_edge) - CLOUD_SHADES * shades, 0.0, 1.0);
+    float lit = CLOUD_SUNLIT * sunny * sunny + CLOUD_SILVER * clouding.x * (1.0 - hides);
+    float shaded = (1.0 + CLOUD_HIGHER * high) * (CLOUD_PALE - CLOUD_DARK * (deep + CLOUD_MOTTLED * shades));
+    hides *= clouding.y;
+    return vec3(1.0 - hides, hides * lit, hides * shaded);
 }
 
 // What the sun itself and the air about it send, of its light, by the cosine of the angle to it.

@@ -6,15 +6,13 @@ uniform sampler2D sky;  // by azimuth from the sun, from 0 to pi, and by the roo
 
 out vec3 ray;
 out vec3 light;
-// Of clouds, how bright their edges are ahead of the sun; how far they are out of the haze; level of their map; and how much of
-// their sides, by density of the map, is on the one that is turned away from the sun.
-out vec4 clouding;
+// Of clouds, how bright their edges are ahead of the sun; how far they are out of the haze; level of their map.
+out vec3 clouding;
 
 // How far aside from a cloud lies what shades it, towards the sun, in sides of their square; how much it does: not under an overcast,
 // which has no sides.
 flat out vec3 shaded_from;
 
-const float TURNED = 0.3;  // that, right ahead of the sun
 const vec2 FADES = vec2(-0.02, 0.14);  // sines of elevations between which clouds come out of the haze at the horizon
 const float FINEST = 0.35;  // sine of the elevation below which their map is read more coarsely
 
@@ -39,6 +37,6 @@ void main() {
     silver *= silver;
     shaded_from = vec3(CLOUD_ASIDE / CLOUDS_SIDE * toward_sun, clamp(1.0 + cloud_edge / CLOUD_OVERCAST, 0.0, 1.0));
     float out_of_haze = smoothstep(FADES.x, FADES.y, toward.y) * (1.0 - CLOUD_AIR * shaded_from.z);
-    clouding = vec4(silver * silver, out_of_haze, log2(FINEST / clamp(toward.y, FADES.x, FINEST)), TURNED * ahead);
+    clouding = vec3(silver * silver, out_of_haze, log2(FINEST / clamp(toward.y, FADES.x, FINEST)));
     gl_Position = vec4(corner, depth_ends.y, 1.0);
 }

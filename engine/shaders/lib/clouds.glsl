@@ -1,6 +1,7 @@
 // Clouds: where they are, and what they leave of the sun's light.
 #include "lib/frame.glsl"
 #include "lib/repeating.glsl"
+#include "lib/through.glsl"
 #include "systems/light/clouds.py"
 
 // How far off one sees the clouds in a direction, in sides of their square: they come down to the horizon, as on a globe.
@@ -13,15 +14,8 @@ vec2 clouds_over(vec2 place) {
     return place / CLOUDS_SIDE - clouds_drift;
 }
 
-// How much is seen past slices, by how much denser they are there than at their edges.
-vec2 past_slice(vec2 denser) {
-    vec2 thick = clamp(denser / CLOUD_HIDES, 0.0, 1.0), open = 1.0 - thick * thick;
-    return open * open;
-}
-
 // How much of the sun's light comes past the clouds to a place.
 float past_clouds(vec3 place) {
-    float dense = textureLod(repeating, clouds_over(place.xz) + clouds_toward(sun), 0.0).r - cloud_edge;
-    vec2 open = past_slice(vec2(dense, dense - CLOUD_STEP));
-    return mix(CLOUD_SENDS * clamp(cloud_edge, 0.0, 1.0), 1.0, open.x * open.y);
+    float dense = textureLod(repeating, clouds_over(place.xz) + clouds_toward(sun), CLOUD_LEVEL).r, deep = max(dense - cloud_edge, 0.0);
+    return mix(CLOUD_SENDS * clamp(cloud_edge, 0.0, 1.0), 1.0, comes_through(CLOUD_COLUMN * deep * sqrt(deep)));
 }

@@ -7,3 +7,7 @@ float comes_through(float depth) {
 vec2 comes_through(vec2 depth) {
     return exp(-depth);
 }
+
+vec3 comes_through(vec3 depth) {
+    return exp(-depth);
+}

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tallgrass.engine.camera import forward
 from tallgrass.engine.declared.light import Light
 from tallgrass.systems.light.air import EYE, GROUND, from_all_sides, seen, sunlight
-from tallgrass.systems.light.clouds import BENT, RISE, SLICES
+from tallgrass.systems.light.clouds import BENT, HEIGHTS, RISE, clouds_of
 from tallgrass.systems.light.color import display, luminance
 from tallgrass.systems.light.daylight import daylight
 from tallgrass.systems.light.repeating import CLOUDS_SIDE, SIDE, cloud_map
@@ -153,8 +153,13 @@ def test_clouds_are_of_heaps_and_as_many_as_a_scene_says() -> None:
     assert (around - dense)[half].std() > 6.0  # 3.5 without heaps
 
 
-def test_twenty_degrees_up_a_slice_of_clouds_still_looks_like_the_one_below() -> None:
+def test_ten_degrees_up_what_is_asked_of_clouds_at_two_heights_is_of_one_heap() -> None:
     dense = cloud_map(seed=3) - 127.5
-    behind = round(RISE * (SLICES[1] - SLICES[0]) / (0.34 + BENT) / CLOUDS_SIDE * SIDE)
+    behind = round(RISE * (HEIGHTS[1] - HEIGHTS[0]) / (0.17 + BENT) / CLOUDS_SIDE * SIDE)
     alike = [(dense * np.roll(dense, behind, axis)).mean() / dense.var() for axis in (0, 1)]
     assert np.mean(alike) > 0.35  # 0.16 where tops are 160 m above the bases: flat layers of their own
+
+
+@pytest.mark.parametrize("cover", [0.05, 0.2, 0.4, 0.6])
+def test_clouds_hide_as_much_of_the_sky_as_a_scene_says(cover: float) -> None:
+    assert clouds_of(cover).hides == pytest.approx(cover, abs=0.01)
