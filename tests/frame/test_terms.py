@@ -83,11 +83,13 @@ TERMS = {
         Seen(elevation=65.0, light=NIGHT), Seen(elevation=20.0, light=NIGHT), 0.45, missed=0.075
     ),
     "shadow of the terrain": Term(Seen(LEFT, 15.0), Seen(LEFT, 15.0, ground="ridge"), 0.3),
-    "shadow of clouds": Term(Seen(), Seen(light="clouds: 0.5"), 0.28),
+    "shadow of clouds": Term(Seen(), Seen(light="clouds: 0.5"), 0.25),
     "shadow of a body": Term(Seen(), Seen(shade=True), 0.25),
     "haze": Term(Seen(), Seen(haze=30.0), 0.9),
     "gloss": Term(Seen(BEHIND, 20.0, turf="gloss: 0"), Seen(BEHIND, 20.0, turf="gloss: 1"), 0.12, missed=0.3),
-    "transmission": Term(Seen(BEFORE, 25.0, turf="translucency: 0"), Seen(BEFORE, 25.0, turf="translucency: 1.5"), 0.4),
+    "transmission": Term(
+        Seen(BEFORE, 25.0, turf="translucency: 0"), Seen(BEFORE, 25.0, turf="translucency: 1.5"), 0.4, 0.16
+    ),
 }
 
 
