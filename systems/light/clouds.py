@@ -126,5 +126,5 @@ def clouds_of(cover: float, /) -> Clouds:
     hides = 1.0 - open_
     sunlit = hides * SUNLIT * np.clip(LIT - DEEPER * above, 0.0, 1.0) ** 2
     shaded = hides * (PALE - DARK * _RANKS)
-    means = (float(each.mean()) for each in (hides, sunlit, shaded))
-    return Clouds(edge, *means, least + (1.0 - least) * float(open_.mean()))
+    hidden, sun, sky = (float(each.mean()) for each in (hides, sunlit, shaded))
+    return Clouds(edge, hidden, sun, sky, least + (1.0 - least) * float(open_.mean()))
