@@ -187,11 +187,11 @@ def raise_gusts(prairie: Prairie, walk: list[Leg], /) -> None:
     """Let a gust cross what is seen on each leg."""
     for leg in walk:
         side = leg.yaw + math.pi / 3
-        x, z = np.array(leg.place) + 12.0 * ahead(leg.yaw) - 6.0 * ahead(side)
+        x, z = np.array(leg.place) + 12.0 * ahead(leg.yaw) - 14.0 * ahead(side)
         prairie.add(
             Gust(
                 position=[float(x), float(z)], direction=math.degrees(math.remainder(side, math.tau)),
-                start=leg.start - 0.5, stop=leg.start + SECONDS + 1.0, width=80.0, speed=8.0, strength=0.7,
+                start=leg.start - 1.5, stop=leg.start + SECONDS + 1.0, width=80.0, speed=8.0, strength=0.7,
             ),
             name=f"gust of the leg {leg.name}",
         )  # fmt: skip

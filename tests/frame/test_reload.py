@@ -181,7 +181,7 @@ EDITS: dict[str, list[tuple[str, str]]] = {
     "the quality": [("to: 8, strips: 2", "to: 9, strips: 1"), ("carpet_to: 12", "carpet_to: 14")],
     "the seed": [("seed: 5", "seed: 6")],
     "a wind": [("strength: 0.4", "strength: 0.9")],
-    "how winds meet": [("camera:", "mixing: weight\ncamera:")],
+    "how winds meet": [("camera:", "mixing: priority\ncamera:")],
 }
 HELD_BESIDE = {"a colour", "the seed"}
 """What other tests here read again as well."""

@@ -170,7 +170,7 @@ def test_g1_the_blades_of_a_patch_stand_in_the_order_of_their_models_one_kind_af
     stock, found = standing(growths, hills)
     for blades, cell, model, turn in zip(found, CELLS, MODELS, TURNS, strict=True):
         parts = [
-            blade_records(growth.models[model].blades, int(turn), patch=PATCH, kind=kind, variants=4)
+            blade_records(growth.models[model].blades, int(turn), patch=PATCH, kind=kind, variants=6)
             for kind, growth in enumerate(growths)
         ]
         expected = np.concatenate(parts)
