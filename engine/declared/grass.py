@@ -83,7 +83,8 @@ class GrassKind(Declaration):
     quarter, hang over up to three times as far."""
 
     clumping: float = Field(default=0.5, ge=0.0, le=1.0)
-    """How much neighbours are alike over about half a metre: in height, lean, facing and, by that, in tint."""
+    """How closely blades stand in tufts, and how much neighbours are alike over about half a metre: in height, lean,
+    facing and, by that, in tint."""
 
     taper: float = Field(default=0.6, ge=0.2, le=4.0)
     """How the width falls from root to tip: 1 is a triangle, below 1 keeps it broad for longer."""
