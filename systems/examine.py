@@ -1,6 +1,6 @@
 """Examining a saved state's arrays: what is trodden, cut, sown, cleared and dug, or a sentence on what cannot be."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
 import numpy as np
@@ -11,11 +11,12 @@ from ..components.presser import Presser
 from ..engine.terrain.change import Squares, must_be_squares
 from ..engine.terrain.plots import CELLS, Plots
 from ..engine.terrain.record import Terrain
+from .fitting import kinds_of
 from .press.footprint import discs_of
 from .press.trail import BEGUN, FIRST, LAST, LEFT, NUMBERS, REACH, Stretches
 from .press.walk import Stand
 from .pressers import Treading
-from .saved import Arrays, SavedTreading, SavedWalk, from_planes, refuse
+from .saved import Arrays, Saved, SavedTreading, SavedWalk, from_planes, refuse
 from .thing import component_of, fields_of
 
 WALKS = ("scenes", "games")
@@ -93,12 +94,20 @@ def mown_of(arrays: Arrays, plots: Plots, /) -> tuple[Ints, Floats]:
     return _plots(arrays, "mown", plots, len(heights)), heights
 
 
-def sown_of(arrays: Arrays, plots: Plots, /) -> tuple[Ints, Bytes]:
-    """Return which plots are sown, (n, 3), and the densities of their pages; raises ValueError for what cannot be."""
-    found = arrays.get("sown_densities", np.zeros(0))
-    if found.dtype != np.uint8 or found.shape[1:] != plots.pages.shape[1:]:
+def sown_of(saved: Saved, plots: Plots, names: Sequence[str], /) -> tuple[Ints, Bytes]:
+    """Return which plots are sown, (n, 3), and the densities of their pages, kinds of grass in the order of `names`.
+
+    Raises ValueError for what cannot be, and for other kinds of grass.
+    """
+    found = saved.arrays.get("sown_densities", np.zeros(0))
+    if found.dtype != np.uint8 or found.ndim != plots.pages.ndim:
+        refuse("what is sown are no densities")
+    was = kinds_of(saved.state, names, sown=len(found) > 0)
+    if not was:
+        found = np.zeros((0, *plots.pages.shape[1:]), np.uint8)
+    if found.shape[1:] != plots.pages.shape[1:]:
         refuse("what is sown are no densities of its scene's kinds")
-    return _plots(arrays, "sown", plots, len(found)), found
+    return _plots(saved.arrays, "sown", plots, len(found)), found[..., was] if was else found
 
 
 def _plots(arrays: Arrays, name: str, plots: Plots, pages: int) -> Ints:

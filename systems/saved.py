@@ -1,6 +1,5 @@
 """A prairie's state as bytes: what a game has done to it, to be kept and brought back."""
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from hashlib import blake2b
@@ -14,14 +13,13 @@ from pydantic import Field, ValidationError
 
 from ..components.declaration import Declaration, Number
 from ..engine.declared.light import Light
-from ..engine.terrain.change import as_loaded
 from .light.shining import Way
-from .site import Site
-from .space.ground import Ground
 from .thing import Kind
 
-FORMAT = 3
-"""Version of what a state holds."""
+FORMAT, OLDEST = 4, 3
+"""Version of what a state holds, and the oldest that is read.
+
+A 3 has no `SavedScene`: a hash of all that its scene said, defaults too, told it from others."""
 
 MAGIC = b"tallgrass state\n"
 """What a state begins with."""
@@ -145,11 +143,31 @@ class SavedSeason(Declaration):
     eases: list[SavedEase]
 
 
+class SavedScene(Declaration):
+    """What a scene must be like for a state to fit; the lie of its ground is an array."""
+
+    seed: int
+    size: tuple[float, float]
+    """Width (x) and depth (z) of its ground [m]."""
+
+    cell: float
+    """How far apart its samples are [m]."""
+
+    patch: float
+    """Side of a patch [m]."""
+
+    grass: list[str]
+    """Names of the kinds of grass, in their order."""
+
+    wind: list[str]
+    """Kinds of the winds that it declares, likewise."""
+
+
 class State(Declaration):
     """All of a state but its arrays."""
 
-    scene: str
-    """What tells its scene from others."""
+    scene: SavedScene | str
+    """The scene that it was made on; of format 3 the hash."""
 
     time: float = Field(ge=0.0, le=1e9)
     light: Light
@@ -175,6 +193,10 @@ class State(Declaration):
 
     wild_felled: list[tuple[int, int, int]] = Field(default=[])
     """And which of a forest that is too large for numbers: each by its square's, and its own on that."""
+
+    stood: list[tuple[float, float]] | None = Field(default=None)
+    """Where those stood, the one after the other (x, z) [m]; a state of format 3 does not say."""
+
     seasons: list[SavedSeason] = Field(default=[])
 
 
@@ -206,8 +228,9 @@ def unpacked(state: object, /) -> Saved:
     if blake2b(body, digest_size=_DIGEST).digest() != digest:
         raise ValueError("this state has been altered or is broken off")
     version = int.from_bytes(body[:2])
-    if version != FORMAT:
-        raise ValueError(f"this state is of format {version}, and this release reads format {FORMAT}")
+    if not OLDEST <= version <= FORMAT:
+        due = f"formats {OLDEST} to {FORMAT}"
+        raise ValueError(f"this state is of format {version}, and this release reads {due}")
     try:
         unpacking = decompressobj()
         plain = unpacking.decompress(body[2:], _MOST)
@@ -227,33 +250,9 @@ def refuse(why: str, /) -> NoReturn:
     raise ValueError(f"this state cannot be right: {' '.join(why.split())[:200]}")
 
 
-def mark_of(site: Site, ground: str, /) -> str:
-    """Return what tells a scene from others whose states are no use to it.
-
-    That is all but camera, light, quality and the colours of trees. `ground` is the mark of its ground.
-    """
-    trees = {name: kind.uncoloured for name, kind in site.scene.trees.items()}
-    scene = site.scene.model_copy(update={"trees": trees})
-    told = json.loads(scene.model_dump_json(exclude={"camera", "light", "quality"}))
-    if not told["trees"]:  # states of scenes that could not have any are of these
-        del told["trees"]
-    text = json.dumps([told, site.quality.patch, ground], sort_keys=True)
-    return blake2b(text.encode(), digest_size=_DIGEST).hexdigest()
-
-
-def ground_mark(ground: Ground, /) -> str:
-    """Return what tells a ground from others, as it was loaded."""
-    digest = blake2b(digest_size=_DIGEST)
-    open_ = blake2b(digest_size=_DIGEST)
-    has_holes = False
-    for heights, holes in as_loaded(ground.terrain):
-        digest.update(np.ascontiguousarray(heights).data)
-        open_.update(np.ascontiguousarray(holes).data)
-        has_holes |= bool(holes.any())
-    digest.update(ground.density.maps.data)
-    if has_holes:
-        digest.update(open_.digest())
-    return digest.hexdigest()
+def unfit(why: str, /) -> NoReturn:
+    """Raise ValueError for a state that a scene cannot take."""
+    raise ValueError(f"this state does not fit this scene: {why}")
 
 
 def planes(heights: NDArray[np.float32], /) -> NDArray[np.uint8]:

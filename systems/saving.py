@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,7 @@ from ..engine.terrain.change import Squares, changed_squares, restore_squares
 from ..engine.world import World
 from .around.clearing import Clearings
 from .examine import cells_of, ground_of, mown_of, sown_of, treading_of, treading_saved
+from .fitting import lie_of, must_fit, scene_of
 from .light.shining import Shining
 from .mow.mown import Mown
 from .pressers import Pressers, Treading
@@ -33,11 +34,10 @@ from .saved import (
     SavedThing,
     SavedWind,
     State,
-    ground_mark,
-    mark_of,
     packed,
     planes,
     refuse,
+    unfit,
     unpacked,
 )  # fmt: skip
 from .seasons import Recalled, Seasons
@@ -45,6 +45,7 @@ from .site import Site
 from .space.ground import Ground
 from .thing import THINGS, Thing, component_of, fields_of
 from .trees.feature import Trees
+from .trees.forest import Gone
 from .winds import Winds
 
 
@@ -60,8 +61,8 @@ class Saving:
     shining: Shining
     trees: Trees
     seasons: Seasons
-    _marked: tuple[Ground, str] | None = None
-    """The ground that was marked last, and its mark: it takes a while."""
+    _lie: tuple[Ground, Floats] | None = None
+    """The ground that was looked over last, and its lie: it takes a while."""
     _became: tuple[object, Mapping[int, int]] | None = None
     """The state that was restored last, and which entities those in it have become."""
 
@@ -71,8 +72,9 @@ class Saving:
         treading, marks = treading_saved(self.pressers.treading())
         light, since = self.shining.asked
         own = {*self.winds.declared, *self.winds.added}
+        felled, wild_felled, stood = self.trees.felled()
         state = State(
-            scene=self._mark(site),
+            scene=scene_of(site),
             time=time,
             light=light,
             light_since=since,
@@ -82,8 +84,9 @@ class Saving:
             winds=[*filter(None, self._winds([each for each, _ in self.world.all(WindSource) if each not in own]))],
             things=[*self._things()],
             treading=treading,
-            felled=self.trees.felled(),
-            wild_felled=[] if self.trees.wild is None else self.trees.wild.felled(),
+            felled=felled,
+            wild_felled=wild_felled,
+            stood=stood,
             seasons=self.seasons.saved(),
         )
         cleared = np.array(sorted(self.clearings.cells), np.int32).reshape(-1, 2)
@@ -93,7 +96,8 @@ class Saving:
         if holes.any():
             ground = {**ground, "ground_holes": holes}
         plots: Arrays = {"mown": mown, "mown_heights": planes(left), "sown": sown, "sown_densities": dense}
-        return packed(Saved(state, {"cleared": cleared, **plots, **ground, **marks}))
+        lie: Arrays = {"lie": self._lies(site.ground)}
+        return packed(Saved(state, {**lie, "cleared": cleared, **plots, **ground, **marks}))
 
     def restore(
         self, data: object, site: Site, loaded: LoadedScene, there: Mapping[int, int], /
@@ -106,12 +110,8 @@ class Saving:
         """
         saved = unpacked(data)
         state = saved.state
-        if state.scene != self._mark(site):
-            raise ValueError("this state is of another scene, or of this one before its ground, grass or winds changed")
-        if len(state.declared) != len(site.scene.wind) or len(state.treading.declared) != len(site.scene.pressers):
-            refuse("it has other winds or pressers than its scene")
-        if not all(0 <= number < len(self.trees.entities) for number in state.felled):
-            refuse("it has other trees than its scene")
+        must_fit(saved, site, self._lies(site.ground))
+        felled = self._felled(state)
         kinds = Reading(wind=wind_kinds().find, folder=loaded.folder)
         winds = [*filter(None, state.declared), *state.added, *state.winds]
         made = _Made(
@@ -120,10 +120,11 @@ class Saving:
             [component_of(each.kind, each.fields) for each in state.things],
             treading_of(state.treading, saved.arrays),
             mown_of(saved.arrays, self.mown.plots),
-            sown_of(saved.arrays, site.ground.density.sown),
+            sown_of(saved, site.ground.density.sown, list(site.scene.grass)),
             cells_of(saved.arrays),
             ground_of(saved.arrays, site.ground.terrain),
             self.seasons.read(state.seasons),
+            felled,
         )
         self.winds.sources()  # raises where another esper world is current
         restore_squares(site.ground.terrain, made.ground)
@@ -148,16 +149,25 @@ class Saving:
                     standing = None if pose is None else _numbers(pose)
                     yield SavedThing(entity=entity, kind=kind, fields=fields_of(component), pose=standing)
 
-    def _mark(self, site: Site) -> str:
-        if self._marked is None or self._marked[0] is not site.ground:
-            self._marked = site.ground, ground_mark(site.ground)
-        return mark_of(replace(site, scene=self.seasons.declared), self._marked[1])
+    def _felled(self, state: State) -> tuple[list[int], Gone]:
+        felled, wild, stood = state.felled, state.wild_felled, state.stood
+        if stood is not None and len(stood) != len(felled) + len(wild):
+            refuse("it has felled trees that stood nowhere")
+        try:
+            return self.trees.found_again(felled, wild, stood)
+        except ValueError as error:
+            unfit(str(error))
+
+    def _lies(self, ground: Ground) -> Floats:
+        if self._lie is None or self._lie[0] is not ground:
+            self._lie = ground, lie_of(ground)
+        return self._lie[1]
 
     def _bring(self, state: State, made: "_Made", became: Mapping[int, int]) -> dict[int, int]:
         self.winds.pass_to(state.time)
         entities = self._bring_winds(state, made, became)
         trees = {each.entity for each in state.things if each.kind == "tree"}
-        self.trees.fell(state.felled, state.wild_felled, trees)
+        self.trees.fell(*made.felled, trees)
         self._bring_things(state.things, made.things, entities, became)
         self.pressers.resume(made.treading, entities)
         self.clearings.resume(made.cleared)
@@ -251,6 +261,7 @@ class _Made:
     cleared: list[Cell]
     ground: Squares
     kinds: Recalled
+    felled: tuple[list[int], Gone]
 
 
 def _wind(entity: int, source: WindSource, pose: Pose | None, run: WindPrimitive | None) -> SavedWind | None:

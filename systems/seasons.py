@@ -165,7 +165,7 @@ class Seasons:
         coming = [each for each in saved if each.comes is not None]
         for each in saved:
             if each.name not in found.due or any(ease.key not in EASED for ease in each.eases):
-                refuse("it has other kinds of grass than its scene")
+                refuse("it has changed what kinds of grass do not have")
             declared = self.declared.grass[each.name]
             found.due[each.name] = _read(declared, each.due)
             found.standing[each.name] = _read(declared, each.stands)

@@ -1,7 +1,7 @@
 """The trees of a prairie: whose entities they are, and which of them stand."""
 
 import logging
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import compress
 from typing import Self
 
@@ -20,7 +20,8 @@ from ..frame.feature import Eye, Feature, Start
 from ..space.grown import Grown
 from .crown import FOOT, FOOT_MEETS_MOST, LEAST_SHADE
 from .draw import TreePart
-from .forest import Forest, Rows
+from .felled import Place, found_again
+from .forest import Forest, Gone, Rows
 from .going import Going
 from .habit import HABITS
 from .model import models_of
@@ -178,15 +179,37 @@ class Trees(Feature):
         own = {entity for number, entity in enumerate(self.entities) if self._is_as_planted(number)}
         return own | (self.wild.entities if self.wild is not None else set())
 
-    def felled(self) -> list[int]:
-        """Return which of the scene's own trees are gone, or have become others, by their numbers."""
+    def felled(self) -> tuple[list[int], list[Felled], list[Place]]:
+        """Return which trees of the scene's own are gone, or have become others, and where all of these stood.
+
+        First those that have numbers, then those of a forest too large for that.
+        """
+        own, (wild, stood) = self._changed(), ([], []) if self.wild is None else self.wild.felled()
+        poses = [self._seedlings[number][1] for number in own]
+        return own, wild, [*[(pose.x, pose.z) for pose in poses], *stood]
+
+    def found_again(
+        self, own: Sequence[int], wild: Sequence[Felled], stood: Sequence[Place] | None, /
+    ) -> tuple[list[int], Gone]:
+        """Return which trees those are that `felled` returned of this scene, or of one before it.
+
+        Raises ValueError for any that the scene does not have.
+        """
+        if wild and self.wild is None:
+            raise ValueError("it has felled trees of a larger forest")
+        places = np.array([(pose.x, pose.z) for _, pose in self._seedlings]).reshape(-1, 2)
+        numbers = found_again(own, None if stood is None else stood[: len(own)], places)
+        rest = None if stood is None else stood[len(own) :]
+        return numbers, {} if self.wild is None else self.wild.found_again(wild, rest)
+
+    def _changed(self) -> list[int]:
         return [number for number in range(len(self.entities)) if not self._is_as_planted(number)]
 
     def _is_as_planted(self, number: int) -> bool:
         entity, find = self.entities[number], self._world.find
         return self._world.has(entity) and (find(entity, Tree), find(entity, Pose)) == self._seedlings[number]
 
-    def fell(self, numbers: list[int], wild: list[Felled], kept: set[int], /) -> None:
+    def fell(self, numbers: list[int], wild: Gone, kept: set[int], /) -> None:
         """Let these be gone of the scene's own, and all others stand where they were planted.
 
         Those that a game has made others stay where they are among the entities `kept`.
@@ -196,7 +219,7 @@ class Trees(Feature):
         self._going.forget()
         if self.wild is not None:
             self.wild.fell(wild, kept)
-        others, wanted = set(self.felled()), set(numbers)
+        others, wanted = set(self._changed()), set(numbers)
         for number in wanted:
             entity = self.entities[number]
             if self._world.has(entity) and not (number in others and entity in kept):

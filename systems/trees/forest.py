@@ -13,6 +13,7 @@ from ...engine.noise import noise_table, smooth_noise
 from ...engine.random import hash3, stream, unit
 from ...engine.terrain.sample import height_at, natural_at, slope_at
 from ..space.grown import Grown
+from .felled import Place
 from .habit import HABITS
 from .place import stands
 from .scatter import SQUARE, Scatter, Squares, apart
@@ -58,6 +59,8 @@ SEEDLING = 0.1
 
 Square = tuple[int, int]
 Rows = NDArray[np.void]
+Gone = dict[Square, dict[int, Place]]
+"""Which trees are gone from squares, by their numbers on each, and where they stood."""
 
 
 class Forest:
@@ -68,8 +71,7 @@ class Forest:
         self._known: dict[tuple[int, int, int], Rows] = {}
         """What grows on squares, by level and their numbers."""
         self._heights = -1
-        self.gone: dict[Square, set[int]] = {}
-        """Which of its trees are gone from a square, by their numbers on it."""
+        self.gone: Gone = {}
         names = list(grown.scene.grass)
         self._kinds = [
             (number, kind, None if kind.among is None else names.index(kind.among), grown.scene.seed + number)
@@ -89,6 +91,16 @@ class Forest:
         squares = Squares((-half[0], -half[1]), np.ones((2 * half[0], 2 * half[1]), np.bool_))
         return self._on(squares, 0)[0] if self._kinds else np.zeros(0, STANDING)
 
+    @property
+    def streams(self) -> bool:
+        """Whether it has only the squares that its ground's window shows."""
+        return self._grown.ground.terrain.blocks is not None
+
+    def reaches(self, square: Square, /) -> bool:
+        """Return whether a square may have trees."""
+        half = np.ceil(np.divide(self._grown.ground.terrain.whole, 2.0 * SQUARE))
+        return bool((np.array(square, float) >= -half).all() and (np.array(square, float) < half).all())
+
     def on(self, squares: Iterable[Square], /) -> dict[Square, Rows]:
         """Return the trees on squares whose trees are shown one by one."""
         wanted = [(0, *square) for square in squares]
@@ -104,10 +116,12 @@ class Forest:
         self._follow_ground()
         gone = self.gone
         parts = [self._known[each] for each in wanted if each[0] or each[1:] not in gone]
-        parts += [
-            np.delete(self._known[each], [*gone[each[1:]]]) for each in wanted if not each[0] and each[1:] in gone
-        ]
+        parts += [self._standing(each[1:]) for each in wanted if not each[0] and each[1:] in gone]
         return np.frombuffer(bytearray().join(part.tobytes() for part in parts), STANDING)  # much quicker than numpy's
+
+    def _standing(self, square: Square) -> Rows:
+        rows = self._known[0, *square]
+        return np.delete(rows, [number for number in self.gone[square] if number < len(rows)])
 
     @property
     def version(self) -> int:

@@ -1,6 +1,6 @@
 """A forest too large for all of its trees to be entities: those near viewers are, and come and go with them."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 
 import numpy as np
@@ -9,7 +9,8 @@ from ...components.pose import Pose
 from ...components.tree import Tree
 from ...engine.world import World
 from ..frame.feature import Eye
-from .forest import Forest, Rows, Square
+from .felled import Place, found_again
+from .forest import Forest, Gone, Rows, Square
 from .scatter import SQUARE
 from .standing import Standing
 
@@ -77,7 +78,7 @@ class Wild:
 
     def _come(self, squares: Iterable[Square]) -> None:
         for square, rows in self._forest.on(sorted(squares)).items():
-            gone = self._forest.gone.get(square, set())
+            gone = self._forest.gone.get(square, {})
             planted = seedlings(rows, self._names)
             self._own[square] = [
                 (-1 if number in gone else self._world.create(*one), one) for number, one in enumerate(planted)
@@ -99,7 +100,10 @@ class Wild:
 
     def _note(self, square: Square) -> None:
         """Take note which trees of a square are not there any more as they were planted."""
-        gone = {number for number, (entity, one) in enumerate(self._own[square]) if not self._is(entity, one)}
+        gone = {
+            number: (one[1].x, one[1].z)
+            for number, (entity, one) in enumerate(self._own[square]) if not self._is(entity, one)
+        }  # fmt: skip
         if gone:
             self._forest.gone[square] = gone
         else:
@@ -128,20 +132,38 @@ class Wild:
         self._asked.pop(viewer).result()
         return False
 
-    def felled(self) -> list[Felled]:
-        """Return which trees are gone, or have become others."""
+    def felled(self) -> tuple[list[Felled], list[Place]]:
+        """Return which trees are gone, or have become others, and where these stood."""
         for square in self._own:
             self._note(square)
-        return sorted((*square, number) for square, gone in self._forest.gone.items() for number in gone)
+        gone = [(square, number) for square, gone in self._forest.gone.items() for number in gone]
+        told = sorted((*square, number, *self._forest.gone[square][number]) for square, number in gone)
+        return [(i, j, number) for i, j, number, _, _ in told], [(x, z) for _, _, _, x, z in told]
 
-    def fell(self, trees: Iterable[Felled], kept: set[int], /) -> None:
+    def found_again(self, felled: Sequence[Felled], stood: Sequence[Place] | None, /) -> Gone:
+        """Return which trees those are that are gone by a state; raises ValueError for any that nobody planted."""
+        by_square: dict[Square, list[int]] = {}
+        for which, (i, j, _) in enumerate(felled):
+            by_square.setdefault((i, j), []).append(which)
+        if not all(map(self._forest.reaches, by_square)):
+            raise ValueError("it has felled trees off this scene's ground")
+        if self._forest.streams:  # what is not in its window cannot grow
+            middle = [((i + 0.5) * SQUARE, (j + 0.5) * SQUARE) for i, j, _ in felled] if stood is None else stood
+            return {at: {felled[which][2]: middle[which] for which in own} for at, own in by_square.items()}
+        gone: Gone = {}
+        for square, rows in self._forest.on(by_square).items():
+            own, places = by_square[square], rows["root"][:, ::2].astype(np.float64)
+            there = None if stood is None else [stood[which] for which in own]
+            numbers = found_again([felled[which][2] for which in own], there, places)
+            gone[square] = {number: (float(places[number, 0]), float(places[number, 1])) for number in numbers}
+        return gone
+
+    def fell(self, gone: Gone, kept: set[int], /) -> None:
         """Let these be gone, and all others stand where they were planted; of changed ones those `kept` stay."""
         self.clear()
-        self._forest.gone.clear()
-        for i, j, number in trees:
-            self._forest.gone.setdefault((i, j), set()).add(number)
+        self._forest.gone = gone
         for entity, (i, j, number) in [*self._changed.items()]:
-            if number not in self._forest.gone.get((i, j), set()) or entity not in kept:
+            if number not in gone.get((i, j), {}) or entity not in kept:
                 if self._world.has(entity):
                     self._world.delete(entity)
                 del self._changed[entity]

@@ -1,0 +1,91 @@
+"""Whether a state fits a scene: by what it holds, whatever else the scene says or takes for granted."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..components.arrays import Floats, Mask
+from ..engine.terrain.change import as_loaded
+from .saved import Saved, SavedScene, State, refuse, unfit
+from .site import Site
+from .space.ground import Ground
+
+LINES = 16
+"""Lines of samples along and across by which ground is told from other ground."""
+
+SAME = 0.01
+"""How far heights may differ of the same ground, which another processor or release has computed [m]."""
+
+
+def scene_of(site: Site, /) -> SavedScene:
+    """Return what a scene must be like for a state made on a site to fit."""
+    scene, terrain = site.scene, site.ground.terrain
+    return SavedScene(
+        seed=scene.seed, size=terrain.whole, cell=terrain.cell, patch=site.ground.patch, grass=list(scene.grass),
+        wind=[wind.kind for wind in scene.wind],
+    )  # fmt: skip
+
+
+def lie_of(ground: Ground, /) -> Floats:
+    """Return heights of a ground as it was loaded, in places all over it [m], NaN in holes."""
+    parts = list(as_loaded(ground.terrain))
+    if ground.terrain.blocks is not None:
+        return np.concatenate([_open(heights, holes)[::LINES, ::LINES].ravel() for heights, holes in parts])
+    rows, columns = ground.terrain.heights.shape
+    along, across = (np.unique(np.linspace(0, count - 1, LINES).astype(int)) for count in (rows, columns))
+    first, found = 0, list[Floats]()
+    for heights, holes in parts:
+        own = along[(along >= first) & (along < first + len(heights))] - first
+        found.append(_open(heights, holes)[np.ix_(own, across)].ravel())
+        first += len(heights)
+    return np.concatenate(found)
+
+
+def must_fit(saved: Saved, site: Site, lie: Floats, /) -> None:
+    """Raise ValueError where a site cannot take what a state holds; `lie` is that of its ground."""
+    state, scene = saved.state, site.scene
+    if isinstance(state.scene, SavedScene):
+        _must_be_alike(state.scene, scene_of(site), cleared=len(saved.arrays.get("cleared", ())))
+        then = saved.arrays.get("lie", np.zeros(0))
+        if then.dtype != lie.dtype or then.shape != lie.shape:
+            refuse("there is something wrong with the lie of its ground")
+        if not np.allclose(then, lie, rtol=0.0, atol=SAME, equal_nan=True):
+            unfit("its ground has other heights or holes")
+    if len(state.declared) != len(scene.wind):
+        unfit(f"of winds its scene declares {len(state.declared)}, and this one {len(scene.wind)}")
+    if len(state.treading.declared) != len(scene.pressers):
+        unfit(f"of pressers its scene declares {len(state.treading.declared)}, and this one {len(scene.pressers)}")
+    for season in state.seasons:
+        if season.name not in scene.grass:
+            unfit(f"the grass '{season.name}' is changed in it, which this scene does not have")
+
+
+def _must_be_alike(then: SavedScene, now: SavedScene, /, *, cleared: int) -> None:
+    if then.seed != now.seed:
+        unfit(f"its seed is {then.seed}, and this one's {now.seed}")
+    if (then.size, then.cell) != (now.size, now.cell):
+        unfit(f"its ground is {_told(then)}, and this one's {_told(now)}")
+    if then.wind != now.wind:
+        unfit(f"its scene declares {_listed(then.wind, 'wind')}, and this one {_listed(now.wind, 'wind')}")
+    if cleared and then.patch != now.patch:
+        unfit(f"patches of {then.patch:g} m are cleared in it, and here they have {now.patch:g} m")
+
+
+def kinds_of(state: State, names: Sequence[str], /, *, sown: bool) -> list[int]:
+    """Return which of a state's kinds of grass each of a scene's was, by `names`, as ground that is `sown` has them."""
+    then = state.scene.grass if isinstance(state.scene, SavedScene) else list(names)
+    if sown and sorted(then) != sorted(names):
+        unfit(f"ground is sown or cleared in it with {_listed(then, 'grass')}, and this has {_listed(names, 'grass')}")
+    return [then.index(name) for name in names] if sown else []
+
+
+def _open(heights: Floats, holes: Mask) -> Floats:
+    return np.where(holes, np.float32(np.nan), heights)
+
+
+def _told(scene: SavedScene) -> str:
+    return f"{scene.size[0]:g} by {scene.size[1]:g} m with a sample every {scene.cell:g} m"
+
+
+def _listed(names: Sequence[str], what: str) -> str:
+    return f"the {what} {', '.join(names)}" if names else f"no {what}"

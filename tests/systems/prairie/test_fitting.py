@@ -1,0 +1,140 @@
+"""A state and the scene that it comes back to, which a later release or a game's next version reads otherwise (F4)."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import esper
+import numpy as np
+import pytest
+from yaml import safe_load
+
+from tallgrass import Footprint, Gust, Pose, Prairie, Tree
+from tallgrass.components.wind import WindSource
+from tallgrass.engine.world import World
+from tallgrass.systems.saved import SavedScene, unpacked
+from tallgrass.testing import LITTLE
+
+GREEN, DRY = {"height": [0.3, 0.5]}, {"height": [0.4, 0.6]}
+FEET = [-12, -12], [12, -12]
+OAK = {"habit": "oak", "positions": [*FEET]}
+SCENE: dict[str, Any] = {
+    "tallgrass": 2,
+    "terrain": {"size": [60, 60], "cell": 5.0},
+    "grass": {"green": GREEN, "dry": DRY},
+    "wind": [{"kind": "breeze", "strength": 0.3}, {"kind": "gust", "position": [-20, 0], "every": [3, 5]}],
+    "pressers": [{"path": [{"at": 0, "position": [-20, 3]}, {"at": 30, "position": [20, 3]}]}],
+    "trees": {"oak": OAK},
+    "quality": safe_load(LITTLE)["quality"],
+}
+OLD = Path(__file__).with_name("format-3.prairie")
+"""Made on this scene by a release that wrote format 3."""
+
+SOWN, DUG = (-10.0, 13.0), (2.5, 2.5)
+
+
+@pytest.fixture
+def state(world: World) -> bytes:
+    """A state of the scene in which a bit of everything is done."""
+    del world
+    made = Prairie.load(SCENE)
+    played(made)
+    found = made.state()
+    made.release()
+    return found
+
+
+def played(prairie: Prairie) -> None:
+    prairie.add(Gust(position=[-20.0, 5.0], start=4.0), name="storm")
+    prairie.cut(Footprint(radius=3.0), 0.1, pose=Pose(10.0, 10.0))
+    prairie.sow("dry", Footprint(radius=4.0), 0.8, pose=Pose(-10.0, 10.0))
+    prairie.clear(Footprint(radius=2.0), pose=Pose(-10.0, 10.0))
+    prairie.set_heights((0.0, 0.0), np.full((2, 2), 1.5))
+    (felled,) = (entity for entity, (_, pose) in esper.get_components(Tree, Pose) if pose.x == 12.0)
+    esper.delete_entity(felled, immediate=True)
+    prairie.change_kind("green", tip="#c86a1e")
+    prairie.advance(11.0)
+
+
+def assert_played(prairie: Prairie) -> None:
+    """Assert that all of it is there."""
+    assert prairie.time == 11.0
+    assert prairie.grass_at([(10.0, 10.0)]).height[0] == pytest.approx(0.1, abs=1e-3)
+    names = list(prairie.scene.grass)
+    assert prairie.grass_at([SOWN]).density[0][names.index("dry")] == pytest.approx(0.8, abs=0.01)
+    assert not prairie.grass_at([(-10.0, 10.0)]).density.any()
+    assert prairie.height_at([DUG])[0] == 1.5
+    assert [pose.x for _, (_, pose) in esper.get_components(Tree, Pose)] == [-12.0]
+    assert "storm" in [source.name for _, source in esper.get_component(WindSource)]
+    assert prairie.scene.grass["green"].tip == "#c86a1e"
+
+
+@pytest.fixture
+def other(world: World, request: pytest.FixtureRequest) -> Iterator[Prairie]:
+    del world
+    made = Prairie.load(SCENE | request.param)
+    yield made
+    made.release()
+
+
+OTHERWISE = {
+    "as it was": {},
+    "its mixing": {"mixing": "priority"},
+    "its grass": {"grass": {"green": GREEN | {"clumping": 0.1, "recovery": 30.0}, "dry": DRY}},
+    "how its winds blow": {"wind": [{"kind": "breeze"}, {"kind": "gust", "speed": 3.0}]},
+}
+"""What the scene comes to say where another release takes other values for granted, or a game's next version does."""
+
+
+@pytest.mark.parametrize("other", OTHERWISE.values(), ids=[*OTHERWISE], indirect=True)
+def test_a_state_comes_back_to_its_scene_whatever_that_says_besides(state: bytes, other: Prairie) -> None:
+    other.restore(state)
+    assert_played(other)
+
+
+@pytest.mark.parametrize("other", [OTHERWISE["its mixing"]], indirect=True)
+def test_a_state_of_the_format_before_still_comes_back(other: Prairie) -> None:
+    other.restore(OLD.read_bytes())
+    assert_played(other)
+    assert isinstance(unpacked(OLD.read_bytes()).state.scene, str)
+    assert isinstance(unpacked(other.state()).state.scene, SavedScene)
+
+
+@pytest.mark.parametrize("other", [{"grass": {"dry": DRY, "green": GREEN}}], indirect=True)
+def test_what_is_sown_goes_by_the_names_of_kinds_and_not_by_their_order(state: bytes, other: Prairie) -> None:
+    other.restore(state)
+    assert_played(other)
+
+
+@pytest.mark.parametrize(
+    "other", [{"trees": {"oak": OAK | {"positions": [[0, 20], [-12, -12], [12, -12]]}}}], indirect=True
+)
+def test_a_felled_tree_is_found_by_where_it_stood(state: bytes, other: Prairie) -> None:
+    other.restore(state)
+    assert sorted(pose.x for _, (_, pose) in esper.get_components(Tree, Pose)) == [-12.0, 0.0]
+
+
+UNFIT = {
+    "its seed is 1, and this one's 2": {"seed": 2},
+    "its ground is 60 by 60 m with a sample every 5 m, and this one's 60 by 50 m with a sample every 5 m": {
+        "terrain": {"size": [60, 50], "cell": 5.0}
+    },
+    "its ground has other heights or holes": {"terrain": {"size": [60, 60], "cell": 5.0, "offset": 1.0}},
+    "its scene declares the wind breeze, gust, and this one the wind breeze": {"wind": [{"kind": "breeze"}]},
+    "of pressers its scene declares 1, and this one 0": {"pressers": []},
+    "the grass 'green' is changed in it, which this scene does not have": {"grass": {"lush": GREEN, "dry": DRY}},
+    "ground is sown or cleared in it with the grass green, dry, and this has the grass green, red, dry": {
+        "grass": {"green": GREEN, "red": DRY, "dry": DRY}
+    },
+    r"a tree is felled in it at \(12, -12\), where none of this scene's stands": {
+        "trees": {"oak": OAK | {"positions": [[-12, -12], [12, -10]]}}
+    },
+}
+
+
+@pytest.mark.parametrize(("why", "other"), UNFIT.items(), indirect=["other"])
+def test_what_does_not_fit_is_said_in_a_sentence_and_nothing_changes(state: bytes, other: Prairie, why: str) -> None:
+    before = other.state()
+    with pytest.raises(ValueError, match=f"^this state does not fit this scene: {why}$"):
+        other.restore(state)
+    assert other.state() == before
