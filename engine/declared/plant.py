@@ -59,7 +59,8 @@ class Head(Declaration):
     ones. Without it, what suits the form."""
 
     open: float = Field(default=0.85, ge=0.0, le=1.0)
-    """Share of the heads that are open; the others are in bud. Spikes open from below."""
+    """Share of the heads that are open; of the others, some are in bud and some have set seed.
+    Spikes open from below."""
 
     share: float = Field(default=1.0, gt=0.0, le=1.0)
     """Share of the plants that bear a head."""

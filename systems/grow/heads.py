@@ -1,14 +1,15 @@
 """The heads of plants: petals round a point, florets along a stem, rays, and plumes."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import fields
+from dataclasses import dataclass, fields
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 from ...engine.declared.plant import SIZES, Head, HeadForm
 from .layout import Layout
-from .organs import BUD, EYE, FLORETS, PETAL, RAY, TUFT
+from .organs import BUD, EYE, FLORETS, PETAL, RAY, STRAP, TUFT
 from .rows import GOLDEN, Rows, Stems, stood
 
 Whorl = tuple[float, float]
@@ -24,9 +25,35 @@ MANY = 9
 _REACH = 0.8
 """How far a petal of posture index 1 reaches out from its root, as a part of its length."""
 
-_OVERLAP = 1.6
-_WIDEST = 1.15
+_OVERLAP, _OVERLAP_OF_MANY = 1.7, 1.35
+"""Width of all petals of a whorl, of the circle half-way along them; those of many petals leave gaps to see through."""
+
+_WIDEST = 1.25
 """Largest width of a petal, as a part of its length."""
+
+_OPENS = 0.45, 1.04
+"""How far the petals of an opening flower, and of one about to drop them, reach out, of what its whorl says."""
+
+_YOUNG = 0.85
+"""Length of petals that have just opened, of full-grown ones."""
+
+_TILTS = 0.4
+"""Posture index up to which heads lean aside, each its own way."""
+
+_NODS = 0.5, 0.9
+"""Posture indices at which flowers of few petals hold their buds, as poppies do."""
+
+_SEEDS = 0.45
+"""The part of the heads that are not open which have dropped their petals, and set seed."""
+
+_DROPS, _DROPPED = 0.8, 0.4
+"""Part of its time after which a flower of few petals sheds them; the part of them that is gone then."""
+
+_STUB = 0.12
+"""What is left where a petal was, of its length."""
+
+_UMBEL_OPENS = 0.6
+"""How far the rays of an opening umbel reach out, of those of an old one."""
 
 _SPIKE = 0.165
 """Area of a spike's florets, of the square of its length."""
@@ -36,36 +63,72 @@ _TOP_LEANS = 1.25
 
 
 def grow_heads(head: Head, layout: Layout, stems: Stems, random: np.random.Generator, /) -> Rows:
-    """Return the heads of stems: `layout.petals` rows and `layout.middles` for each, whether open or in bud."""
+    """Return the heads of stems: `layout.petals` rows and `layout.middles` for each, whether open or not."""
     low, high = head.size or SIZES[head.form]
     size = random.uniform(low, high, len(stems.plant))
     return _FORMS[head.form](head, layout, stems, size, random)
+
+
+@dataclass(frozen=True, slots=True)
+class _Ages:
+    """How old heads are, shape (m, 1) each: a field has buds, flowers and seed beside one another."""
+
+    shut: NDArray[np.bool_]
+    """Whether it is not open."""
+
+    seeds: NDArray[np.bool_]
+    """Whether it is not open because it is over."""
+
+    of_open: Doubles
+    """The part of its time that an open one has been so."""
+
+
+def _ages(head: Head, count: int, random: np.random.Generator, /) -> _Ages:
+    shut = random.random((count, 1)) >= head.open
+    return _Ages(shut, shut & (random.random((count, 1)) < _SEEDS), random.random((count, 1)))
+
+
+def _askew(count: int, random: np.random.Generator, /, *, nods: NDArray[np.bool_] | None = None) -> Doubles:
+    """Return how heads lean aside (m, 2); those of `nods` (m, 1) hang their heads."""
+    tilt, twist = random.uniform(0.0, _TILTS, count), random.uniform(-np.pi, np.pi, count)
+    if nods is not None:
+        tilt = np.where(nods[:, 0], random.uniform(*_NODS, count), tilt)
+    return np.asarray(tilt[:, None] * np.stack([np.cos(twist), np.sin(twist)], axis=1))
 
 
 def _cup(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.random.Generator, /) -> Rows:
     """Return discs and bells: whorls of petals round a middle, a little askew; in bud they are closed and green."""
     count = layout.petals
     whorls = BELL if head.form == "bell" else DISC_OF_MANY if count >= MANY else DISC_OF_FEW
+    few, ages = len(whorls) == 1, _ages(head, len(size), random)
     own = np.arange(count) % len(whorls)
     spread, length = np.array(whorls)[own].T
     beside = np.bincount(own)[own]
-    shut = random.random((len(size), 1)) >= head.open
     longest = (size / (2.0 * _REACH * max(spread)))[:, None]
-    petal = longest * length * random.uniform(0.88, 1.08, (len(size), count))
-    wide = np.minimum(_OVERLAP * 2.0 * np.pi * 0.5 * spread * petal / beside, _WIDEST * petal)
+    petal = _petals(longest * length, ages, random, drops=few)
+    wide = np.minimum((_OVERLAP if few else _OVERLAP_OF_MANY) * np.pi * spread * petal / beside, _WIDEST * petal)
     turned = random.uniform(-np.pi, np.pi, (len(size), 1)) + 2.0 * np.pi * np.arange(count) / count
-    tilt, twist = random.uniform(0.0, 0.3, len(size)), random.uniform(-np.pi, np.pi, len(size))
-    askew = tilt[:, None] * np.stack([np.cos(twist), np.sin(twist)], axis=1)
+    opens = np.interp(np.sqrt(ages.of_open), (0.0, 1.0), _OPENS) * random.uniform(0.85, 1.1, turned.shape)
+    askew = _askew(len(size), random, nods=ages.shut & ~ages.seeds if few else None)
+    bud = longest * np.where(ages.seeds, 0.5, random.uniform(0.5, 0.74, ages.shut.shape))
+    organ = np.where(ages.shut, BUD, PETAL if few else STRAP)
     petals = stood(
-        stems, np.where(shut, BUD, PETAL), part=1.0, height=np.where(shut, 0.62 * longest, petal),
-        width=np.where(shut, 0.34 * longest, wide), toward=turned + random.normal(0.0, 0.1, turned.shape),
-        spread=np.where(shut, 0.12, spread * random.uniform(0.85, 1.1, turned.shape)), tilt=askew,
+        stems, organ, part=1.0, height=np.where(ages.shut, bud, petal),
+        width=np.where(ages.shut, 0.34 * longest, wide), toward=turned + random.normal(0.0, 0.15, turned.shape),
+        spread=np.where(ages.shut, 0.12, spread * opens), tilt=askew,
     )  # fmt: skip
     middle = stood(
-        stems, np.where(shut, BUD, PETAL if len(whorls) > 1 else EYE), part=1.0, height=0.36 * longest,
+        stems, np.where(ages.shut, BUD, EYE if few else STRAP), part=1.0, height=0.36 * longest,
         width=0.22 * longest, toward=turned[:, :1], spread=0.05, tilt=askew,
     )  # fmt: skip
     return _both(petals, middle)
+
+
+def _petals(longest: Doubles, ages: _Ages, random: np.random.Generator, /, *, drops: bool) -> Doubles:
+    """Return the lengths of open heads' petals, (m, petals): they grow while they open; some that are old are gone."""
+    length = longest * np.interp(ages.of_open, (0.0, 0.5), (_YOUNG, 1.0)) * random.uniform(0.86, 1.08, longest.shape)
+    gone = drops & (ages.of_open > _DROPS) & (random.random(longest.shape) < _DROPPED)
+    return np.asarray(np.where(gone, _STUB * length, length))
 
 
 def _spike(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.random.Generator, /) -> Rows:
@@ -99,16 +162,21 @@ def _plume(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.r
 
 
 def _umbel(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.random.Generator, /) -> Rows:
-    """Return rays from the tops of stems, spread as evenly as seeds of a sunflower; in bud they stand together."""
-    count = layout.petals
-    shut = random.random((len(size), 1)) >= head.open
+    """Return rays from the tops of stems, spread as evenly as seeds of a sunflower, young ones as a dome.
+
+    In bud they stand together, and again when they set seed, as a nest.
+    """
+    count, ages = layout.petals, _ages(head, len(size), random)
     out = np.sqrt((np.arange(count) + 0.5) / count)
-    ray = (size / (2.0 * _REACH))[:, None] * random.uniform(0.92, 1.06, (len(size), count))
+    ray = (size / (2.0 * _REACH))[:, None] * random.uniform(0.85, 1.1, (len(size), count))
     toward = random.uniform(-np.pi, np.pi, (len(size), 1)) + GOLDEN * np.arange(count)
+    toward += random.normal(0.0, 0.1, toward.shape)
+    opens = np.interp(np.sqrt(ages.of_open), (0.0, 1.0), (_UMBEL_OPENS, 1.0))
+    nests = np.where(ages.seeds, 0.85, 0.5)
     return stood(
-        stems, np.where(shut, BUD, RAY), part=1.0, height=np.where(shut, 0.5, 1.0) * ray,
-        width=np.where(shut, 0.12, 1.15 / np.sqrt(count)) * ray, toward=toward,
-        spread=np.where(shut, 0.2, 0.98) * out,
+        stems, np.where(ages.shut, BUD, RAY), part=1.0, height=np.where(ages.shut, nests, 1.0) * ray,
+        width=np.where(ages.shut, 0.12, 1.15 / np.sqrt(count)) * ray, toward=toward,
+        spread=np.where(ages.shut, np.where(ages.seeds, 0.4, 0.2), 0.98 * opens) * out, tilt=_askew(len(size), random),
     )  # fmt: skip
 
 

@@ -32,14 +32,14 @@ class Organ:
     outline, which are drawn where they are seen. Far off and wherever it is painted it has their mean width."""
 
 
-BLADE, STEM, LEAF, FROND, PETAL, EYE, BUD, RAY, TUFT, WITHERED, FLORETS, SPRIG = range(12)
+BLADE, STEM, LEAF, FROND, PETAL, EYE, BUD, RAY, TUFT, WITHERED, FLORETS, SPRIG, STRAP = range(13)
 
 ORGANS: Final = (
     Organ((), (0.0, 1.0)),
     Organ((1.0, 0.9, 0.8, 0.75, 0.7), (0.0, 0.06)),
     Organ((0.35, 0.85, 1.0, 0.75, 0.05), (0.0, 0.08)),
     Organ((0.25, 0.9, 1.0, 0.7, 0.05), (0.1, 0.9)),
-    Organ((0.35, 0.75, 1.0, 1.0, 0.7), (0.62, 1.0), 0.35),
+    Organ((0.3, 0.75, 1.0, 0.95, 0.4), (0.62, 1.0), 0.35),
     Organ((0.7, 1.0, 1.0, 0.9, 0.5), (0.2, 0.4), 0.35),
     Organ((0.6, 1.0, 0.95, 0.7, 0.15), (0.0, 0.3), 0.35),
     Organ((0.06, 0.06, 0.07, 0.9, 0.6), (0.1, 1.0), 0.35),
@@ -47,16 +47,18 @@ ORGANS: Final = (
     Organ((0.5, 0.75, 0.65, 0.4, 0.05), (0.75, 1.0), 0.7),
     Organ((0.5, 0.9, 1.0, 0.8, 0.2), (0.7, 1.0), teeth=6),
     Organ((0.35, 0.8, 1.0, 0.85, 0.3), (0.0, 0.1), teeth=6),
+    Organ((0.4, 0.8, 1.0, 0.8, 0.2), (0.7, 1.0), 0.35),
 )
 """By number. `LEAF` belongs to a plant with a head, whose colour is the tip's, and `FROND` to one without. `EYE` is the
 middle of an open head, `RAY` one of an umbel's, whose florets are its end; plumes are made of `TUFT`. `WITHERED` grass
 is as pale as tips are, thinner, and stiffer. `FLORETS` are some of a spike's, one above another, and a `SPRIG`
-a shrub's short twig with its leaves. Both give way as what they stand on does, and so stay close to it."""
+a shrub's short twig with its leaves. Both give way as what they stand on does, and so stay close to it. `STRAP` is
+what a disc of many petals is made of: narrow and pointed, as in dandelions and daisies."""
 
-HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT, FLORETS)
+HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT, FLORETS, STRAP)
 """Those that heads are made of."""
 
-AT_TIPS: Final = (PETAL, EYE, BUD, RAY)
+AT_TIPS: Final = (PETAL, EYE, BUD, RAY, STRAP)
 """Those of them that stand on the tip of a stem, over one another."""
 
 TONES: Final = np.array([organ.tones for organ in ORGANS])
