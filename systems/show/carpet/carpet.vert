@@ -112,7 +112,7 @@ ByKind filled_up(ByKind covers) {
 #endif
         int layer = int(OF(first, kind)) + low * HEADINGS;
         float lower = layer_mean(images, layer, stock.z).a, steeper = layer_mean(images, layer + HEADINGS, stock.z).a;
-        OF(covers, kind) *= filled(steeper, low, on_level, mix(lower, steeper, elevation - float(low)));
+        OF(covers, kind) *= filled(lower, steeper, low, on_level, mix(lower, steeper, elevation - float(low)));
     }
     return covers;
 }

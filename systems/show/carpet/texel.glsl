@@ -6,7 +6,7 @@ uniform ByKind tops;  // by kind: how high the images reach, of the canopy's hei
 
 const float LEAST_TEXEL = 1e-3;  // coverage, or height, that divides another at least
 const float LEAST_MEAN = 0.01;   // mean coverage of an image that does
-const float HIDES_ALL = 1e-3;    // what is seen through the steepest image at least
+const float HIDES_ALL = 1e-3, SHOWS_ALL = 0.999;  // what is seen through an image at least, and at most
 
 struct Texel {
     float place;   // along the blade: what part of the tip's pigment it has
@@ -17,12 +17,13 @@ struct Texel {
     float taller;  // how much higher it is than the mean, of that
 };
 
-// How much more grass hides, seen at a slope between those of two images, than the mean of both: by the optical depth that the
-// steeper one shows it to have, which goes by the reciprocal of the slope. What is seen straight from above is taken for the
-// steepest image.
-float filled(float steeper, int elevation, float slope, float mean) {
-    float longer = slopes[elevation + 1] / clamp(slope, FLATTEST, slopes[SLOPES - 1]);
-    return (1.0 - pow(max(1.0 - steeper, HIDES_ALL), longer)) / max(mean, LEAST_MEAN);
+// How much more grass hides, seen at a slope between those of two images, than the mean of both: the flatter one and the steeper
+// one show which optical depths it has there, and between these it is taken to go by a power of the slope, as it does where all
+// leaves stand upright, or all lie. What is seen straight from above is taken for the steepest image.
+float filled(float flatter, float steeper, int elevation, float slope, float mean) {
+    vec2 depth = log(-log(clamp(1.0 - vec2(flatter, steeper), HIDES_ALL, SHOWS_ALL)));
+    float flattest = log(slopes[elevation]), part = (log(clamp(slope, FLATTEST, slopes[SLOPES - 1])) - flattest) / (log(slopes[elevation + 1]) - flattest);
+    return (1.0 - comes_through(exp(mix(depth.x, depth.y, part)))) / max(mean, LEAST_MEAN);
 }
 
 #ifdef HEADS
@@ -39,15 +40,15 @@ float coarser_heads(float across, float slope) {
 Texel texel_from(float layer, int kind, Patch own, Reading read, float on_level, float grain) {
     layer += float((own.model * SLOPES + read.elevation) * HEADINGS + own.side);
     float next = layer + float(HEADINGS);
-    vec4 mean_high = layer_mean(images, int(next), stock.z);
-    vec4 mean = mix(layer_mean(images, int(layer), stock.z), mean_high, read.next);
+    vec4 mean_low = layer_mean(images, int(layer), stock.z), mean_high = layer_mean(images, int(next), stock.z);
+    vec4 mean = mix(mean_low, mean_high, read.next);
     vec4 low = layer_at(images, vec3(read.low, layer), read.level), high = layer_at(images, vec3(read.high, next), read.level);
 #ifdef HEADS
     // Between what is scattered there is nothing, which cannot be less than that: more grain would be more of it in the mean.
     if (OF(bears, kind) > 0.0)
         grain = mix(min(grain, 1.0), grain, mean.a);
 #endif
-    float fill = filled(mean_high.a, read.elevation, on_level, mean.a);
+    float fill = filled(mean_low.a, mean_high.a, read.elevation, on_level, mean.a);
     vec4 image = (mean + (mix(low, high, read.next) - mean) * grain) * fill;
     image.a = clamp(image.a, 0.0, 1.0);
     image.rgb = clamp(image.rgb, 0.0, image.a);
