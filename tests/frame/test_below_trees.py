@@ -109,11 +109,9 @@ def test_f4_grass_on_strips_lies_in_a_trees_shade(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("prairie", "off"), [("blades", 0.025), ("strips", 0.025), ("carpet", 0.06)], indirect=["prairie"]
-)
+@pytest.mark.parametrize("prairie", ["blades", "strips", "carpet"], indirect=True)
 def test_f4_more_soil_is_seen_below_a_tree_in_every_representation_and_less_once_it_is_felled(
-    stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch, off: float
+    stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(going, "LASTS", 0.0)
     monkeypatch.setattr(TreePart, "draw_solid", lambda _: 0)
@@ -124,4 +122,4 @@ def test_f4_more_soil_is_seen_below_a_tree_in_every_representation_and_less_once
     esper.delete_entity(tree, immediate=True)
     assert np.array_equal(stage.shot(prairie, OVER), open_ground)
     red = [float((each[..., 0] / each[..., :2].sum(axis=-1))[24:72, 24:72].mean()) for each in (open_ground, below)]
-    assert red == pytest.approx([0.66, 0.82], abs=off)  # soil is red, and grass green
+    assert red == pytest.approx([0.66, 0.82], abs=0.025)  # soil is red, and grass green

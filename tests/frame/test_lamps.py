@@ -81,9 +81,7 @@ def test_n12_a_lamp_lights_all_representations_alike(stage: Stage, prairies: dic
         for lod, prairie in prairies.items()
     }
     assert due.min() > 0.003
-    missed = {lod: np.abs(ratio - 1.0).max() for lod, ratio in found.items()}
-    assert max(missed["blades"], missed["strips"]) < 0.08, found
-    assert missed["carpet"] < 0.14, found  # leaves that hang over others shade them more than it knows
+    assert max(np.abs(ratio - 1.0).max() for ratio in found.values()) < 0.05, found
 
 
 def test_light_of_a_lamp_falls_off_by_the_inverse_square_and_ends_at_its_range(

@@ -36,10 +36,12 @@ float leaves_above(float h, vec2 leaves) {
 const float OPEN_SKY = 1.6;  // leaves that the sky's light meets, of those seen from the side
 const float FLATTEST_SUN = 0.08;  // sine of the sun's elevation over the slope that counts at least, for how many leaves it meets
 
-// How many leaves the sun's light meets on its way, of those seen from the side, where its elevation over the slope has this sine.
+// How many leaves the sun's light meets on its way, of those seen from the side, where its elevation over the slope has this sine:
+// leaves that lie in all directions as the faces of an ellipsoid do, which looks as large from above and from the side as they do
+// (Campbell, Extinction coefficients for radiation in plant canopies, 1986).
 float sun_way(int kind, float high) {
     high = max(high, FLATTEST_SUN);
-    return sqrt(1.0 - min(high * high, 1.0)) / high + OF(lying, kind);
+    return sqrt(max(1.0 / (high * high) - 1.0, 0.0) + OF(lying, kind) * OF(lying, kind));
 }
 
 // The mean depth in the grass, of its height, of what a line of sight meets whose way to the ground has this optical depth.
