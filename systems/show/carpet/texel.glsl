@@ -6,7 +6,7 @@ uniform ByKind tops;  // by kind: how high the images reach, of the canopy's hei
 
 const float LEAST_TEXEL = 1e-3;  // coverage, or height, that divides another at least
 const float LEAST_MEAN = 0.01;   // mean coverage of an image that does
-const float HIDES_ALL = 1e-3, SHOWS_ALL = 0.999;  // what is seen through an image at least, and at most
+const float HIDES_ALL = 1e-3;    // what is seen through an image at least
 
 struct Texel {
     float place;   // along the blade: what part of the tip's pigment it has
@@ -17,13 +17,16 @@ struct Texel {
     float taller;  // how much higher it is than the mean, of that
 };
 
-// How much more grass hides, seen at a slope between those of two images, than the mean of both: the flatter one and the steeper
-// one show which optical depths it has there, and between these it is taken to go by a power of the slope, as it does where all
-// leaves stand upright, or all lie. What is seen straight from above is taken for the steepest image.
+// How much more grass hides, seen at a slope between those of two images, than the mean of both. Both show which optical depth it has
+// there, and its square goes by that of a way through the grass: so it does where leaves lie in all directions as the faces of an
+// ellipsoid (Campbell, as sun_way has it). What is seen straight from above is taken for the steepest image.
 float filled(float flatter, float steeper, int elevation, float slope, float mean) {
-    vec2 depth = log(-log(clamp(1.0 - vec2(flatter, steeper), HIDES_ALL, SHOWS_ALL)));
-    float flattest = log(slopes[elevation]), part = (log(clamp(slope, FLATTEST, slopes[SLOPES - 1])) - flattest) / (log(slopes[elevation + 1]) - flattest);
-    return (1.0 - comes_through(exp(mix(depth.x, depth.y, part)))) / max(mean, LEAST_MEAN);
+    vec2 depth = log(max(1.0 - vec2(flatter, steeper), HIDES_ALL));
+    vec3 way = 1.0 / vec3(slopes[elevation], slopes[elevation + 1], clamp(slope, FLATTEST, slopes[SLOPES - 1]));
+    way *= way;
+    depth *= depth;
+    float square = max(mix(depth.y, depth.x, (way.z - way.y) / (way.x - way.y)), 0.0);  // heads may hide more from above
+    return (1.0 - comes_through(sqrt(square))) / max(mean, LEAST_MEAN);
 }
 
 #ifdef HEADS
