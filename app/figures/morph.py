@@ -81,7 +81,7 @@ def _geometry(axes: Axes, one: Sample, chosen: NDArray[np.intp]) -> None:
     rows, seen = in_slice(one), partial(oblique, plane=float(one.strips.plane[CLOSE]))
     _ground(axes, one)
     axes.add_collection(ribbons(one, rows[np.argsort(one.blades.root[rows, 1])], seen))
-    points = one.strips.targets.shape[2]
+    points = one.targets.shape[2]
     own = spine(one.blades, one.growth.postures, (0.0, 0.0), points=points)[chosen]
     axes.add_collection(LineCollection([*seen(own)], color=SERIES[3], linewidth=1.5))
     axes.plot(*seen(own[:, 0]).T, "o", color=SERIES[3], markersize=3.0)
@@ -94,7 +94,7 @@ def _painted(axes: Axes, one: Sample, chosen: NDArray[np.intp]) -> None:
     low, high, tall = -one.strips.margin, one.quality.patch + one.strips.margin, one.strips.height
     picture = painted(one, one.strips.texels[0, CLOSE])
     axes.imshow(picture, origin="lower", extent=(low, high, 0.0, tall), interpolation="nearest")
-    at = one.strips.targets[0, chosen] * np.array([high - low, tall]) + np.array([low, 0.0])
+    at = one.targets[0, chosen] * np.array([high - low, tall]) + np.array([low, 0.0])
     axes.add_collection(LineCollection([*at], color=SERIES[3], linewidth=1.1))
     axes.add_patch(_strip_outline(one))
     axes.set(title="b)  texture: the same blades, painted on the strip", aspect="equal")
@@ -122,7 +122,7 @@ def _ground(axes: Axes, one: Sample) -> None:
 
 def slender(one: Sample, /) -> int:
     """Return the row of a blade that shows its face, leans, and is painted apart from the others."""
-    rows, at = in_slice(one), one.strips.targets[0].astype(np.float64)
+    rows, at = in_slice(one), one.targets[0].astype(np.float64)
     wide = one.quality.patch + 2.0 * one.strips.margin
     place = at[rows] * np.array([wide, one.strips.height])
     lean = np.abs(place[:, -1, 0] - place[:, 0, 0])
@@ -134,7 +134,7 @@ def slender(one: Sample, /) -> int:
 def draw_coordinates(detail: Detail, /) -> Figure:
     """Return figure 14: a painted blade with its control points, in texture coordinates and on the moving strip."""
     one = sample(detail)
-    at = one.strips.targets[0, slender(one)].astype(np.float64)
+    at = one.targets[0, slender(one)].astype(np.float64)
     figure = sheet(3.7, detail)
     parts = figure.subplot_mosaic([["whole", "close"], ["moved", "close"]], width_ratios=[2.15, 1.0])
     wide = one.quality.patch + 2.0 * one.strips.margin
@@ -237,10 +237,10 @@ def way(one: Sample, rows: NDArray[np.intp], /, *, frozen: bool = False) -> Way:
     for time in elapsed.tolist():
         now = BEGINS + (0.0 if frozen else time)
         edge.append(edges(one, prairie.wind_at(foot, now), points=ring.sections + 1))
-        points = one.strips.targets.shape[2]
+        points = one.targets.shape[2]
         own.append(spine(blades, one.growth.postures, prairie.wind_at(blades.root, now), points=points))
     prairie.release()
-    target = np.stack([on_strip(each, one.strips.targets[0, rows]) for each in edge])
+    target = np.stack([on_strip(each, one.targets[0, rows]) for each in edge])
     return Way(elapsed, morph, np.stack(edge), np.stack(own), target)
 
 

@@ -21,7 +21,7 @@ from ...systems.light.color import display
 from ...systems.light.daylight import daylight
 from ...systems.light.materials import grain, pigment
 from ...systems.prairie import Prairie
-from ...systems.show.strips.grow import Strips, strips_of
+from ...systems.show.strips.grow import Strips, strips_of, targets_on
 from ..studio.encode import Picture
 from ..studio.studio import Studio
 from ..studio.take import Take
@@ -62,6 +62,11 @@ class Sample:
     def strips(self) -> Strips:
         """The finest strips of its first patch model."""
         return strips_of(self.growth.models[0])[0]
+
+    @property
+    def targets(self) -> Floats:
+        """Where on them control points of its blades are painted (u, v), shape (2, n, points, 2)."""
+        return targets_on(self.strips, self.blades, self.growth.postures)
 
 
 def sample(detail: Detail, /) -> Sample:
@@ -252,7 +257,7 @@ def _strip(axes: Axes, one: Sample, message: Floats) -> None:
     plane, sections = float(one.strips.plane[CLOSE]), one.quality.strip_rings[0].sections
     edge = edges(one, message, points=sections + 1)
     rows = np.flatnonzero(one.strips.slice[0] == CLOSE)
-    blades = oblique(on_strip(edge, one.strips.targets[0, rows]), plane)
+    blades = oblique(on_strip(edge, one.targets[0, rows]), plane)
     axes.add_collection(LineCollection([*blades], color=(SERIES[0], 0.75), linewidth=0.9))
     mesh = oblique(edge, plane)
     axes.add_collection(LineCollection([*mesh], color=SERIES[1], linewidth=2.2))

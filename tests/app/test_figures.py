@@ -176,7 +176,7 @@ def test_g3_a_strip_in_figure_3_bends_like_blades_and_carries_what_is_painted_on
     grid_of = np.stack(np.meshgrid(np.linspace(0, 1, 3), np.linspace(0, 1, 40), indexing="ij"), axis=-1)
     np.testing.assert_allclose(on_strip(edge, grid_of.astype(np.float32)), edge, atol=1e-5)
     rest = edges(one, np.zeros((3, 2), np.float32), points=2)
-    at = one.strips.targets[0, :1]
+    at = one.targets[0, :1]
     place = on_strip(rest, at)[0]
     wide = one.quality.patch + 2 * one.strips.margin
     np.testing.assert_allclose(place[:, 0], at[0, :, 0] * wide - one.strips.margin, atol=1e-5)

@@ -36,14 +36,14 @@ def test_x3_the_blades_of_figure_13_are_those_that_its_texture_shows() -> None:
     for row, place in zip(rows, places, strict=True):
         np.testing.assert_allclose(place[0], [one.blades.root[row, 0], 0.0], atol=1e-4)
         np.testing.assert_allclose(
-            place[-1, 0], one.strips.targets[0, row, -1, 0] * span - one.strips.margin, atol=1e-4
+            place[-1, 0], one.targets[0, row, -1, 0] * span - one.strips.margin, atol=1e-4
         )
 
 
 @pytest.mark.usefixtures("_coarse")
 def test_x3_figure_14_labels_the_texture_coordinates_of_the_blade_that_it_draws() -> None:
     one = sample(SMALL)
-    at = one.strips.targets[0, slender(one)]
+    at = one.targets[0, slender(one)]
     with look():
         close = next(axes for axes in draw_coordinates(SMALL).axes if axes.get_title("left").startswith("b)"))
     np.testing.assert_allclose(np.asarray(close.lines[0].get_xydata()), at, atol=1e-6)

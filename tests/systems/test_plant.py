@@ -19,7 +19,7 @@ from tallgrass.systems.show.blades.plant import (
     stock_blades,
 )
 from tallgrass.systems.show.blades.pool import BLADE, BladePool
-from tallgrass.systems.show.strips.grow import strips_of
+from tallgrass.systems.show.strips.grow import strips_of, targets_on
 from tallgrass.systems.show.strips.plant import growing_on, plant_strips
 from tallgrass.systems.show.strips.pool import StripPool
 from tallgrass.systems.show.strips.stand import falls, strip_edges
@@ -142,7 +142,7 @@ def test_g1_every_blade_stands_within_half_a_slice_of_the_strip_it_is_painted_on
             away = root - feet[:, 0]
             beside = np.abs(run[:, 0] * away[:, 1] - run[:, 1] * away[:, 0]) / length
             assert (beside <= PATCH / count / 2 + 1e-4).all()
-            u = strips.targets[own, :, 0, 0]
+            u = targets_on(strips, blades, growth.postures)[own, :, 0, 0]
             painted = feet[:, 0] + u[:, None] * run
             forward = np.einsum("ij,ij->i", painted - root, run) / length
             assert np.abs(forward).max() < 1e-3

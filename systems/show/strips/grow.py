@@ -39,9 +39,10 @@ class Strips:
     slice: NDArray[np.int32]
     """Strip that each blade is painted on, shape (2, n)."""
 
-    targets: Floats
-    """Texture coordinates (u, v) of each blade's control points: the morph's targets (paper, section 4.2),
-    shape (2, n, points, 2)."""
+    @property
+    def patch(self) -> float:
+        """Side of the patch [m]."""
+        return 2.0 * float(self.plane[0]) * len(self.plane)
 
 
 _SEGMENTS = 12
@@ -96,8 +97,8 @@ def grow_strips(
     `margin`, and from the ground to `height` [m] (without it, over the highest tip); its texels are square but for
     rounding, `texel` metres wide at most.
     """
-    centre = spine(blades, postures, (0.0, 0.0), points=postures.shape.shape[2])
-    height = highest_tip(centre, texel) if height is None else height
+    if height is None:
+        height = highest_tip(spine(blades, postures, (0.0, 0.0), points=postures.shape.shape[2]), texel)
     size = _count(height, texel), _count(patch + 2.0 * margin, texel)
     shared = _Sheet(
         blades, postures, strips=strips, patch=patch, margin=margin, height=height, size=size, taper=taper,
@@ -111,14 +112,17 @@ def grow_strips(
         height=height,
         margin=margin,
         slice=np.stack([shared.slice(orientation) for orientation in (0, 1)]),
-        targets=paint_targets(centre, patch=patch, margin=margin, height=height),
     )
 
 
-def paint_targets(centre: Floats, /, *, patch: float, margin: float, height: float) -> Floats:
-    """Return texture coordinates of points of blades, (n, points, 3), on the strips, shape (2, n, points, 2)."""
-    ground = (centre[:, :, ::2].astype(np.float64) + margin) / (patch + 2.0 * margin)
-    up = centre[:, :, 1].astype(np.float64) / height
+def targets_on(strips: Strips, blades: Blades, postures: Postures, /) -> Floats:
+    """Return where on strips control points of their blades are painted: the morph's targets (paper, section 4.2).
+
+    They are texture coordinates (u, v), shape (2, n, points, 2), the same on strips of all rings.
+    """
+    centre = spine(blades, postures, (0.0, 0.0), points=postures.shape.shape[2])
+    ground = (centre[:, :, ::2].astype(np.float64) + strips.margin) / (strips.patch + 2.0 * strips.margin)
+    up = centre[:, :, 1].astype(np.float64) / strips.height
     return np.stack([np.stack([ground[:, :, k], up], axis=2) for k in (0, 1)]).astype(np.float32)
 
 

@@ -15,7 +15,6 @@ from ...around.outlook import Outlook
 from ...around.patches import PatchTable
 from ...grow.record import NOTHING, Growth
 from ...grow.section import SECTIONS
-from ...grow.simulate import LINKS
 from ...mow.mown import Mown
 from ...space.canopy import lodged
 from ...space.ground import Ground
@@ -100,7 +99,6 @@ class StripRepresentation(Representation):
             and strips.texels.shape[:2] == (2, ring.strips)
             and strips.texels.shape == (*strips.ranks.shape, 4)
             and strips.slice.shape == (2, blades)
-            and strips.targets.shape == (2, blades, LINKS + 1, 2)
             for strips, ring in zip(pictures, rings, strict=True)
         )
 

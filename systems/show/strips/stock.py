@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Floats
 from ...grow.record import NOTHING, Form, Growth, forms_of
-from .grow import Strips, strips_of
+from .grow import Strips, strips_of, targets_on
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,5 +55,10 @@ def stock_strips(growths: Sequence[Growth], coming: Mapping[int, Growth] = NOTHI
     slices = [
         np.stack([np.concatenate([own[ring].slice for own in of_model], 1) for of_model in each]) for ring in rings
     ]
-    targets = [np.concatenate([own[0].targets for own in of_model], 1) for of_model in each]
+    targets = [np.concatenate([_targets(form.growth, model) for form in forms], 1) for model in models]
     return StripStock(forms, strips, first_picture=first, slices=np.stack(slices), targets=np.stack(targets))
+
+
+def _targets(growth: Growth, model: int, /) -> Floats:
+    own = growth.models[model]
+    return targets_on(strips_of(own)[0], own.blades, growth.postures)

@@ -11,7 +11,7 @@ from tallgrass.systems.grow.bend import ribbon, spine
 from tallgrass.systems.grow.blades import grow_blades
 from tallgrass.systems.grow.postures import grow_postures
 from tallgrass.systems.grow.record import Blades
-from tallgrass.systems.show.strips.grow import Strips, grow_strips
+from tallgrass.systems.show.strips.grow import Strips, grow_strips, targets_on
 
 PATCH, MARGIN, STRIPS, TEXEL = 2.0, 0.3, 4, 0.008
 KIND = GrassKind(width=0.02)
@@ -62,7 +62,7 @@ def test_g1_every_blade_is_painted_on_the_strip_of_its_slice() -> None:
 def test_g1_targets_are_the_blades_control_points_seen_along_the_slices_normal() -> None:
     centre = spine(BLADES, POSTURES, (0.0, 0.0), points=17)
     for orientation, axis in ((0, 0), (1, 2)):
-        u, v = np.moveaxis(SHEET.targets[orientation], -1, 0)
+        u, v = np.moveaxis(targets_on(SHEET, BLADES, POSTURES)[orientation], -1, 0)
         np.testing.assert_allclose(u * (PATCH + 2 * MARGIN) - MARGIN, centre[:, :, axis], atol=1e-5)
         np.testing.assert_allclose(v * SHEET.height, centre[:, :, 1], atol=1e-5)
 
@@ -70,10 +70,10 @@ def test_g1_targets_are_the_blades_control_points_seen_along_the_slices_normal()
 @pytest.mark.parametrize("orientation", [0, 1])
 def test_g1_every_blade_is_painted_at_its_targets(orientation: int) -> None:
     across = np.abs([-np.sin(BLADES.facing), np.cos(BLADES.facing)][orientation]) * BLADES.width
-    shown = 0
+    targets, shown = targets_on(SHEET, BLADES, POSTURES), 0
     for blade in np.flatnonzero(across > 2.5 * TEXEL * 0.7):
         for point in range(9):
-            row, column = texel_of(SHEET, *SHEET.targets[orientation, blade, point])
+            row, column = texel_of(SHEET, *targets[orientation, blade, point])
             texel = SHEET.texels[orientation, SHEET.slice[orientation, blade], row, column]
             assert texel[3] > 64
             shown += 1
@@ -175,5 +175,5 @@ def test_g5_strips_go_from_fine_to_coarse_and_lose_only_what_hides_behind(
 
 def test_the_same_blades_make_the_same_strips() -> None:
     _, again = grown()
-    for name in ("texels", "ranks", "targets", "slice", "plane"):
+    for name in ("texels", "ranks", "slice", "plane"):
         np.testing.assert_array_equal(getattr(SHEET, name), getattr(again, name))
