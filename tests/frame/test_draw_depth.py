@@ -62,9 +62,9 @@ def darkened(depth: NDArray[np.float32]) -> Array:
     return np.asarray(shaded.reshape(8, -1).mean(axis=1))
 
 
-@pytest.mark.parametrize(("lod", "off"), [("blades", 0.2), ("strips", 0.2), ("carpet", 0.2)])
+@pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
 def test_n12_grass_darkens_a_wall_as_much_as_every_blade_does(
-    ctx: moderngl.Context, stage: Stage, prairies: dict[str, Prairie], lod: str, off: float
+    ctx: moderngl.Context, stage: Stage, prairies: dict[str, Prairie], lod: str
 ) -> None:
     prairie, large, small = prairies[lod], Stage(ctx, (3 * SIDE, 3 * SIDE)), Stage(ctx, (SIDE, SIDE))
     stage.shot(prairie, CAMERA)
@@ -77,7 +77,7 @@ def test_n12_grass_darkens_a_wall_as_much_as_every_blade_does(
     every.release()
     due = darkened(large.depth())
     assert 0.1 < due.mean() < 0.8
-    assert found.sum() == pytest.approx(due.sum(), rel=off)
+    assert found.sum() == pytest.approx(due.sum(), rel=0.12)
 
 
 def test_shadows_of_grass_leave_pictures_and_a_games_colours_as_they_are(

@@ -33,6 +33,11 @@ float leaves_above(float h, vec2 leaves) {
     return leaves.x + leaves.y * deep * deep * (FILLS + (1.0 - FILLS) * deep);
 }
 
+// How deep in the canopy, of its height, so much of its leaf area has been passed, from above: to 1 %.
+float depth_passed(float part) {
+    return sqrt(part / (FILLS + (1.0 - FILLS) * sqrt(part)));
+}
+
 const float OPEN_SKY = 1.6;  // leaves that the sky's light meets, of those seen from the side
 const float FLATTEST_SUN = 0.08;  // sine of the sun's elevation over the slope that counts at least, for how many leaves it meets
 

@@ -1,5 +1,5 @@
-// Light is stopped in the grass by chance (Beer, 1852), and leaf area falls off linearly with height. So each pixel draws a lot.
-#include "lib/frame.glsl"
+// Light is stopped in the grass by chance (Beer, 1852), where leaf area lies as lib/canopy.glsl has it. So each pixel draws a lot.
+#include "lib/canopy.glsl"
 #include "lib/random.glsl"
 
 uniform vec3 light;
@@ -20,6 +20,6 @@ void main() {
     if (met > stops || lot(1) > carpet)
         discard;
     vec3 from = normalize(light - place);
-    vec4 there = clip * vec4(place - from * (high * sqrt(met / stops) / max(from.y, LEVEL)), 1.0);
+    vec4 there = clip * vec4(place - from * (high * depth_passed(met / stops) / max(from.y, LEVEL)), 1.0);
     gl_FragDepth = depth_of(there);
 }

@@ -115,7 +115,7 @@ def test_g4_a_carpet_of_fine_texels_shows_each_ray_what_it_meets() -> None:
     truth = np.array([meet(spot, HEADINGS[1], 0.4, fine) for spot in spots])
     column, row = (spots / PATCH * 400).astype(int).T
     found = fine.texels[0, 1, row, column] / 255.0
-    assert (np.abs(found - truth).max(axis=1) < 0.05).mean() > 0.75
+    assert (np.abs(found - truth).max(axis=1) < 0.05).mean() > 0.78
     assert np.corrcoef(found[:, 1], truth[:, 1])[0, 1] > 0.85
 
 
@@ -174,9 +174,9 @@ def test_g4_images_reach_up_to_the_highest_tip(carpet: Carpet) -> None:
 def test_g5_a_coarser_carpet_has_the_same_means(carpet: Carpet, texels: int) -> None:
     other = grow_carpet(BLADES, POSTURES, patch=PATCH, texels=texels, taper=KIND.taper)
     assert other.texels.shape == (5, 4, texels, texels, 4)
-    np.testing.assert_allclose(
-        other.texels.mean(axis=(2, 3)) / 255.0, carpet.texels.mean(axis=(2, 3)) / 255.0, atol=0.035
-    )
+    apart = np.abs(other.texels.mean(axis=(2, 3)) - carpet.texels.mean(axis=(2, 3))) / 255.0
+    assert apart[2:].max() < 0.01
+    assert apart.max() < 0.03, "from the side, few blades show which patches stand in line, to a texel"
 
 
 @pytest.mark.parametrize("bend", [-0.75, -0.5, 0.5, 0.75])
