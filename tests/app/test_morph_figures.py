@@ -35,9 +35,7 @@ def test_x3_the_blades_of_figure_13_are_those_that_its_texture_shows() -> None:
     span = one.quality.patch + 2 * one.strips.margin
     for row, place in zip(rows, places, strict=True):
         np.testing.assert_allclose(place[0], [one.blades.root[row, 0], 0.0], atol=1e-4)
-        np.testing.assert_allclose(
-            place[-1, 0], one.targets[0, row, -1, 0] * span - one.strips.margin, atol=1e-4
-        )
+        np.testing.assert_allclose(place[-1, 0], one.targets[0, row, -1, 0] * span - one.strips.margin, atol=1e-4)
 
 
 @pytest.mark.usefixtures("_coarse")

@@ -87,9 +87,7 @@ TERMS = {
     "shadow of a body": Term(Seen(), Seen(shade=True), 0.25),
     "haze": Term(Seen(), Seen(haze=30.0), 0.9),
     "gloss": Term(Seen(BEHIND, 20.0, turf="gloss: 0"), Seen(BEHIND, 20.0, turf="gloss: 1"), 0.12, missed=0.3),
-    "transmission": Term(
-        Seen(BEFORE, 25.0, turf="translucency: 0"), Seen(BEFORE, 25.0, turf="translucency: 1.5"), 0.4
-    ),
+    "transmission": Term(Seen(BEFORE, 25.0, turf="translucency: 0"), Seen(BEFORE, 25.0, turf="translucency: 1.5"), 0.4),
 }
 
 
