@@ -33,6 +33,10 @@ reaches to the root of x of the height, as a dome."""
 LEVEL = 1.5
 """Level of the map's mip-maps that heaps are read from: with finer ones, heights differ by more than a heap's edge."""
 
+ABOVE = 3.0
+"""The same of heights above the base: half of the way aside from one height to the next is some two texels wide there.
+Heaps narrower than that would be seen once at each height, as a stack of slices."""
+
 THICK = 160.0
 """Optical depth of all heights where the map is denser by 1 than at a cloud's edge: only wisps are soft."""
 
@@ -53,8 +57,14 @@ for each 1 that the map is denser there; and how much denser undersides look for
 MOST_SHADED = (-0.3, 0.4)
 """How much thinner and denser that counts at most."""
 
-SUNLIT, SILVER = 0.95, 3.2
+SUNLIT, SILVER = 0.95, 1.6
 """What a cloud sends of the sun's light that comes to it; and its edges of what goes through, ahead of the sun."""
+
+STRAYS = 0.28
+"""The optical depth that such light meets, of a cloud's: what droplets scatter almost straight on goes on as before.
+
+Of droplets' light the square of their asymmetry does, 0.85 (Joseph, Wiscombe and Weinman, The Delta-Eddington
+Approximation for Radiative Flux Transfer, 1976)."""
 
 UNDER = 0.27, 0.3
 """What clouds send in full shade, before that: of the sun's light on level ground above, and of the sky's."""
@@ -79,11 +89,11 @@ OVERCAST, SOON = 0.6, 8.0
 
 GLSL = {
     "CLOUDS_AT": CLOUDS_AT, "CLOUDS_BENT": BENT, "CLOUD_RISE": RISE / CLOUDS_AT, "CLOUD_HEIGHTS": HEIGHTS,
-    "CLOUD_ROUND": ROUND, "CLOUD_LEVEL": LEVEL, "CLOUD_THICK": THICK, "CLOUD_COLUMN": COLUMN,
+    "CLOUD_ROUND": ROUND, "CLOUD_LEVEL": LEVEL, "CLOUD_ABOVE": ABOVE, "CLOUD_THICK": THICK, "CLOUD_COLUMN": COLUMN,
     "CLOUD_LIT": LIT, "CLOUD_HIGHER_UP": HIGHER_UP, "CLOUD_DEEPER": DEEPER, "CLOUD_ASIDE": ASIDE,
     "CLOUD_SHADES": SHADES, "CLOUD_MOTTLED": MOTTLED, "CLOUD_MOST_SHADED": MOST_SHADED, "CLOUD_OVERCAST": OVERCAST,
     "CLOUD_SUNLIT": SUNLIT, "CLOUD_SILVER": SILVER, "CLOUD_HIGHER": HIGHER, "CLOUD_PALE": PALE, "CLOUD_DARK": DARK,
-    "CLOUD_SENDS": SENDS, "CLOUD_AIR": AIR,
+    "CLOUD_SENDS": SENDS, "CLOUD_STRAYS": STRAYS, "CLOUD_AIR": AIR,
 }  # fmt: skip
 
 _RANKS = (np.arange(256) + 0.5) / 256.0

@@ -14,9 +14,13 @@ const vec3 GRIT = vec3(0.06711056, 0.00583715, 52.9829189);  // interleaved grad
 in vec3 clouding;
 flat in vec3 shaded_from;
 
-// How dense the map of clouds is at a place of it.
+// How dense the map of clouds is at a place of it: at their bases, and above.
 float dense_at(vec2 at) {
     return textureLod(repeating, at, clouding.z + CLOUD_LEVEL).r;
+}
+
+float dense_above(vec2 at) {
+    return textureLod(repeating, at, clouding.z + CLOUD_ABOVE).r;
 }
 
 // The parts of three sections of a line of sight that lie in clouds, by how much denser than at their edges the map is at the ends.
@@ -28,7 +32,7 @@ vec3 within(vec4 denser) {
 // Clouds in a direction: how much is seen past them, and what they send of the sun's light, and of light in full shade.
 vec3 clouds_in(vec3 toward) {
     vec2 along = clouds_toward(toward), at = clouds_over(eye.xz) + along, up = along * CLOUD_RISE;
-    vec4 dense = vec4(dense_at(at), dense_at(at + up * CLOUD_HEIGHTS.y), dense_at(at + up * CLOUD_HEIGHTS.z), dense_at(at + up));
+    vec4 dense = vec4(dense_at(at), dense_above(at + up * CLOUD_HEIGHTS.y), dense_above(at + up * CLOUD_HEIGHTS.z), dense_above(at + up));
     vec4 denser = dense - cloud_edge - CLOUD_ROUND * CLOUD_HEIGHTS * CLOUD_HEIGHTS, inside = max(denser, 0.0);
     vec3 held = within(denser), past = comes_through(0.5 * CLOUD_THICK * CLOUD_HEIGHTS.y * held * (inside.xyz + inside.yzw));
     vec3 shows = (1.0 - past) * vec3(1.0, past.x, past.x * past.y), enters = (1.0 - held) * step(denser.xyz, vec3(0.0));
@@ -38,7 +42,7 @@ vec3 clouds_in(vec3 toward) {
     float aside = dense_at(at + up * high + shaded_from.xy) - deep;
     float shades = shaded_from.z * clamp(aside, CLOUD_MOST_SHADED.x, CLOUD_MOST_SHADED.y);
     float sunny = clamp(CLOUD_LIT + CLOUD_HIGHER_UP * high - CLOUD_DEEPER * (deep - cloud_edge) - CLOUD_SHADES * shades, 0.0, 1.0);
-    float lit = CLOUD_SUNLIT * sunny * sunny + CLOUD_SILVER * clouding.x * (1.0 - hides);
+    float lit = CLOUD_SUNLIT * sunny * sunny + CLOUD_SILVER * clouding.x * pow(max(1.0 - hides, LEAST_SQUARE), CLOUD_STRAYS);
     float shaded = (1.0 + CLOUD_HIGHER * high) * (CLOUD_PALE - CLOUD_DARK * (deep + CLOUD_MOTTLED * shades));
     hides *= clouding.y;
     return vec3(1.0 - hides, hides * lit, hides * shaded);

@@ -222,6 +222,12 @@ def test_f5_clouds_have_soft_edges_and_dark_undersides(room: Stage, load: Load) 
     assert edges.mean() > 0.15
 
 
+def test_f5_heaps_far_off_are_no_stacks_of_slices(room: Stage, load: Load) -> None:
+    """Where they were, a line going up met cloud and sky by turns more often."""
+    sky = np.ptp(sky_over(room, load, 0.3, up=0.3), axis=1).reshape(*room.size[::-1])[40:120]
+    assert (np.diff(sky < 50.0, axis=0) != 0).sum(axis=0).mean() < 6.6
+
+
 def test_f10_the_sun_is_hidden_where_a_cloud_casts_its_shadow(ctx: moderngl.Context, load: Load) -> None:
     """It is looked at from many places on the ground, and each is looked at from above."""
     stage, light = Stage(ctx, (24, 24)), "azimuth: 90, elevation: 60, exposure: -4"
