@@ -41,12 +41,17 @@ float depth_passed(float part) {
 const float OPEN_SKY = 1.6;  // leaves that the sky's light meets, of those seen from the side
 const float FLATTEST_SUN = 0.08;  // sine of the sun's elevation over the slope that counts at least, for how many leaves it meets
 
-// How many leaves the sun's light meets on its way, of those seen from the side, where its elevation over the slope has this sine:
-// leaves that lie in all directions as the faces of an ellipsoid do, which looks as large from above and from the side as they do
-// (Campbell, Extinction coefficients for radiation in plant canopies, 1986).
+// How many leaves are met on a way, of those seen from the side, that goes so far over the ground for each metre of height: leaves
+// that lie in all directions as the faces of an ellipsoid do, which looks as large from above and from the side as they do
+// (Campbell, Extinction coefficients for radiation in plant canopies, 1986). It is told the square of that.
+float leaves_on_way(int kind, float square) {
+    return sqrt(square + OF(lying, kind) * OF(lying, kind));
+}
+
+// The same of the sun's light, where its elevation over the slope has this sine.
 float sun_way(int kind, float high) {
     high = max(high, FLATTEST_SUN);
-    return sqrt(max(1.0 / (high * high) - 1.0, 0.0) + OF(lying, kind) * OF(lying, kind));
+    return leaves_on_way(kind, max(1.0 / (high * high) - 1.0, 0.0));
 }
 
 // The mean depth in the grass, of its height, of what a line of sight meets whose way to the ground has this optical depth.

@@ -218,7 +218,8 @@ class GroundPainter:
     def restock(self, stock: CarpetStock, /) -> None:
         """Draw the images of a stock."""
         self.stock = stock
-        for name, value in stock.layers(self._seed).items():
+        is_whole = stack_for(self._ctx, image_count(stock.growths)) > 1
+        for name, value in stock.layers(self._seed, whole=is_whole).items():
             self._tell(name, value)
         part, outline = self._raised
         self.raise_carpet(part, outline=outline)

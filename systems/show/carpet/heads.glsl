@@ -23,13 +23,14 @@ struct Met {
     float through;
 };
 
-// Take in a layer that has so much leaf of each kind, and such parts of heads, as far as the line of sight is `inside`.
-void take_in(inout Met met, ByKind stop, ByKind heads, ByKind grows, float inside, float slope) {
-    float sum = weighed(stop, grows), image_slope = max(slope, LOWEST), stopped = met.through * (1.0 - comes_through(inside * sum / slope));
+// Take in a layer that has so many leaves of each kind on the way, and such parts of heads, as far as the line of sight is `inside`;
+// in images there are `part` of them.
+void take_in(inout Met met, ByKind stop, ByKind heads, ByKind grows, float inside, float part) {
+    float sum = weighed(stop, grows), stopped = met.through * (1.0 - comes_through(inside * sum));
     for (int group = 0; group < GROUPS; group++) {
         vec4 share = stopped * stop[group] * grows[group] / max(sum, THINNEST_LAYER);
         vec4 alone = met.through_alone[group];
-        alone *= 1.0 - vec4(comes_through(stop[group].xy / image_slope), comes_through(stop[group].zw / image_slope));
+        alone *= 1.0 - vec4(comes_through(part * stop[group].xy), comes_through(part * stop[group].zw));
         met.all[group] += share;
         met.heads[group] += share * heads[group];
         met.alone[group] += alone;
@@ -49,6 +50,7 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
     top = min(top, left);
     Met met = Met(all_kinds(0.0), all_kinds(0.0), all_kinds(0.0), all_kinds(0.0), all_kinds(1.0), 1.0);
     below /= mix(HIGHEST, 1.0, smoothstep(LONE.x, LONE.y, below));  // strips take away from the canopy, not from lone heads
+    ByKind leaves = leaves_met(slope);
     vec2 above[KINDS];
     for (int kind = 0; kind < KINDS; kind++)
         above[kind] = profile_above(kind, top / OF(crown, kind));
@@ -58,10 +60,10 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
         for (int kind = 0; kind < KINDS; kind++) {
             vec2 above_here = profile_above(kind, to * top / OF(crown, kind)), here = above_here - above[kind];
             above[kind] = above_here;
-            OF(stop, kind) = here.x * OF(leaf, kind);
+            OF(stop, kind) = here.x * OF(leaves, kind);
             OF(heads, kind) = here.y / max(here.x, THINNEST_LAYER);
         }
-        take_in(met, stop, heads, grows, clamp((below - to) / (from - to), 0.0, 1.0), slope);
+        take_in(met, stop, heads, grows, clamp((below - to) / (from - to), 0.0, 1.0), min(slope / LOWEST, 1.0));
         from = to;
     }
     for (int group = 0; group < GROUPS; group++) {
@@ -73,6 +75,6 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
 }
 
 // How much an image of a kind hides where it grows densely and alone; one with heads is taken in parts of its mean.
-float hidden_by_image(int kind, float slope) {
-    return OF(bears, kind) > 0.0 ? 1.0 : 1.0 - comes_through(OF(leaf, kind) / slope);
+float hidden_by_image(int kind, ByKind leaves) {
+    return OF(bears, kind) > 0.0 ? 1.0 : 1.0 - comes_through(OF(leaves, kind));
 }

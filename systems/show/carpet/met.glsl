@@ -1,5 +1,14 @@
 // How much of each kind lines of sight meet: at a low angle, taller kinds hide the others.
 #include "systems/show/carpet/sight.glsl"
+
+// How many leaves of each kind a line of sight of this slope meets on its way to the ground, where that grows densely.
+ByKind leaves_met(float slope) {
+    ByKind leaves = all_kinds(0.0);
+    for (int kind = 0; kind < KINDS; kind++)
+        OF(leaves, kind) = OF(leaf, kind) * leaves_on_way(kind, 1.0 / (slope * slope));
+    return leaves;
+}
+
 #ifdef HEADS
 #include "systems/show/carpet/heads.glsl"
 #else
@@ -10,6 +19,7 @@ const int LAYERS = 4;
 // height, or from `left` [m]; its leaf area falls off linearly with height.
 ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind riper) {
     float top = 0.0;
+    ByKind leaves = leaves_met(slope);
     riper = all_kinds(0.0);  // none has heads
     for (int kind = 0; kind < KINDS; kind++)
         top = max(top, OF(grows, kind) > LEAST_MET ? OF(crown, kind) : 0.0);
@@ -21,10 +31,10 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
         ByKind stop = all_kinds(0.0);
         for (int kind = 0; kind < KINDS; kind++) {
             float canopy_height = OF(crown, kind);
-            OF(stop, kind) = OF(grows, kind) * OF(leaf, kind) * 2.0 * max(1.0 - height / canopy_height, 0.0) * top / canopy_height;
+            OF(stop, kind) = OF(grows, kind) * OF(leaves, kind) * 2.0 * max(1.0 - height / canopy_height, 0.0) * top / canopy_height;
         }
         float sum = total(stop);
-        float stopped = through * (1.0 - comes_through(part * sum / slope));
+        float stopped = through * (1.0 - comes_through(part * sum));
         for (int group = 0; group < GROUPS; group++)
             met[group] += stopped * stop[group] / max(sum, THINNEST_LAYER);
         through -= stopped;
@@ -33,8 +43,8 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
 }
 
 // How much an image of a kind hides where it grows densely and alone.
-float hidden_by_image(int kind, float slope) {
-    return 1.0 - comes_through(OF(leaf, kind) / slope);
+float hidden_by_image(int kind, ByKind leaves) {
+    return 1.0 - comes_through(OF(leaves, kind));
 }
 #endif
 
@@ -43,9 +53,10 @@ float hidden_by_image(int kind, float slope) {
 // than either.
 ByKind shared_out(ByKind met, ByKind grows, float slope) {
     float all = max(total(met), THINNEST_LAYER), alone = 0.0;
+    ByKind leaves = leaves_met(slope);
     for (int kind = 0; kind < KINDS; kind++)
-        alone += OF(met, kind) / all * hidden_by_image(kind, slope);
-    float hides = (1.0 - comes_through(total(areas(grows)) / slope)) / max(alone, TINY);
+        alone += OF(met, kind) / all * hidden_by_image(kind, leaves);
+    float hides = (1.0 - comes_through(weighed(leaves, grows))) / max(alone, TINY);
     for (int group = 0; group < GROUPS; group++)
         met[group] = met[group] / all * hides;
     return met;

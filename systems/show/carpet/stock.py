@@ -92,10 +92,14 @@ class CarpetStock:
         """Return the table of bends, likewise."""
         return self._at("bents", came).astype(np.float16)
 
-    def layers(self, seed: int, /) -> dict[str, object]:
-        """Return what programs are told of where images are; `seed` is the scene's."""
+    def layers(self, seed: int, /, *, whole: bool) -> dict[str, object]:
+        """Return what programs are told of where images are; `seed` is the scene's.
+
+        Their sides are halved until they are 1; if `whole`, from the next power of two on.
+        """
         one = carpet_of(self.forms[0].growth.models[0])
-        slopes, coarsest = one.slope, (one.texels.shape[-2] - 1).bit_length()
+        slopes, side = one.slope, one.texels.shape[-2]
+        coarsest = (side - 1).bit_length() if whole else side.bit_length() - 1
         kinds, at = len(self.before.height), 0
         first = [0.0] * (2 * kinds)
         for form in self.forms:
