@@ -53,6 +53,23 @@ quality:
   carpet_to: 16
   carpet: 128
 """
+BED = """\
+tallgrass: 2
+terrain: { noise: flat, size: [120, 120] }
+light: { ground: "#000000", haze: 1e6 }
+grass:
+  bed:
+    { plant: flower, plants: 40, height: [0.4, 0.6], root: "#808080", tip: "#808080", understorey: 0, translucency: 0,
+      head: { petals: 5, size: [0.06, 0.08] } }
+quality:
+  blades: 400
+  models: 1
+  blade_rings: [{ to: 2, segments: 4 }]
+  strip_rings: [{ to: 3, strips: 2, texel: 0.05 }]
+  carpet_to: 16
+"""
+"""Flowers alone, on black ground."""
+
 MEADOW = (
     LITTLE.replace(
         LITTLE[LITTLE.index("\ngrass:") + 1 : LITTLE.index("camera:")],
@@ -163,6 +180,20 @@ def test_f3_in_every_representation_a_field_of_poppies_has_one_colour(stage: Sta
     for lod in ("blades", "strips"):
         mean = stage.shot(load(FIELD, lod=lod), aim).astype(float)[rows].mean(axis=(0, 1))
         np.testing.assert_allclose(mean, whole[rows].mean(axis=(0, 1)), rtol=0.06)
+
+
+@pytest.mark.parametrize("texels", [48, 64])
+def test_f3_flowers_alone_hide_as_much_of_the_ground_on_carpets_from_above(
+    ctx: moderngl.Context, load: Load, texels: int
+) -> None:
+    """Their leaves and petals lie: from above more is seen of them. The texels need be no power of two."""
+    room, aim = Stage(ctx, (96, 64)), Camera((0.0, 26.0, 15.0), 0.0, -1.05, np.radians(20.0))
+    blades, carpet = (
+        room.shot(load(BED + f"  carpet: {texels}\n", lod=lod), aim).mean() for lod in ("blades", "carpet")
+    )
+    room.release()
+    assert blades > 5.0
+    assert carpet == pytest.approx(blades, rel=0.1)
 
 
 @pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
