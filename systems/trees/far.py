@@ -27,10 +27,16 @@ FINER_BY = -0.5 * log2(3.0)
 Across, that has a variance of 1/12 of a pixel's square. Texels are means over themselves, and are read between: of a
 texel's square, the first has 1/12 and the second 1/6."""
 
+CAST_COARSER = 0.5 * log2(2.0)
+"""How many levels more it is in the map that says what it shades.
+
+That is read between its texels, which has twice the variance of the mean over one. As light falls off exponentially
+with the leaves that it meets, what shades is a mean as broad as that already, of how much leaves cover."""
+
 THICKEST = 0.6
 """Radius of a stem that a picture's texel of 255 stands for [m]."""
 
 GLSL = {
     "COLUMNS": COLUMNS, "ROWS": ROWS, "FIRST_ROW": FIRST_ROW, "EACH_ROW": EACH_ROW, "TILE_EDGE": TILE_EDGE,
-    "COARSER": COARSER, "FINER_BY": FINER_BY, "THICKEST": THICKEST,
+    "COARSER": COARSER, "FINER_BY": FINER_BY, "CAST_COARSER": CAST_COARSER, "THICKEST": THICKEST,
 }  # fmt: skip

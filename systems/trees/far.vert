@@ -53,7 +53,6 @@ const vec2 SHIMMER_HERTZ = vec2(1.7, 1.3);  // how fast limbs swing, along and a
 const float GIVES_WAY = 0.25;  // part of the way from one picture to the next on which a clump of leaves gives way to another
 const float BLENDS = 2.0;      // how many times as much more that is on each level, until a pixel is many clumps
 const float SHIMMER = 0.12;  // how far its limbs seem to swing, of how far they do, of a picture
-const float CAST_COARSER = 0.6;  // levels more for the map, which is read between texels: the mean of many leaves and none shades too much
 const float UPRIGHT_SENDS = 0.25;  // what an upright stem sends of level light from behind the eye, of what faces it, over half a turn [1/rad]
 
 #ifdef CAST
