@@ -68,7 +68,7 @@ class Term:
     without: Seen
     having: Seen
     least: float
-    missed: float = 0.15
+    missed: float = 0.1
 
 
 BLACK, BLUE = '"#000000"', '"#6080ff"'
@@ -79,14 +79,12 @@ TERMS = {
     "sun": Term(Seen(light="strength: 0"), Seen(), 2.0),
     "sun behind or before the eye": Term(Seen(BEHIND, 25.0), Seen(BEFORE, 25.0), 0.08),
     "sky": Term(Seen(light=NIGHT), Seen(light=f"zenith: {BLUE}, horizon: {BLUE}"), 0.12),
-    "canopy's own shade": Term(
-        Seen(elevation=65.0, light=NIGHT), Seen(elevation=20.0, light=NIGHT), 0.45, missed=0.075
-    ),
+    "canopy's own shade": Term(Seen(elevation=65.0, light=NIGHT), Seen(elevation=20.0, light=NIGHT), 0.45, missed=0.05),
     "shadow of the terrain": Term(Seen(LEFT, 15.0), Seen(LEFT, 15.0, ground="ridge"), 0.3),
     "shadow of clouds": Term(Seen(), Seen(light="clouds: 0.5"), 0.25),
     "shadow of a body": Term(Seen(), Seen(shade=True), 0.25),
     "haze": Term(Seen(), Seen(haze=30.0), 0.9),
-    "gloss": Term(Seen(BEHIND, 20.0, turf="gloss: 0"), Seen(BEHIND, 20.0, turf="gloss: 1"), 0.12, missed=0.3),
+    "gloss": Term(Seen(BEHIND, 20.0, turf="gloss: 0"), Seen(BEHIND, 20.0, turf="gloss: 1"), 0.12, missed=0.25),
     "transmission": Term(Seen(BEFORE, 25.0, turf="translucency: 0"), Seen(BEFORE, 25.0, turf="translucency: 1.5"), 0.4),
 }
 
