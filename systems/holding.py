@@ -28,7 +28,9 @@ READY_ROWS = 512
 AHEAD = True
 """Whether a live prairie has all programs before they are needed, so that none keeps a player waiting later."""
 
-IN_A_FRAME = "settle", "defines", "send", "use", "prepare", "breathe", "draw_solid", "draw_behind", "draw_soft"
+IN_A_FRAME = (
+    "settle", "defines", "send", "use", "prepare", "breathe", "draw_solid", "draw_behind", "draw_soft", "soft_left"
+)  # fmt: skip
 """Methods of parts that a frame calls."""
 
 

@@ -20,6 +20,7 @@ from .frame.block import aim, confine
 from .frame.feature import Feature, Part, doing
 from .holding import READY_ROWS, Holding
 from .receive.received import numbers_of, write_messages
+from .show.among import among
 from .show.blades.draw import BladePainter
 from .show.blades.plant import record_of
 from .site import Site
@@ -167,7 +168,7 @@ class Painter(Holding):
         self.draw_calls = self._hear(target, asked) if blades is None else 0
         self._draw_land(target, asked)
         if "grass" in asked.parts:
-            self._draw_carpet(target, view)
+            self._draw_carpet(target, view, all_soft=blades is not None)
         self._hand_over()
         if "grass" in asked.parts and blades is None:
             self._draw_grass(target, is_deep=asked.is_deep)
@@ -231,8 +232,8 @@ class Painter(Holding):
             for part in self._doing["draw_behind"]:
                 self.draw_calls += part.draw_behind()
 
-    def _draw_carpet(self, target: moderngl.Framebuffer, view: View) -> None:
-        """Draw what lies on the land."""
+    def _draw_carpet(self, target: moderngl.Framebuffer, view: View, *, all_soft: bool) -> None:
+        """Draw what lies on the land, and soft edges before it: all of them, or those beyond grass that stands."""
         target.depth_mask = False
         self._blend()
         mirrored = is_mirrored(view)
@@ -242,14 +243,17 @@ class Painter(Holding):
         self.draw_calls += self.coarsest.draw(target)
         self.ctx.disable(moderngl.CULL_FACE)
         target.depth_mask = True
+        reach = 0.0 if all_soft else max((each.reach for each in self.painters.values()), default=0.0)
         for part in self._doing["draw_soft"]:
-            self.draw_calls += part.draw_soft()
+            self.draw_calls += part.draw_soft(reach)
 
     def _draw_grass(self, target: moderngl.Framebuffer, *, is_deep: bool) -> None:
         """Draw what stands on the land, the coarser representations first."""
         self._blend()
         target.depth_mask = False
         for painter in list(self.painters.values())[-2::-1]:
+            for part in self._doing["soft_left"]:
+                self.draw_calls += among(painter, part)
             self.draw_calls += painter.draw(target)
             self._hand_over()
         if is_deep:

@@ -112,8 +112,9 @@ class BodiesPart(Part):
         """Draw them, opaque."""
         return 0 if self.painter is None else self.painter.draw()
 
-    def draw_soft(self) -> int:
+    def draw_soft(self, beyond: float = 0.0) -> int:
         """Draw their soft outlines."""
+        del beyond
         return 0 if self.painter is None else self.painter.draw_border()
 
     def release(self) -> None:

@@ -88,9 +88,17 @@ class Part:
         """Draw behind all that is opaque; return the number of draw calls."""
         return 0
 
-    def draw_soft(self) -> int:
-        """Blend over ground and sky, before the grass that stands; return the number of draw calls."""
+    def draw_soft(self, beyond: float = 0.0) -> int:
+        """Blend over ground and sky, before the grass that stands; return the number of draw calls.
+
+        What has more of it left to draw than what lies `beyond` a distance along the ground [m] is asked again.
+        """
+        del beyond
         return 0
+
+    def soft_left(self) -> float | None:
+        """Return how far off the next thing is that `draw_soft` has left to draw in a frame [m], or None."""
+        return None
 
     def release(self) -> None:
         """Give everything back to the context."""

@@ -128,6 +128,16 @@ class RepresentationPainter(Part, ABC):
         Depth is tested and blending is on; `target.depth_mask` is False before, and has to be so afterwards.
         """
 
+    @property
+    def reach(self) -> float:
+        """How far off it stands that it draws from far to near, along the ground [m]; 0 where nothing is in that order."""
+        return 0.0
+
+    def draw_beyond(self, off: float, /) -> int:
+        """Draw of that what is farther off [m], which `draw` leaves out then; return the number of draw calls."""
+        del off
+        return 0
+
     def look_anew(self) -> int:
         """Make out what depends on where the eye is, which has come elsewhere since; return the draw calls."""
         return 0

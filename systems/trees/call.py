@@ -31,6 +31,9 @@ class Call(NamedTuple):
     reads: Sequence[Read]
     """What it reads."""
 
+    off: float = 0.0
+    """How far off its trees are along the ground, in the mean [m]."""
+
     begins: bool = False
     """Whether it is the first one with its program."""
 
@@ -67,3 +70,8 @@ def part_of_wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> t
     drawn, count = model.wood[name], len(model.model.wood[WOODS.index(name)].triangles)
     end = count if whole else drawn.soft if soft else drawn.solid
     return 3 * model.first_of[name], 3 * end
+
+
+def bound_by(calls: Sequence[Call], /) -> list[Read]:
+    """Return what is bound once calls have been drawn, one after another."""
+    return list({read.unit: read for call in calls for read in call.reads}.values())

@@ -27,8 +27,9 @@ twigs on their cards into those pictures."""
 IN_ROWS = "in rows"
 """Pictures far off where some show rows of trees, of a large forest."""
 
-BACK = "back"
-"""The stream of those pictures from far to near, as soft edges are blended: that of `FAR` is from near to far."""
+BACK_FROM = 64.0, 32.0, 0.0
+"""From how far off on the streams have trees that show those pictures from far to near, as soft edges are blended [m]:
+that of `FAR` has all of them, from near to far. Near ones are drawn among the grass."""
 
 QUAD = 6
 """Vertices of a quad, as two triangles."""
@@ -39,6 +40,7 @@ SHARES = 2 / 3, 1 / 3, 1 / 6
 TOO_FEW = 6
 """Trees of the smallest share for which no draw of their own pays."""
 
+BACKS = tuple(f"back{number}" for number in range(len(BACK_FROM)))
 CARDS = tuple(f"{NEAR}{number}" for number in range(len(SHARES) + 1))
 WOODS = tuple(f"{WOOD}{number}" for number in range(len(RUNS) + 1))
 """The streams of those."""
@@ -75,7 +77,7 @@ class ModelOnCard:
             self._alone[name] = 1.0
         self._alone["turn"] = 1.0, 0.0
         self.bare.write(self._alone)
-        self.streams = {name: Stream(ctx, SHOWN) for name in (*WOODS, FAR, BACK, *CARDS)}
+        self.streams = {name: Stream(ctx, SHOWN) for name in (*WOODS, FAR, *BACKS, *CARDS)}
         self.streams[LEAVES] = Stream(ctx, LEAFY)
         self.told = {id(each): Stream(ctx, TOLD) for each in self.streams.values()}
         """What is made out of the trees of each stream once a tree, by the stream's id."""
@@ -105,10 +107,13 @@ class ModelOnCard:
         ]
         return self.vertices, " ".join(kept), *(name for name in names if name in program)
 
-    def write(self, near: NDArray[np.void], wide: Doubles, leafy: NDArray[np.void], far: NDArray[np.void]) -> None:
+    def write(
+        self, near: NDArray[np.void], wide: Doubles, leafy: NDArray[np.void], far: NDArray[np.void], off: Doubles
+    ) -> None:
         """Send trees that are drawn near by, the nearest first, twigs of them that are leaf by leaf, and those far off.
 
-        `wide` is the radius of a stem of the model that is a pixel wide, where each is nearest, shape (n,).
+        `wide` is the radius of a stem of the model that is a pixel wide, where each is nearest, shape (n,); `off` is how
+        far off those are that are drawn so, shape (m,) [m].
         """
         run = np.searchsorted(RUNS, wide)
         for number, name in enumerate(WOODS):
@@ -117,7 +122,9 @@ class ModelOnCard:
             if len(rows):
                 self.wood[name] = parts(self.model.wood[number].radii, wide[run == number], rows)
         self._send(FAR, far)
-        self._send(BACK, far[::-1])
+        band = (off[:, None] < BACK_FROM).sum(axis=1)
+        for number, name in enumerate(BACKS):
+            self._send(name, far[band == number][::-1])
         self._send(LEAVES, leafy)
         self.most[LEAVES] = 1
         drawn = near["keep"] * (1.0 - near["gone"])

@@ -16,8 +16,8 @@ from ..frame.feature import Heard, Part
 from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
-from .call import Call, in_turn, part_of_wood, told_of_call
-from .card import BACK, CARDS, CAST, FAR, IN_ROWS, LEAVES, NEAR, QUAD, WOOD, WOODS, ModelOnCard, Numbers
+from .call import Call, bound_by, in_turn, part_of_wood, told_of_call
+from .card import BACKS, CARDS, CAST, FAR, IN_ROWS, LEAVES, NEAR, QUAD, WOOD, WOODS, ModelOnCard, Numbers
 from .group import Group
 from .kind import KindOnCard
 from .leafy import leaf_by_leaf, leafy
@@ -60,6 +60,8 @@ class TreePart(Part):
         """The trees of each model by its kind's number and its own, and of which frame they are."""
         self._calls: dict[tuple[str, bool], list[Call]] = {}
         """What is drawn, until something else is chosen: with which edges, with all wood or not."""
+        self._soft_left: list[Call] = []
+        """Which of them with soft edges this frame has still to draw."""
         self._placed: Stream | None = None
         """All trees of all streams, one stream after another; and what is made out of them."""
         self._stood: Stream | None = None
@@ -245,7 +247,7 @@ class TreePart(Part):
             ])  # fmt: skip
         ahead = nearest_ahead(clip, middle, eye, (1.0 + SWAYS) * scale[:, None] * (ball, grown.radius))
         wide = THINNEST * np.maximum(ahead, AWAY) / (focal * scale)
-        model.write(told[near], wide[near], twigs, told[far])
+        model.write(told[near], wide[near], twigs, told[far], off[far])
         if self.leaves_from is not None:
             model.most[LEAVES] = len(grown.twigs)
 
@@ -299,37 +301,55 @@ class TreePart(Part):
         if self._kinds and self._air is not None and (self._chosen, self.leaves_from) != (None, None):
             self.prepare()
             self.breathe(self._air)
-        return self._draw(HARD)
+        self.begin_soft()
+        return self._draw(self._of(HARD))
 
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Write the depth of all that covers most of a texel of a shadow map."""
         del light
-        return self._draw(HARD, all_wood=True)
+        return self._draw(self._of(HARD, all_wood=True))
 
-    def draw_soft(self) -> int:
-        """Draw their soft edges."""
-        if not self._kinds:
+    def begin_soft(self) -> None:
+        """Have all soft edges of a frame left to draw."""
+        self._soft_left = self._of(SOFT)
+
+    def draw_soft(self, beyond: float = 0.0) -> int:
+        """Draw their soft edges that are so far off at least."""
+        calls = self._soft_left
+        if not calls:
             return 0
         target = self._ctx.fbo
-        target.depth_mask = False
-        calls = self._draw(SOFT)
-        target.depth_mask = True
-        return calls
+        written, target.depth_mask = target.depth_mask, False
+        ends = next((number for number, call in enumerate(calls) if call.off < beyond), len(calls))
+        for read in bound_by(self._of(SOFT)[: -len(calls)]):
+            read.texture.use(read.unit)
+        self._soft_left = calls[ends:]
+        drawn = self._draw(calls[:ends])
+        target.depth_mask = written
+        return drawn
 
-    def _draw(self, edges: str, *, all_wood: bool = False) -> int:
+    def soft_left(self) -> float | None:
+        """Return how far off the next of them are."""
+        return self._soft_left[0].off if self._soft_left else None
+
+    def _of(self, edges: str, *, all_wood: bool = False) -> list[Call]:
+        """Return what is drawn with such edges."""
         if not self._kinds or self._programs is None or self.hidden:
-            return 0
+            return []
         key = edges, all_wood
         if key not in self._calls:
             self._calls[key] = self._listed(self._programs, edges, all_wood=all_wood)
-        for call in self._calls[key]:
+        return self._calls[key]
+
+    def _draw(self, calls: list[Call]) -> int:
+        for call in calls:
             if call.begins:
                 tell_asked(call.array.program, self._numbers)
             tell_due(call.due)
             for read in call.reads:
                 read.texture.use(read.unit)
             call.array.render(call.form, first=call.first, vertices=call.vertices, instances=call.instances)
-        return len(self._calls[key])
+        return len(calls)
 
     def _listed(self, programs: Programs, edges: str, *, all_wood: bool) -> list[Call]:
         """Return what is drawn: what is solid from near to far, as it hides what is drawn after it; else from far."""
@@ -344,13 +364,13 @@ class TreePart(Part):
                     (LEAVES, LEAVES, 0, QUAD * kind.habit.leaf.quads),
                     *((NEAR, name, 0, len(outline)) for name in CARDS),
                     *((WOOD, name, *part_of_wood(model, name, soft=soft, whole=all_wood or sampled)) for name in WOODS),
-                    (FAR, BACK if soft else FAR, 0, 2 * len(around.high)),
+                    *((FAR, name, 0, 2 * len(around.high)) for name in (BACKS if soft else (FAR,))),
                 ):
                     stream = model.hung.get(name, model.streams[name])
                     if stream.count and vertices > 0 and not (soft and sampled and sort != FAR):
                         drawn_as, sampling = (of_far, edges) if sort == FAR else (sort, SAMPLED if sampled else edges)
                         array = programs.array(drawn_as, stream, model, edges=sampling)
-                        off = self._off(model.placed[name])
+                        off, along = self._off(model.placed[name])
                         turn = -float(off.mean()) if soft else float(off.min())
                         whole_tree = SOLID if all_wood else CLOSED if sort == FAR else OPAQUE
                         opaque = kind.solid if name in CARDS else whole_tree
@@ -359,14 +379,15 @@ class TreePart(Part):
                         )
                         reads = kind.reads(array.program, model, noise=sort in (WOOD, FAR))
                         form = moderngl.TRIANGLE_STRIP if name in CARDS or sort == FAR else moderngl.TRIANGLES
-                        calls.append(Call(turn, array, first, vertices, stream.count, form, told, reads))
+                        calls.append(Call(turn, array, first, vertices, stream.count, form, told, reads, along))
         return in_turn(sorted(calls, key=lambda call: call.turn))
 
-    def _off(self, placed: NDArray[np.void]) -> Doubles:
-        """Return how far off the crowns of trees are, records of `PLACED` [m], shape (n,)."""
+    def _off(self, placed: NDArray[np.void]) -> tuple[Doubles, float]:
+        """Return how far off crowns of trees are, records of `PLACED`, shape (n,); and along the ground, in the mean [m]."""
         assert self._outlook is not None
         middle = placed["root"] + placed["crown_at"][:, None] * np.array([0.0, 1.0, 0.0], np.float32)
-        return np.asarray(np.linalg.norm(middle - np.array(self._outlook.viewer.eye), axis=1))
+        to = middle - np.array(self._outlook.viewer.eye)
+        return np.linalg.norm(to, axis=1), float(np.hypot(to[:, 0], to[:, 2]).mean())
 
     def release(self) -> None:
         """Give everything back."""

@@ -99,7 +99,7 @@ def test_f4_grass_on_strips_lies_in_a_trees_shade(
     stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(TreePart, "draw_solid", lambda _: 0)
-    monkeypatch.setattr(TreePart, "draw_soft", lambda _: 0)
+    monkeypatch.setattr(TreePart, "draw_soft", lambda *_: 0)
     in_the_sun = stage.shot(prairie, OVER)[..., 1]
     tree = esper.create_entity(Tree("oak", 12.0), Pose(7.0, 0.0))  # towards the sun
     shaded = stage.shot(prairie, OVER)[..., 1]
@@ -115,7 +115,7 @@ def test_f4_more_soil_is_seen_below_a_tree_in_every_representation_and_less_once
 ) -> None:
     monkeypatch.setattr(going, "LASTS", 0.0)
     monkeypatch.setattr(TreePart, "draw_solid", lambda _: 0)
-    monkeypatch.setattr(TreePart, "draw_soft", lambda _: 0)
+    monkeypatch.setattr(TreePart, "draw_soft", lambda *_: 0)
     open_ground = stage.shot(prairie, OVER)
     tree = esper.create_entity(Tree("oak", 12.0), Pose(0.0, 0.0))
     below = stage.shot(prairie, OVER)

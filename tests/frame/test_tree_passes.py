@@ -53,10 +53,12 @@ def asked_for(
     assert prairie.painter is not None
     part, query = prairie.painter.part(TreePart), ctx.query(samples=True)
 
-    def draw_soft() -> int:
+    def draw_soft(beyond: float) -> int:
+        del beyond
         with monkeypatch.context() as meanwhile, query:
             meanwhile.setattr("tallgrass.systems.trees.draw.CLOSED", NOTHING_IS_OPAQUE)
             vars(part)["_calls"].clear()
+            part.begin_soft()
             return TreePart.draw_soft(part)
 
     with monkeypatch.context() as meanwhile:

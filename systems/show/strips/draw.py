@@ -204,6 +204,11 @@ class StripPainter:
         tell(array.program, "of_ring", ring, patch)
         return self.received.ask(array, first=first, count=count)
 
+    @property
+    def patch(self) -> float:
+        """Side of a patch [m]."""
+        return float(self._block.record["patch_side"][0])
+
     def draw(self, first: int, count: int, *, thin: int, deep: bool = False) -> int:
         """Draw `count` of what was written, from the `first` on; return the number of draw calls.
 

@@ -11,7 +11,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Mask
+from ....components.arrays import Floats, Mask
 from ....engine.declared.quality import Quality
 from ....engine.gl.remembered import Remembered
 from ....engine.gl.shaders import Texts
@@ -44,6 +44,12 @@ class _Sent:
     runs: list[tuple[int, int, int]]
     """The draws: first strip, how many, and whether by rank."""
 
+    off: Floats
+    """How far off the patches are that are drawn, in their order, shape (m,): none is farther than the one before [patches]."""
+
+    ends: NDArray[np.int64]
+    """Where the strips of each end, shape (m,)."""
+
     asked: list[tuple[int, int, int]]
     """By ring, the first patch, its first receiver, and how many receivers there are."""
 
@@ -58,6 +64,9 @@ class StripsPainter(RepresentationPainter):
         self.strips = StripPainter(canvas, quality.strip_rings, stock.forms, atlas, heads=heads)
         self._came: tuple[float, ...] = ()
         self.runs: list[tuple[int, int, int]] = []
+        self._drawn = 0
+        """How many of their strips this frame has drawn."""
+        self._sent: _Sent | None = None
         self._asked: list[tuple[int, int, int]] = []
         self._gathered, self._ordered = Remembered[_Sent](), Remembered[Order]()
 
@@ -117,15 +126,15 @@ class StripsPainter(RepresentationPainter):
             if sent.strips is not shelf.numbers:
                 self.strips.write_strips(sent.strips)
             shelf.sent, shelf.numbers = sent, sent.strips
-        self.runs, self._asked = sent.runs, sent.asked
+        self.runs, self._asked, self._sent, self._drawn = sent.runs, sent.asked, sent, 0
         return 0
 
     def _gather(self, outlook: Outlook, first: Mapping[str, list[int]]) -> "_Sent":
-        rings, appears = _rings(outlook), outlook.appearance
+        rings, appears, centre = _rings(outlook), outlook.appearance, outlook.viewer.centre
         assert appears is not None
         shown = [ring for _, ring in rings]
         numbered = [(start, prod(pool.shape)) for start, (pool, _) in zip(first["strips"], rings, strict=True)]
-        stood = gather_strips(shown, numbered, appears, outlook.patches, outlook.viewer.centre, fade=self._fade)
+        stood = gather_strips(shown, numbered, appears, outlook.patches, centre, fade=self._fade)
         before = accumulate((len(ring.rows) for ring in shown), initial=0)
         asked = list(zip(before, first["strips"], self.receivers(outlook), strict=False))
         queue = np.argsort(np.concatenate([ring.queue for ring in shown]), kind="stable")
@@ -134,7 +143,9 @@ class StripsPainter(RepresentationPainter):
         present = self._of_forms(present)
         order = partial(polygon_strips, stood, patch, present, self._fineness, most=self.strips.most)
         strips, amount = self._ordered.of(outlook.viewer.name, (stood["stand"], patch, present), order)
-        return _Sent(stood, strips, runs(_ranked(rings, changes=self._changes).take(patch), amount), asked)
+        shown_as = runs(_ranked(rings, changes=self._changes).take(patch), amount)
+        off = np.hypot(*(stood["cell"].take(patch, axis=0) - centre).T)
+        return _Sent(stood, strips, shown_as, np.minimum.accumulate(off), np.cumsum(amount), asked)
 
     @property
     def _changes(self) -> bool:
@@ -157,9 +168,32 @@ class StripsPainter(RepresentationPainter):
         )
 
     def draw(self, target: moderngl.Framebuffer, /) -> int:
-        """Draw all runs; return the number of draw calls."""
+        """Draw what is left of all runs; return the number of draw calls."""
         del target
-        return sum(self.strips.draw(first, count, thin=thin) for first, count, thin in self.runs)
+        calls = self._draw_to(None)
+        self._drawn = 0
+        return calls
+
+    @property
+    def reach(self) -> float:
+        """How far off its farthest patch is [m]."""
+        return float(self._sent.off[0]) * self.strips.patch if self._sent is not None and len(self._sent.off) else 0.0
+
+    def draw_beyond(self, off: float, /) -> int:
+        """Draw strips of patches that are farther off [m]; return the number of draw calls."""
+        assert self._sent is not None
+        beyond = int((self._sent.off * self.strips.patch > off).sum())
+        return self._draw_to(int(self._sent.ends[beyond - 1])) if beyond else 0
+
+    def _draw_to(self, end: int | None) -> int:
+        """Draw those strips before the `end` that have not been drawn; return the number of draw calls."""
+        calls, done = 0, self._drawn
+        for start, count, thin in self.runs:
+            first, last = max(start, done), start + count if end is None else min(start + count, end)
+            if last > first:
+                calls += self.strips.draw(first, last - first, thin=thin)
+                self._drawn = max(self._drawn, last)
+        return calls
 
     def draw_deep(self) -> int:
         """Write the depth of all runs; return the number of draw calls."""
