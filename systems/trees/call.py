@@ -54,10 +54,13 @@ def in_turn(calls: Sequence[Call], /) -> list[Call]:
 
 
 def told_of_call(
-    program: moderngl.Program, corners: list[tuple[float, float]], around: Around | None, solid_from: float
+    program: moderngl.Program, corners: list[tuple[float, float]], around: Around | None, solid_from: float, *, casts: bool
 ) -> Due:
-    """Return what a program is told of a call: how much of a pixel is opaque, and the corners of an outline, if any."""
-    told = due(program, {"solid_from": (solid_from,)})
+    """Return what a program is told of a call: how much of a pixel is opaque, and the corners of an outline, if any.
+
+    What `casts` a shadow is nowhere but where it is.
+    """
+    told = due(program, {"solid_from": (solid_from,)}) + (due(program, {"behind": (0.0,)}) if casts else [])
     if corners:
         told += due_all(program, "corners", corners)
     if around is not None:

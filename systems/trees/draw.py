@@ -375,7 +375,7 @@ class TreePart(Part):
                         whole_tree = SOLID if all_wood else CLOSED if sort == FAR else OPAQUE
                         opaque = kind.solid if name in CARDS else whole_tree
                         told = kind.due(array.program, model) + told_of_call(
-                            array.program, outline if name in CARDS else [], around if sort == FAR else None, opaque
+                            array.program, outline if name in CARDS else [], around if sort == FAR else None, opaque, casts=all_wood
                         )
                         reads = kind.reads(array.program, model, noise=sort in (WOOD, FAR))
                         form = moderngl.TRIANGLE_STRIP if name in CARDS or sort == FAR else moderngl.TRIANGLES

@@ -14,6 +14,9 @@ in vec4 own;      // around the stem and along it [m]; what sets its limb apart,
 in vec3 pivot;    // foot of its limb
 in vec4 shading;  // what light meets on its way
 
+uniform float usual;     // as twig.glsl has them
+uniform vec3 leaf_shape;
+
 #ifdef BAKED
 uniform mat4 baked;
 #endif
@@ -79,6 +82,6 @@ void main() {
     from_sun = SENDS * pigment * pigment * light.sun;
     from_sky = pigment * pigment * light.sky;
     hazy = light.haze;
-    gl_Position = just_behind(clip * vec4(seen_at, 1.0));
+    gl_Position = just_behind(stood_among_leaves(seen_at, aged, scale * usual * leaf_shape.x * THINNEST / pixel_at));
 #endif
 }

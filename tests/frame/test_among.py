@@ -5,8 +5,10 @@ from collections.abc import Iterator
 import moderngl
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tallgrass import Prairie
+from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_truth
 from tallgrass.systems.show.among import SHELL, far_end
 from tallgrass.testing import Stage, little_prairie, looking, private_world
@@ -16,7 +18,7 @@ tallgrass: 2
 seed: 5
 terrain: { noise: flat, size: [160, 160] }
 grass: { turf: { height: [0.3, 0.5], width: 0.02 } }
-trees: { thorn: { habit: hawthorn, height: [4, 4], leaf: "#a02020", bark: "#a02020", positions: [[0, 0]] } }
+trees: { thorn: { habit: hawthorn, height: [4, 4], leaf: "#a02020", bark: "#2020ff", positions: [[0, 0]] } }
 light: { azimuth: 160, elevation: 40, haze: 1e6 }
 quality:
   models: 1
@@ -26,7 +28,8 @@ quality:
   carpet: 32
 """
 SIZE = 72, 72
-EYE = looking(0.0, 6.0, 22.0, pitch=-10.0, view=14.0)
+FAR_OFF = looking(0.0, 6.0, 22.0, pitch=-10.0, view=14.0)  # as pictures, and twig by twig
+NEAR = looking(0.0, 6.0, 22.0, pitch=-11.0, view=4.0)
 
 
 @pytest.fixture(scope="module")
@@ -35,13 +38,29 @@ def prairie(ctx: moderngl.Context) -> Iterator[Prairie]:
         yield made
 
 
-def test_n3_grass_behind_a_tree_does_not_hide_its_soft_edges(ctx: moderngl.Context, prairie: Prairie) -> None:
+def red_and_blue(ctx: moderngl.Context, prairie: Prairie, eye: Camera) -> list[float]:
+    """Return how much is seen of a tree's red leaves and of its blue wood, of what a reference shows of them."""
     stage = Stage(ctx, SIZE)
     stage.begin()
-    prairie.draw(*stage.matrices(EYE))
-    drawn, true = stage.read(), draw_truth(prairie, *stage.matrices(EYE), SIZE).picture
-    red = [np.maximum(each[..., 0].astype(int) - each[..., 1], 0).sum() for each in (drawn, true)]
-    assert red[0] / red[1] > 0.85
+    prairie.draw(*stage.matrices(eye))
+    drawn, true = (
+        each.astype(int) for each in (stage.read(), draw_truth(prairie, *stage.matrices(eye), SIZE).picture)
+    )
+    seen = [
+        [np.maximum(each[..., own] - each[..., others].max(axis=-1), 0).sum() for each in (drawn, true)]
+        for own, others in ((0, [1, 2]), (2, [0, 1]))
+    ]
+    return [one / other for one, other in seen]
+
+
+@pytest.mark.parametrize("eye", [pytest.param(FAR_OFF, marks=pytest.mark.slow), NEAR])
+def test_n3_neither_grass_nor_wood_behind_leaves_hides_their_soft_edges(
+    ctx: moderngl.Context, prairie: Prairie, eye: Camera
+) -> None:
+    red, blue = red_and_blue(ctx, prairie, eye)
+    assert red > 0.85
+    if eye is NEAR:
+        assert blue == pytest.approx(1.0, abs=0.25)
 
 
 def test_shells_of_grass_begin_at_its_end_and_go_down_to_where_edges_are() -> None:
