@@ -49,10 +49,11 @@ class TreeKind(Declaration):
     """How many of its trees of `density` still grow, as a part of all: they are of all ages, and so of all heights."""
 
     positions: list[Pair] = Field(default=[], max_length=MOST)
-    """Where single trees stand, ground positions (x, z) [m]."""
+    """Where single trees stand, ground positions (x, z) [m]; over holes of the terrain there are none."""
 
     rows: list[Annotated[list[Pair], Field(min_length=2, max_length=1000)]] = Field(default=[], max_length=1000)
-    """Lines of ground positions (x, z) [m] with trees along them, `spacing` apart: avenues and hedges."""
+    """Lines of ground positions (x, z) [m] with trees along them, `spacing` apart: avenues and hedges, as far as there
+    is ground."""
 
     spacing: float = Field(default=6.0, ge=0.3, le=1000.0)
     """Distance from tree to tree in a row, and the least distance among those of `density` [m]."""

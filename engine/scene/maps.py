@@ -18,7 +18,7 @@ Maps = tuple[Terrain, Density]
 def load_maps(loaded: LoadedScene, /, *, before: tuple[LoadedScene, Maps] | None = None) -> Maps:
     """Return a scene's elevation and density maps; of those of a scene `before`, what has not changed since.
 
-    Raises SceneError with every map that cannot be used and every place of the camera that is off the terrain.
+    Raises SceneError with every map that cannot be used and every place of camera and trees that is off the terrain.
     """
     scene, folder, document, pictures = loaded.scene, loaded.folder, loaded.document, loaded.pictures
     try:
@@ -26,7 +26,7 @@ def load_maps(loaded: LoadedScene, /, *, before: tuple[LoadedScene, Maps] | None
     except MapError as error:
         problem = bad_terrain(document, scene.terrain, error)
         raise SceneError([problem, *bad_densities(document, scene.grass, NOWHERE, folder, pictures)]) from error
-    outside = list(off_terrain(document, scene.camera, terrain))
+    outside = list(off_terrain(document, scene.camera, scene.trees, terrain))
     try:
         density = _kept_density(loaded, terrain, before) or load_density(scene.grass, terrain, folder, pictures)
     except MapError as error:

@@ -1,4 +1,4 @@
-"""What of the maps that a scene names, and of its camera's places, cannot be used."""
+"""What of the maps that a scene names, and of the places of its camera and its trees, cannot be used."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -12,6 +12,7 @@ from ...components.declaration import Declaration
 from ..declared.camera import CameraSource
 from ..declared.grass import GrassKind
 from ..declared.terrain import TerrainSource
+from ..declared.tree import TreeKind
 from ..terrain.density import load_density
 from ..terrain.errors import MapError
 from ..terrain.load import load_terrain
@@ -43,11 +44,19 @@ def bad_densities(
             yield document.problem(("grass", name, "place", "map"), str(error))
 
 
-def off_terrain(document: Document, camera: CameraSource, terrain: Terrain, /) -> Iterator[Problem]:
-    """Give the problem of every place of the camera that is off the terrain."""
-    places: list[tuple[Where, list[float]]] = [(("camera", "position"), camera.position)]
-    places += [(("camera", "path", i, "position"), stop.position) for i, stop in enumerate(camera.path)]
+def off_terrain(
+    document: Document, camera: CameraSource | None, trees: Mapping[str, TreeKind], terrain: Terrain, /
+) -> Iterator[Problem]:
+    """Give the problem of each place of the camera off the terrain, and of the first one of each kind of tree."""
+    places = list[tuple[Where, list[float]]]()
+    if camera is not None:
+        places += [(("camera", "position"), camera.position)]
+        places += [(("camera", "path", i, "position"), stop.position) for i, stop in enumerate(camera.path)]
     width, depth = terrain.whole
+    for name, kind in trees.items():
+        place = np.abs(np.array(kind.positions).reshape(-1, 2))
+        off = (place > (width / 2, depth / 2)).any(axis=1).nonzero()[0]
+        places += [(("trees", name, "positions", int(i)), kind.positions[i]) for i in off[:1]]
     for where, (x, z) in places:
         if abs(x) > width / 2 or abs(z) > depth / 2:
             extent = f"x from {-width / 2:g} to {width / 2:g} and z from {-depth / 2:g} to {depth / 2:g} m"
@@ -66,17 +75,21 @@ def unusable(document: Document, folder: Path, /) -> Iterator[Problem]:
     except SceneError:
         return
     source, camera = _part(TerrainSource, values.get("terrain", {})), _part(CameraSource, values.get("camera", {}))
-    declared = values.get("grass")
-    parts = {name: _part(GrassKind, kind) for name, kind in declared.items()} if isinstance(declared, dict) else {}
+    kinds, trees = _parts(GrassKind, values.get("grass")), _parts(TreeKind, values.get("trees"))
     terrain = NOWHERE
     if source is not None:
         try:
             terrain = load_terrain(source, folder)
-            if camera is not None:
-                yield from off_terrain(document, camera, terrain)
+            yield from off_terrain(document, camera, trees, terrain)
         except MapError as error:
             yield bad_terrain(document, source, error)
-    yield from bad_densities(document, {name: kind for name, kind in parts.items() if kind}, terrain, folder, {})
+    yield from bad_densities(document, kinds, terrain, folder, {})
+
+
+def _parts(model: type[Part], values: Any) -> dict[str, Part]:
+    """Return what parts by name declare, without those that are wrong themselves."""
+    parts = {name: _part(model, value) for name, value in values.items()} if isinstance(values, dict) else {}
+    return {name: part for name, part in parts.items() if part is not None}
 
 
 def _part(model: type[Part], values: Any) -> Part | None:

@@ -6,8 +6,8 @@ from ..frame.feature import Part
 from .representation import RepresentationPainter
 
 SHELL = 0.8
-"""How near the near end of a shell of grass is, of its far end. Soft edges come before what is in the shell with them: of
-the grass behind a tree 30 m off, up to 7 m of it hide its edges, by an eye of 1.7 m the lowest third of a metre."""
+"""How near the near end of a shell of grass is, of its far end. Soft edges come before what is in the shell with them:
+behind a tree 30 m off, grass of up to 7 m hides its edges, for an eye at 1.7 m those of its lowest third of a metre."""
 
 
 def among(painter: RepresentationPainter, part: Part, /) -> int:

@@ -130,7 +130,7 @@ class RepresentationPainter(Part, ABC):
 
     @property
     def reach(self) -> float:
-        """How far off it stands that it draws from far to near, along the ground [m]; 0 where nothing is in that order."""
+        """How far off that stands which it draws from far to near, along the ground [m]; 0 where nothing does."""
         return 0.0
 
     def draw_beyond(self, off: float, /) -> int:

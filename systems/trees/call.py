@@ -4,7 +4,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import moderngl
+import numpy as np
+from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...engine.gl.shaders import Due, due, due_all
 from .card import WOODS, ModelOnCard
 from .kind import Read
@@ -54,7 +57,12 @@ def in_turn(calls: Sequence[Call], /) -> list[Call]:
 
 
 def told_of_call(
-    program: moderngl.Program, corners: list[tuple[float, float]], around: Around | None, solid_from: float, *, casts: bool
+    program: moderngl.Program,
+    corners: list[tuple[float, float]],
+    around: Around | None,
+    solid_from: float,
+    *,
+    casts: bool,
 ) -> Due:
     """Return what a program is told of a call: how much of a pixel is opaque, and the corners of an outline, if any.
 
@@ -73,6 +81,12 @@ def part_of_wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> t
     drawn, count = model.wood[name], len(model.model.wood[WOODS.index(name)].triangles)
     end = count if whole else drawn.soft if soft else drawn.solid
     return 3 * model.first_of[name], 3 * end
+
+
+def off_of(placed: NDArray[np.void], eye: Doubles, /) -> tuple[Doubles, float]:
+    """Return how far off crowns of trees are, records of `PLACED`, shape (n,); and along the ground, their mean [m]."""
+    to = placed["root"] + placed["crown_at"][:, None] * np.array([0.0, 1.0, 0.0], np.float32) - eye
+    return np.linalg.norm(to, axis=1), float(np.hypot(to[:, 0], to[:, 2]).mean())
 
 
 def bound_by(calls: Sequence[Call], /) -> list[Read]:

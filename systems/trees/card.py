@@ -112,8 +112,8 @@ class ModelOnCard:
     ) -> None:
         """Send trees that are drawn near by, the nearest first, twigs of them that are leaf by leaf, and those far off.
 
-        `wide` is the radius of a stem of the model that is a pixel wide, where each is nearest, shape (n,); `off` is how
-        far off those are that are drawn so, shape (m,) [m].
+        `wide` is the radius of a stem of the model that is a pixel wide, where each is nearest, shape (n,); `off` is
+        how far off those are that are drawn so, shape (m,) [m].
         """
         run = np.searchsorted(RUNS, wide)
         for number, name in enumerate(WOODS):

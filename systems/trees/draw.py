@@ -16,7 +16,7 @@ from ..frame.feature import Heard, Part
 from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
-from .call import Call, bound_by, in_turn, part_of_wood, told_of_call
+from .call import Call, bound_by, in_turn, off_of, part_of_wood, told_of_call
 from .card import BACKS, CARDS, CAST, FAR, IN_ROWS, LEAVES, NEAR, QUAD, WOOD, WOODS, ModelOnCard, Numbers
 from .group import Group
 from .kind import KindOnCard
@@ -356,7 +356,8 @@ class TreePart(Part):
         calls = list[Call]()
         soft, sampled = edges == SOFT, self.leaves_from is not None
         whole = soft or sampled or all_wood
-        of_far = IN_ROWS if self._standing().in_rows else FAR
+        assert self._outlook is not None
+        of_far, eye = IN_ROWS if self._standing().in_rows else FAR, np.array(self._outlook.viewer.eye)
         for kind in self._kinds:
             for model in kind.models:
                 outline, around = (kind.outline, model.around) if whole else (kind.core, model.core)
@@ -370,24 +371,17 @@ class TreePart(Part):
                     if stream.count and vertices > 0 and not (soft and sampled and sort != FAR):
                         drawn_as, sampling = (of_far, edges) if sort == FAR else (sort, SAMPLED if sampled else edges)
                         array = programs.array(drawn_as, stream, model, edges=sampling)
-                        off, along = self._off(model.placed[name])
+                        off, along = off_of(model.placed[name], eye)
                         turn = -float(off.mean()) if soft else float(off.min())
                         whole_tree = SOLID if all_wood else CLOSED if sort == FAR else OPAQUE
                         opaque = kind.solid if name in CARDS else whole_tree
-                        told = kind.due(array.program, model) + told_of_call(
-                            array.program, outline if name in CARDS else [], around if sort == FAR else None, opaque, casts=all_wood
-                        )
+                        corners, ends = outline if name in CARDS else [], around if sort == FAR else None
+                        of_call = told_of_call(array.program, corners, ends, opaque, casts=all_wood)
+                        told = kind.due(array.program, model) + of_call
                         reads = kind.reads(array.program, model, noise=sort in (WOOD, FAR))
                         form = moderngl.TRIANGLE_STRIP if name in CARDS or sort == FAR else moderngl.TRIANGLES
                         calls.append(Call(turn, array, first, vertices, stream.count, form, told, reads, along))
         return in_turn(sorted(calls, key=lambda call: call.turn))
-
-    def _off(self, placed: NDArray[np.void]) -> tuple[Doubles, float]:
-        """Return how far off crowns of trees are, records of `PLACED`, shape (n,); and along the ground, in the mean [m]."""
-        assert self._outlook is not None
-        middle = placed["root"] + placed["crown_at"][:, None] * np.array([0.0, 1.0, 0.0], np.float32)
-        to = middle - np.array(self._outlook.viewer.eye)
-        return np.linalg.norm(to, axis=1), float(np.hypot(to[:, 0], to[:, 2]).mean())
 
     def release(self) -> None:
         """Give everything back."""

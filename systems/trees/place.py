@@ -22,7 +22,7 @@ LEAST = 0.5
 def placed(kind: TreeKind, terrain: Terrain, taken: Floats, /, *, seed: int) -> Floats:
     """Return the ground positions (n, 2) [m] of a kind's single trees; none stands on another of them or of `taken`.
 
-    Places off the terrain and over its holes are left out.
+    Those of rows off the terrain, and all over its holes, are left out.
     """
     draw = np.random.default_rng((seed, 48))
     rows = [_along(row, kind.spacing, kind.uneven, draw) for row in kind.rows]

@@ -1,11 +1,10 @@
-"""Soft edges among the grass: those of a tree are before the grass behind it, and behind the grass in front of it (N3)."""
+"""Soft edges of trees among the grass: they are before the grass behind them, and before wood behind them (N3)."""
 
 from collections.abc import Iterator
 
 import moderngl
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from tallgrass import Prairie
 from tallgrass.engine.camera import Camera
@@ -43,9 +42,7 @@ def red_and_blue(ctx: moderngl.Context, prairie: Prairie, eye: Camera) -> list[f
     stage = Stage(ctx, SIZE)
     stage.begin()
     prairie.draw(*stage.matrices(eye))
-    drawn, true = (
-        each.astype(int) for each in (stage.read(), draw_truth(prairie, *stage.matrices(eye), SIZE).picture)
-    )
+    drawn, true = (each.astype(int) for each in (stage.read(), draw_truth(prairie, *stage.matrices(eye), SIZE).picture))
     seen = [
         [np.maximum(each[..., own] - each[..., others].max(axis=-1), 0).sum() for each in (drawn, true)]
         for own, others in ((0, [1, 2]), (2, [0, 1]))

@@ -45,7 +45,7 @@ class _Sent:
     """The draws: first strip, how many, and whether by rank."""
 
     off: Floats
-    """How far off the patches are that are drawn, in their order, shape (m,): none is farther than the one before [patches]."""
+    """How far off the patches are that are drawn, in their order, none farther than the one before [patches], (m,)."""
 
     ends: NDArray[np.int64]
     """Where the strips of each end, shape (m,)."""
