@@ -20,13 +20,14 @@ vec4 stood(vec3 place) {
 // pixel wide are a part that falls as their length rises.
 const float ALL_EDGES = 4.0;
 
-// Where wood is among leaves that are so long [pixels]. Thin stems are as far behind as the soft edges of leaves, or as far as these
-// are a part of them: so as much as is in front of stems hides them. Old stems are bare.
-vec4 stood_among_leaves(vec3 place, float aged, float leaf) {
+// Where wood is among leaves that are so long [pixels], as far as any stand about it. Thin stems are as far behind as the soft edges
+// of leaves, or as far as these are a part of them: so as much as is in front of stems hides them. They are no farther behind than
+// high over the ground, which would hide them.
+vec4 stood_among_leaves(vec3 place, float leafy, float leaf, float high) {
 #ifdef SAMPLED
     return clip * vec4(place, 1.0);
 #else
-    return as_deep(place, behind * (1.0 - aged) * min(ALL_EDGES / leaf, 1.0));
+    return as_deep(place, min(behind * leafy * min(ALL_EDGES / leaf, 1.0), max(high, 0.0)));
 #endif
 }
 

@@ -82,6 +82,7 @@ void main() {
     from_sun = SENDS * pigment * pigment * light.sun;
     from_sky = pigment * pigment * light.sky;
     hazy = light.haze;
-    gl_Position = just_behind(stood_among_leaves(seen_at, aged, scale * usual * leaf_shape.x * THINNEST / pixel_at));
+    float leaf = scale * usual * leaf_shape.x * THINNEST / pixel_at;
+    gl_Position = just_behind(stood_among_leaves(seen_at, foliage * (1.0 - aged), leaf, seen_at.y - root.y));
 #endif
 }
