@@ -15,6 +15,7 @@ from ..engine.declared.scene import Scene
 from ..engine.handed import as_rays, must_be_step, must_be_time, must_be_viewer
 from ..engine.terrain.pick import pick
 from ..engine.terrain.sample import height_at, normal_at
+from ..engine.underflow import Underflowing
 from ..engine.world import World
 from .around.clearing import Clearings
 from .around.outlook import Outlooks
@@ -35,7 +36,7 @@ from .winds import Winds
 log = logging.getLogger("tallgrass")
 
 
-class Answering:
+class Answering(Underflowing):
     """What stands, blows and walks on a site at one time, and answers what is asked of it."""
 
     viewers: Outlooks

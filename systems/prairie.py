@@ -325,7 +325,7 @@ class Prairie(Tending):
         """Bring back what `state` returned, and return what entity each of a game's own in it is now.
 
         These are winds, pressers, lamps, shades and trees. `entities` are those that are there already, likewise.
-        Raises ValueError, and changes nothing, for a state of another scene, of another format, or one that is damaged.
+        Raises ValueError, and changes nothing, for a state that does not fit the scene, or is damaged.
         """
         self._must_be_there("restore a state")
         self._clock, became, kinds = self._saving.restore(state, self.site, self.loaded, entities or {})

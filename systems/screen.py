@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import moderngl
+import numpy as np
 
 from ..engine.gl.guest import arrive, guest, host_context, kept
 from ..engine.gl.homes import Homes
@@ -89,7 +90,7 @@ class Screen:
     def _entered(self) -> Iterator[Painter | None]:
         """Give the painter of the host's context, whatever it has settled on."""
         self._painters.check()
-        with kept(self.ctx) as state:
+        with np.errstate(under="ignore"), kept(self.ctx) as state:
             if 0 in state.viewport[2:]:
                 yield None
                 return

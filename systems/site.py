@@ -144,6 +144,7 @@ def found_site(
     return lay_out(scene, quality, Ground(terrain, density, quality.patch), growths, lod=lod, transitions=transitions)
 
 
+@np.errstate(under="ignore")  # a game calls it, on any thread
 def found_again(site: Site, before: LoadedScene, loaded: LoadedScene, /, *, preset: str | None, lod: str) -> Site:
     """Return the site of a scene that was read again; `site` is that of the scene `before`, and stays as it is.
 
