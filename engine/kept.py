@@ -41,6 +41,33 @@ def checksum(data: bytes | memoryview, key: str, /) -> bytes:
     return blake2b(data, digest_size=DIGEST, key=key.encode()).digest()
 
 
+def kept(name: str, key: str, /) -> memoryview | None:
+    """Return the bytes that were kept under a name; None where none are, or where they are not those of its key."""
+    folder = cache_folder()
+    if folder is None:
+        return None
+    with suppress(OSError):
+        data = (folder / name).read_bytes()
+        told = memoryview(data)[DIGEST:]
+        if data[:DIGEST] == checksum(told, key):
+            mark_used(folder / name)
+            return told
+    return None
+
+
+def keep(name: str, key: str, data: bytes, /, *, most: int) -> None:
+    """Keep what `kept` returns, and so many files of its suffix; where nothing can be written, that is said once."""
+    folder = cache_folder()
+    if folder is None:
+        tell_nothing_is_kept("a cache folder", "there is no home folder")
+        return
+    try:
+        write_whole(folder / name, checksum(data, key) + data)
+        forget_oldest(folder, Path(name).suffix, most)
+    except OSError as error:
+        tell_nothing_is_kept(str(folder), error.strerror or "it cannot be written to")
+
+
 def mark_used(path: Path, /) -> None:
     """Let a file be one that was used just now."""
     with suppress(OSError):

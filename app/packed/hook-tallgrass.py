@@ -8,7 +8,15 @@ from PyInstaller.utils.hooks import collect_data_files, collect_entry_point, cop
 FILES = {
     "tallgrass.scenes": ["*.yaml", "*.png"],
     "tallgrass.engine": ["**/*.glsl", "**/*.vert", "**/*.frag"],
-    "tallgrass.systems": ["**/*.glsl", "**/*.vert", "**/*.frag", "grow/*.py", "stock/*.py", "**/grow.py"],
+    "tallgrass.systems": [
+        "**/*.glsl",
+        "**/*.vert",
+        "**/*.frag",
+        "grow/*.py",
+        "stock/*.py",
+        "**/grow.py",
+        "light/repeating.py",
+    ],
 }
 """What is read at run time, by package. So is the code that grows: what was grown by other code is grown again."""
 

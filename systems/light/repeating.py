@@ -1,7 +1,9 @@
 """What repeats over the terrain: a thin layer of clouds that drifts with the wind, and what lies on the ground."""
 
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import cache, lru_cache
+from hashlib import blake2b
+from importlib.resources import files
 from itertools import pairwise
 
 import moderngl
@@ -12,6 +14,7 @@ from ...components.arrays import Doubles, Floats
 from ...components.wind import WindPrimitive
 from ...engine.gl.mipmaps import mipmapped_image
 from ...engine.gl.rasteriser import anisotropy
+from ...engine.kept import DIGEST, keep, kept
 from ..grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
 from ..wind.blow import mean_wind
 
@@ -51,6 +54,9 @@ LITTER_ONE = 128
 
 _REMEMBERED = 4
 """Seeds whose maps are remembered, less than a megabyte each: a scene read again has the seed that it had."""
+
+SUFFIX, MOST = ".ground", 24
+"""What files are called that these maps are kept in, and of how many seeds."""
 
 CLOUDS_SIDE = 1300.0
 """Side of the square that repeats [m]."""
@@ -143,9 +149,12 @@ def _open(up: Doubles, /) -> Doubles:
 
 def _blurred(image: Doubles, width: float, /) -> Doubles:
     """Return a square that repeats evened out over a width, of its side."""
-    wave = np.fft.fftfreq(len(image), 1.0 / len(image))
-    falls = 2.0 * (np.pi * width * np.hypot(wave[:, None], wave[None])) ** 2
-    return np.asarray(np.fft.ifft2(np.fft.fft2(image) * np.exp(-np.minimum(falls, LEAST_SEEN))).real)
+    side = len(image)
+    down, right = (
+        np.exp(-np.minimum(2.0 * (np.pi * width * wave) ** 2, 0.5 * LEAST_SEEN))
+        for wave in (np.fft.fftfreq(side, 1.0 / side), np.fft.rfftfreq(side, 1.0 / side))
+    )
+    return np.asarray(np.fft.irfft2(np.fft.rfft2(image) * down[:, None] * right, image.shape))
 
 
 def _mean(image: Doubles, /) -> Doubles:
@@ -216,9 +225,30 @@ def repeating_levels(*, seed: int) -> tuple[NDArray[np.uint8], ...]:
 
     The coarser are means of the finest: drivers that round up at each level would make ground brighter far off.
     """
-    texels = np.stack([cloud_map(seed=seed), *ground_maps(seed=seed)], axis=-1)
+    texels = _texels(seed)
     made, mean = [texels], texels.astype(np.float64)
     while len(mean) > 1:
         mean = 0.25 * (mean[::2, ::2] + mean[1::2, ::2] + mean[::2, 1::2] + mean[1::2, 1::2])
         made.append(np.rint(mean).astype(np.uint8))
     return tuple(made)
+
+
+def _texels(seed: int) -> NDArray[np.uint8]:
+    """Return the finest of the levels, from the disk where it was made before: it takes half a second."""
+    shape = SIDE, SIDE, 3
+    key = blake2b(f"{_version()} {seed}".encode(), digest_size=DIGEST // 2).hexdigest()
+    told = kept(key + SUFFIX, key)
+    if told is not None and len(told) == np.prod(shape):
+        return np.frombuffer(told, np.uint8).reshape(shape)
+    texels = np.stack([cloud_map(seed=seed), *ground_maps(seed=seed)], axis=-1)
+    keep(key + SUFFIX, key, texels.tobytes(), most=MOST)
+    return texels
+
+
+@cache
+def _version() -> str:
+    """Return a hash of the code that makes them, so that nothing made by other code counts as its own."""
+    digest = blake2b(np.__version__.encode(), digest_size=DIGEST // 2)
+    for name in ("light/repeating.py", "grow/raster.py"):
+        digest.update((files("tallgrass.systems") / name).read_bytes())
+    return digest.hexdigest()

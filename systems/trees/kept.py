@@ -13,15 +13,7 @@ from importlib.resources.abc import Traversable
 import numpy as np
 
 from ...components.arrays import Bytes
-from ...engine.kept import (
-    DIGEST,
-    cache_folder,
-    checksum,
-    forget_oldest,
-    mark_used,
-    tell_nothing_is_kept,
-    write_whole,
-)  # fmt: skip
+from ...engine.kept import keep, kept
 from .bake import CARD, LEVELS
 from .far import COARSER, COLUMNS, ROWS
 from .twig import PICTURES as OF_TWIGS
@@ -46,15 +38,10 @@ def kept_pictures(key: str, sides: list[tuple[int, int]], /) -> list[Picture] | 
 
     Of each model there are two, as `of_tree` has them; they have so many texels across and up.
     """
-    folder = cache_folder()
-    if folder is None:
+    told = kept(key + SUFFIX, key)
+    if told is None:
         return None
-    path = folder / (key + SUFFIX)
-    with suppress(OSError, ValueError, KeyError, zipfile.BadZipFile):
-        data = path.read_bytes()
-        told = memoryview(data)[DIGEST:]
-        if data[:DIGEST] != checksum(told, key):
-            return None
+    with suppress(ValueError, KeyError, zipfile.BadZipFile):
         with np.load(io.BytesIO(told), allow_pickle=False) as archive:
             sizes = sizes_of(sides)
             found = [[archive[f"{one}.{level}"] for level in range(len(each))] for one, each in enumerate(sizes)]
@@ -62,26 +49,16 @@ def kept_pictures(key: str, sides: list[tuple[int, int]], /) -> list[Picture] | 
             texels.dtype == np.uint8 and texels.shape == size
             for picture, each in zip(found, sizes, strict=True) for texels, size in zip(picture, each, strict=True)
         ):  # fmt: skip
-            mark_used(path)
             return found
     return None
 
 
 def keep_pictures(key: str, pictures: list[Picture], /) -> None:
     """Keep what `kept_pictures` returns; where nothing can be written, that is said once."""
-    folder = cache_folder()
-    if folder is None:
-        tell_nothing_is_kept("a cache folder", "there is no home folder")
-        return
     buffer = io.BytesIO()
     texels = {f"{one}.{level}": each for one, levels in enumerate(pictures) for level, each in enumerate(levels)}
     np.savez_compressed(buffer, allow_pickle=False, **texels)
-    data = buffer.getvalue()
-    try:
-        write_whole(folder / (key + SUFFIX), checksum(data, key) + data)
-        forget_oldest(folder, SUFFIX, MOST)
-    except OSError as error:
-        tell_nothing_is_kept(str(folder), error.strerror or "it cannot be written to")
+    keep(key + SUFFIX, key, buffer.getvalue(), most=MOST)
 
 
 def sizes_of(sides: list[tuple[int, int]], /) -> list[list[tuple[int, int, int, int]]]:
