@@ -249,6 +249,13 @@ def ahead(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(holding, "AHEAD", True)
 
 
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Make programs, and draw nothing with them: a software rasteriser compiles the most of one when it first draws."""
+    for name in ("render", "transform"):
+        monkeypatch.setattr(moderngl.VertexArray, name, lambda *_, **__: None)
+
+
 @pytest.fixture(scope="session")
 def ctx(pytestconfig: pytest.Config) -> Iterator[moderngl.Context]:
     """A headless GL context that all tests draw in."""

@@ -32,7 +32,7 @@ def main() -> None:
     }
     times: dict[str, list[float]] = {"digs": [], "rests": []}
     with headless_context() as ctx, stage(ctx) as drawn:
-        prairie = Prairie.load(scene, ctx=ctx)
+        prairie = Prairie.load(scene, ctx=ctx, live=False)
         aim = drawn.matrices(looking(0.0, 2.0, 0.0, pitch=-5))
         drawn.begin()
         for number in range(-WARM, 3 * TIMES):

@@ -31,7 +31,7 @@ def main() -> None:
     times: dict[str, list[float]] = {"strokes": [], "rests": [], "thousand": []}
     random = np.random.default_rng(0)
     with headless_context() as ctx, stage(ctx) as drawn:
-        prairie = Prairie.load(scene, ctx=ctx)
+        prairie = Prairie.load(scene, ctx=ctx, live=False)
         drawn.begin()
         walked = 0.0
 

@@ -186,6 +186,7 @@ def test_it_may_come_before_the_first_frame_between_frames_and_twice(
     assert made == []
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_large_programs_are_made_one_a_step_for_a_loading_screen_to_go_on_between(load: Load, made: list[str]) -> None:
     steps = []
     made.clear()

@@ -96,7 +96,7 @@ def test_nothing_that_happens_to_grass_for_the_first_time_makes_a_program(
         assert made == [], happens
 
 
-@pytest.mark.usefixtures("ahead")
+@pytest.mark.usefixtures("ahead", "undrawn")
 def test_what_trees_and_bodies_are_drawn_with_can_be_made_before_the_first_of_them_is_there(
     made: list[str], load: Load, stage: Stage, camera: Aim
 ) -> None:
@@ -174,6 +174,7 @@ def test_a_first_frame_that_fails_says_why_and_leaves_nothing_that_cannot_be_rel
     prairie.release()
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_game_that_prepares_with_a_card_waits_for_each_program_in_a_step(asked: list[str], load: Load) -> None:
     steps = list(load(CALM).preparing())
     assert len(asked) > 5

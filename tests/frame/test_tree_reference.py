@@ -21,8 +21,8 @@ seed: 5
 terrain: { noise: flat, size: [120, 120] }
 grass: { turf: { height: [0.05, 0.1], width: 0.02, blades: 20 } }
 trees:
-  screen: { habit: birch, height: [12, 12], leaf: "#a02020", rows: [[[-20, -30], [20, -30]]], spacing: 4 }
   thorn: { habit: hawthorn, height: [4, 4], positions: [[0, 0]] }
+  screen: { habit: birch, height: [12, 12], leaf: "#a02020", rows: [[[-20, -30], [20, -30]]], spacing: 4 }
 light: { azimuth: 90, elevation: 40, haze: 1e6 }
 quality:
   models: 1
@@ -94,6 +94,6 @@ def test_n3_within_a_reach_trees_that_nowhere_come_near_are_drawn_as_they_are_fa
     assert min(streams(prairie)[FAR]) > 0
     assert (far[10:20, :, 0] - far[10:20, :, 1]).max() > 30.0
     reference(stage, prairie, reach=99, seen_at=((0.0, 1.7, 20.0), (0.0, 6.0, -30.0)))  # the second is among birches
-    screen, thorn = zip(*(streams(prairie)[name] for name in (LEAVES, FAR)), strict=True)
+    thorn, screen = zip(*(streams(prairie)[name] for name in (LEAVES, FAR)), strict=True)
     assert min(screen) > 0  # of a row, some come near, and some do not
     assert thorn == (0, 1)

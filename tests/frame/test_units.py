@@ -25,7 +25,7 @@ SAMPLERS = {*range(0x8B5D, 0x8B65), *range(0x8DC0, 0x8DD9)}
 """Types of uniforms that read textures."""
 
 
-@pytest.mark.usefixtures("ahead")
+@pytest.mark.usefixtures("ahead", "undrawn")
 @pytest.mark.parametrize("scene", ["meadow", "storm"])
 def test_d6_every_program_of_a_scene_reads_few_textures_from_units_that_every_card_has(
     load: Load, stage: Stage, camera: Aim, monkeypatch: pytest.MonkeyPatch, scene: str

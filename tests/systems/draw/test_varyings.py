@@ -73,6 +73,8 @@ def fragments(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -
     path = tmp_path_factory.mktemp("scene") / "scene.yaml"
     with pytest.MonkeyPatch.context() as patch, testing.stage(ctx) as stage:
         patch.setattr(shaders, "compose", noted)
+        for name in ("render", "transform"):  # to draw with them takes a software rasteriser ten seconds
+            patch.setattr(moderngl.VertexArray, name, lambda *_, **__: None)
         for text in (LITTLE, LITTLE.replace("\ngrass:", "\n" + SPECIAL)):
             path.write_text(text, "utf-8")
             prairie = Prairie.load(Path(path), ctx=ctx)
@@ -83,7 +85,7 @@ def fragments(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -
     return [each for each in asked if each[0].startswith("systems/show/") and each[0].endswith(".frag")]
 
 
-@pytest.mark.parametrize("kinds", [4, MOST_KINDS])
+@pytest.mark.parametrize("kinds", [pytest.param(4, marks=pytest.mark.slow), MOST_KINDS])  # more take more
 def test_pixels_take_no_more_numbers_than_are_sure_to_come_through(
     ctx: moderngl.Context, fragments: Asked, kinds: int
 ) -> None:
