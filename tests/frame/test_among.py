@@ -50,7 +50,8 @@ def red_and_blue(ctx: moderngl.Context, prairie: Prairie, eye: Camera) -> list[f
     return [one / other for one, other in seen]
 
 
-@pytest.mark.parametrize("eye", [pytest.param(FAR_OFF, marks=pytest.mark.slow), NEAR])
+@pytest.mark.slow
+@pytest.mark.parametrize("eye", [FAR_OFF, NEAR])
 def test_n3_neither_grass_nor_wood_behind_leaves_hides_their_soft_edges(
     ctx: moderngl.Context, prairie: Prairie, eye: Camera
 ) -> None:

@@ -224,7 +224,7 @@ def test_x5_the_sky_does_not_shine_through_a_crest_at_the_terrains_edge(ctx: mod
     assert not (blue[far] > green[far] - 5.0).any()
 
 
-@pytest.mark.parametrize("lod", ["auto", "carpet"])
+@pytest.mark.parametrize("lod", [pytest.param("auto", marks=pytest.mark.slow), "carpet"])
 def test_the_ground_goes_on_to_the_horizon_beyond_the_terrains_edge(
     ctx: moderngl.Context, wide: Stage, lod: LodName
 ) -> None:
