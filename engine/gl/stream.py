@@ -30,13 +30,14 @@ def attributes(record: np.dtype[np.void]) -> tuple[str, list[str]]:
 class Stream:
     """A vertex buffer of records that grows as it must.
 
-    `record` is a dtype of float32 and uint32 fields whose names are the shader's attributes.
+    `record` is a dtype of float32 and uint32 fields whose names are the shader's attributes; at first there is room for
+    so many `rows`.
     """
 
-    def __init__(self, ctx: moderngl.Context, record: np.dtype[np.void]) -> None:
+    def __init__(self, ctx: moderngl.Context, record: np.dtype[np.void], *, rows: int = 1024) -> None:
         self.ctx = ctx
         self.record = record
-        self.buffer = ctx.buffer(reserve=1024 * record.itemsize, dynamic=True)
+        self.buffer = ctx.buffer(reserve=rows * record.itemsize, dynamic=True)
         self.count = 0
 
     def write(self, rows: NDArray[Any]) -> None:

@@ -97,7 +97,7 @@ class Part:
         return 0
 
     def soft_left(self) -> float | None:
-        """Return how far off the next thing is that `draw_soft` has left to draw in a frame [m], or None."""
+        """Return how far off what is behind the next thing begins that `draw_soft` has left to draw [m], or None."""
         return None
 
     def release(self) -> None:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 from ...engine.gl.shaders import Due, due, due_all
-from .card import WOODS, ModelOnCard
+from .card import ModelOnCard
 from .kind import Read
 from .outline import Around
 
@@ -34,8 +34,9 @@ class Call(NamedTuple):
     reads: Sequence[Read]
     """What it reads."""
 
-    off: float = 0.0
-    """How far off its trees are along the ground, in the mean [m]."""
+    far: float = 0.0
+    """How far off the farthest of its trees is, along the ground, where they stand among the grass [m]; infinite beyond
+    it, and 0 before it. Soft edges come after grass farther off."""
 
     begins: bool = False
     """Whether it is the first one with its program."""
@@ -78,15 +79,15 @@ def told_of_call(
 
 def part_of_wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:
     """Return from which vertex on, and how many, are drawn of the wood of a stream's trees."""
-    drawn, count = model.wood[name], len(model.model.wood[WOODS.index(name)].triangles)
-    end = count if whole else drawn.soft if soft else drawn.solid
-    return 3 * model.first_of[name], 3 * end
+    drawn, run = model.wood[name], model.run[name]
+    end = len(model.model.wood[run].triangles) if whole else drawn.soft if soft else drawn.solid
+    return 3 * model.first_of[run], 3 * end
 
 
-def off_of(placed: NDArray[np.void], eye: Doubles, /) -> tuple[Doubles, float]:
-    """Return how far off crowns of trees are, records of `PLACED`, shape (n,); and along the ground, their mean [m]."""
+def off_of(placed: NDArray[np.void], eye: Doubles, /) -> tuple[Doubles, Doubles]:
+    """Return how far off crowns of trees are, records of `PLACED`, shape (n,) [m]; and how far along the ground."""
     to = placed["root"] + placed["crown_at"][:, None] * np.array([0.0, 1.0, 0.0], np.float32) - eye
-    return np.linalg.norm(to, axis=1), float(np.hypot(to[:, 0], to[:, 2]).mean())
+    return np.linalg.norm(to, axis=1), np.hypot(to[:, 0], to[:, 2])
 
 
 def bound_by(calls: Sequence[Call], /) -> list[Read]:

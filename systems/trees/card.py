@@ -13,6 +13,7 @@ from .bark import RUNS, SENT, sent
 from .lies import Lies
 from .model import Model
 from .outline import NOWHERE
+from .shells import SHELLS, Shells
 from .standing import COLUMN, HUNG, LEAFY, PLACED, SHOWN, TOLD
 from .twig import RANKS, ROW, TWIG
 from .wood import Parts, parts
@@ -27,10 +28,6 @@ twigs on their cards into those pictures."""
 IN_ROWS = "in rows"
 """Pictures far off where some show rows of trees, of a large forest."""
 
-BACK_FROM = 64.0, 32.0, 0.0
-"""From how far off on the streams have trees that show those pictures from far to near, as soft edges are blended [m]:
-that of `FAR` has all of them, from near to far. Near ones are drawn among the grass."""
-
 QUAD = 6
 """Vertices of a quad, as two triangles."""
 
@@ -40,10 +37,24 @@ SHARES = 2 / 3, 1 / 3, 1 / 6
 TOO_FEW = 6
 """Trees of the smallest share for which no draw of their own pays."""
 
-BACKS = tuple(f"back{number}" for number in range(len(BACK_FROM)))
-CARDS = tuple(f"{NEAR}{number}" for number in range(len(SHARES) + 1))
-WOODS = tuple(f"{WOOD}{number}" for number in range(len(RUNS) + 1))
-"""The streams of those."""
+BACKS = tuple(f"back{number}" for number in range(SHELLS + 1))
+"""The streams of pictures far off from far to near, as soft edges are blended: beyond the grass, and by shells of it.
+That of `FAR` has all of them, from near to far."""
+
+CARDS = tuple(f"{NEAR}{number}" for number in range(len(SHARES) + 1 + SHELLS))
+WOODS = tuple(f"{WOOD}{number}" for number in range(len(RUNS) + 1 + SHELLS))
+"""The streams of cards and of wood: beyond the grass by their share and by `RUNS`, and then by shells of it."""
+
+SHELL_OF = {
+    FAR: 0, LEAVES: SHELLS + 1,
+    **{name: number for number, name in enumerate(BACKS)},
+    **{name: max(number - len(SHARES), 0) for number, name in enumerate(CARDS)},
+    **{name: max(number - len(RUNS), 0) for number, name in enumerate(WOODS)},
+}  # fmt: skip
+"""The shell of grass in which the trees of each stream stand: 0 beyond all of it; single leaves are before it."""
+
+ROOM = 16
+"""Trees for which a stream has room at first: there are many streams, and most have few trees."""
 
 
 def drawn_of(twigs: int, share: float, /) -> int:
@@ -68,18 +79,17 @@ class ModelOnCard:
         self.twigs.write(model.twigs)
         self.vertices = ctx.buffer(sent(model.vertices))
         self.triangles = ctx.buffer(np.concatenate([each.triangles for each in model.wood]))
-        ends = np.cumsum([0, *(len(each.triangles) for each in model.wood)]).tolist()
-        self.first_of = dict(zip(WOODS, ends, strict=False))
-        """The first of those that each stream of wood draws."""
+        self.first_of: list[int] = np.cumsum([0, *(len(each.triangles) for each in model.wood)]).tolist()
+        """The first of those that are drawn of each of `RUNS`."""
         self.bare = Stream(ctx, LEAFY)
         self._alone = np.zeros(1, LEAFY)
         for name in ("keep", "columns", "shows", "scale", "foliage", "tint"):
             self._alone[name] = 1.0
         self._alone["turn"] = 1.0, 0.0
         self.bare.write(self._alone)
-        self.streams = {name: Stream(ctx, SHOWN) for name in (*WOODS, FAR, *BACKS, *CARDS)}
+        self.streams = {name: Stream(ctx, SHOWN, rows=ROOM) for name in (*WOODS, FAR, *BACKS, *CARDS)}
         self.streams[LEAVES] = Stream(ctx, LEAFY)
-        self.told = {id(each): Stream(ctx, TOLD) for each in self.streams.values()}
+        self.told = {id(each): Stream(ctx, TOLD, rows=ROOM) for each in self.streams.values()}
         """What is made out of the trees of each stream once a tree, by the stream's id."""
         self.placed = {name: np.zeros(0, PLACED) for name in self.streams}
         """Where the trees of each stream stand."""
@@ -89,6 +99,8 @@ class ModelOnCard:
         """Twigs that any tree of a stream draws."""
         self.wood = dict.fromkeys(WOODS, Parts(0, 0))
         """Triangles that the trees of a stream of wood draw."""
+        self.run = dict.fromkeys(WOODS, 0)
+        """Of which of `RUNS` these are."""
         self.far: moderngl.TextureArray | None = None
         """Its pictures from all around: what they show, and how light has come to that."""
         self.met: moderngl.TextureArray | None = None
@@ -108,31 +120,37 @@ class ModelOnCard:
         return self.vertices, " ".join(kept), *(name for name in names if name in program)
 
     def write(
-        self, near: NDArray[np.void], wide: Doubles, leafy: NDArray[np.void], far: NDArray[np.void], off: Doubles
+        self, near: NDArray[np.void], wide: Doubles, leafy: NDArray[np.void], far: NDArray[np.void], shells: Shells
     ) -> None:
         """Send trees that are drawn near by, the nearest first, twigs of them that are leaf by leaf, and those far off.
 
-        `wide` is the radius of a stem of the model that is a pixel wide, where each is nearest, shape (n,); `off` is
-        how far off those are that are drawn so, shape (m,) [m].
+        `wide` is the radius of a stem of the model that is a pixel wide, where each is nearest, shape (n,); `shells`
+        are those that both stand in.
         """
-        run = np.searchsorted(RUNS, wide)
-        for number, name in enumerate(WOODS):
-            rows = near[run == number]
-            self._send(name, rows)
-            if len(rows):
-                self.wood[name] = parts(self.model.wood[number].radii, wide[run == number], rows)
+        self._write_wood(near, wide, shells)
         self._send(FAR, far)
-        band = (off[:, None] < BACK_FROM).sum(axis=1)
         for number, name in enumerate(BACKS):
-            self._send(name, far[band == number][::-1])
+            self._send(name, far[shells.far == number][::-1])
         self._send(LEAVES, leafy)
         self.most[LEAVES] = 1
         drawn = near["keep"] * (1.0 - near["gone"])
         group = (drawn[:, None] < SHARES).sum(axis=1)
-        if (group == len(SHARES)).sum() < TOO_FEW:
+        beyond = shells.near == 0
+        if (group[beyond] == len(SHARES)).sum() < TOO_FEW:
             group = np.minimum(group, len(SHARES) - 1)
+        group = np.where(beyond, group, len(SHARES) + shells.near)
         for number, name in enumerate(CARDS):
-            self._write(name, near[group == number])
+            self._write_cards(name, near[group == number])
+
+    def _write_wood(self, near: NDArray[np.void], wide: Doubles, shells: Shells) -> None:
+        run = np.searchsorted(RUNS, wide)
+        stream = np.where(shells.near == 0, run, len(RUNS) + shells.near)
+        for number, name in enumerate(WOODS):
+            own = stream == number
+            self._send(name, near[own])
+            if own.any():
+                self.run[name] = finest = int(run[own].min())
+                self.wood[name] = parts(self.model.wood[finest].radii, wide[own], near[own])
 
     def _send(self, name: str, rows: NDArray[np.void]) -> None:
         stream = self.streams[name]
@@ -142,10 +160,11 @@ class ModelOnCard:
         placed["root"], placed["crown_at"] = rows["root"], rows["scale"] * np.float32(self.model.middle)
         placed["phase"], placed["hertz"] = rows["phase"], self.model.hertz / np.sqrt(rows["scale"])
 
-    def _write(self, name: str, rows: NDArray[np.void]) -> None:
+    def _write_cards(self, name: str, rows: NDArray[np.void]) -> None:
         self._send(name, rows)
-        share = float((rows["keep"] * (1.0 - rows["gone"]) * rows["foliage"]).max(initial=0.0))
-        self.most[name] = len(self.model.twigs) if name == CARDS[0] else drawn_of(len(self.model.twigs), share)
+        of_tree = rows["keep"] * (1.0 - rows["gone"])
+        share, twigs = float((of_tree * rows["foliage"]).max(initial=0.0)), len(self.model.twigs)
+        self.most[name] = twigs if of_tree.max(initial=0.0) >= SHARES[0] else drawn_of(twigs, share)
 
     def rehearse(self) -> None:
         """Have a tree to draw in every way that there is."""

@@ -1,6 +1,7 @@
 """Drawing trees: what of each is shown, and in what order; and the maps of what they leave of the light."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from math import inf
 
 import moderngl
 import numpy as np
@@ -17,13 +18,14 @@ from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
 from .call import Call, bound_by, in_turn, off_of, part_of_wood, told_of_call
-from .card import BACKS, CARDS, CAST, FAR, IN_ROWS, LEAVES, NEAR, QUAD, WOOD, WOODS, ModelOnCard, Numbers
+from .card import BACKS, CARDS, CAST, FAR, IN_ROWS, LEAVES, NEAR, QUAD, SHELL_OF, WOOD, WOODS, ModelOnCard, Numbers
 from .group import Group
 from .kind import KindOnCard
 from .leafy import leaf_by_leaf, leafy
 from .motion import PERIOD
 from .programs import HANG, HANG_LEAVES, HARD, SAMPLED, SOFT, STAND, Programs
 from .shade import ShadeMap
+from .shells import SHELLS, shells_of
 from .standing import LEAFY, PLACED, TOLD, Standing, columns_of, shown, shows
 from .twig import LEAF_PIXELS
 from .wood import AWAY, CLOSED, OPAQUE, SOLID, SWAYS, THINNEST, nearest_ahead
@@ -228,13 +230,14 @@ class TreePart(Part):
         order = np.argsort(off)
         seen, off = seen[order], off[order]
         rows, scale, middle = group.rows[seen], group.scale[seen], group.middle[seen]
+        along = np.hypot(middle[:, 0] - eye[0], middle[:, 2] - eye[2])
         pixels = focal * rows["height"] / np.maximum(self._chosen_off(middle, off), NEAREST)
         if self.leaves_from is not None:
             pixels = np.where(pixels <= self.leaves_from, 0.0, ANY_HEIGHT)
         pixels[rows["ring"] > 1] = 0.0
         told = shown(rows, pixels, grown.height, kind.declared.variety)
         told["columns"] = columns_of(rows, scale * grown.radius)
-        told["shows"] = shows(rows["ring"], np.hypot(middle[:, 0] - eye[0], middle[:, 2] - eye[2]))
+        told["shows"] = shows(rows["ring"], along)
         near, far = told["gone"] < 1.0, told["gone"] > 0.0
         large = focal * scale * kind.habit.leaf.length / LEAF_PIXELS[0]
         large_leaves = large > off - scale * ball
@@ -247,9 +250,14 @@ class TreePart(Part):
             ])  # fmt: skip
         ahead = nearest_ahead(clip, middle, eye, (1.0 + SWAYS) * scale[:, None] * (ball, grown.radius))
         wide = THINNEST * np.maximum(ahead, AWAY) / (focal * scale)
-        model.write(told[near], wide[near], twigs, told[far], off[far])
+        model.write(told[near], wide[near], twigs, told[far], shells_of(along[near], along[far], self._reach(outlook)))
         if self.leaves_from is not None:
             model.most[LEAVES] = len(grown.twigs)
+
+    def _reach(self, outlook: Outlook) -> float:
+        """Return how far off grass stands that is drawn from far to near [m]."""
+        *standing, _ = outlook.lens.reach_in(outlook.lens.reach)
+        return (max(standing, default=-1.0) + 1.0) * float(self._block.record["patch_side"][0])
 
     def _chosen_off(self, middle: Doubles, off: Doubles) -> Doubles:
         """Return how far off trees (n, 3) count for what is shown of them, that are so far off [m], shape (n,)."""
@@ -291,7 +299,7 @@ class TreePart(Part):
             if hung.count:
                 made = HANG_LEAVES if name == LEAVES else HANG
                 array = programs.made(made, stream, model.told[id(stream)])
-                kind.tell(array.program, model, self._numbers, {"whole": (name == CARDS[0],)})
+                kind.tell(array.program, model, self._numbers, {"whole": (most == len(model.model.twigs),)})
                 array.transform(hung.buffer, moderngl.POINTS, vertices=most, instances=stream.count)
                 calls += 1
         return calls
@@ -320,7 +328,7 @@ class TreePart(Part):
             return 0
         target = self._ctx.fbo
         written, target.depth_mask = target.depth_mask, False
-        ends = next((number for number, call in enumerate(calls) if call.off < beyond), len(calls))
+        ends = next((number for number, call in enumerate(calls) if call.far < beyond), len(calls))
         for read in bound_by(self._of(SOFT)[: -len(calls)]):
             read.texture.use(read.unit)
         self._soft_left = calls[ends:]
@@ -329,8 +337,8 @@ class TreePart(Part):
         return drawn
 
     def soft_left(self) -> float | None:
-        """Return how far off the next of them are."""
-        return self._soft_left[0].off if self._soft_left else None
+        """Return how far off the farthest tree of the next of them is."""
+        return self._soft_left[0].far if self._soft_left else None
 
     def _of(self, edges: str, *, all_wood: bool = False) -> list[Call]:
         """Return what is drawn with such edges."""
@@ -380,8 +388,9 @@ class TreePart(Part):
                         told = kind.due(array.program, model) + of_call
                         reads = kind.reads(array.program, model, noise=sort in (WOOD, FAR))
                         form = moderngl.TRIANGLE_STRIP if name in CARDS or sort == FAR else moderngl.TRIANGLES
-                        calls.append(Call(turn, array, first, vertices, stream.count, form, told, reads, along))
-        return in_turn(sorted(calls, key=lambda call: call.turn))
+                        far = {0: inf, SHELLS + 1: 0.0}.get(SHELL_OF[name], float(along.max()))
+                        calls.append(Call(turn, array, first, vertices, stream.count, form, told, reads, far))
+        return in_turn(sorted(calls, key=lambda call: (-call.far if soft else 0.0, call.turn)))
 
     def release(self) -> None:
         """Give everything back."""

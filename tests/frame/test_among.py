@@ -9,7 +9,7 @@ import pytest
 from tallgrass import Prairie
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_truth
-from tallgrass.systems.show.among import SHELL, far_end
+from tallgrass.systems.trees.shells import SHELL, SHELLS, shells_of
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 
 SCENE = """\
@@ -61,7 +61,15 @@ def test_n3_neither_grass_nor_wood_behind_leaves_hides_their_soft_edges(
         assert blue == pytest.approx(1.0, abs=0.25)
 
 
-def test_shells_of_grass_begin_at_its_end_and_go_down_to_where_edges_are() -> None:
-    assert [far_end(off, 60.0) for off in (90.0, 60.0, 59.0, 0.0)] == [60.0] * 4
-    for off in (3.0, 20.0, 47.9, 48.1):
-        assert SHELL * far_end(off, 60.0) <= off * (1.0 + 1e-9) <= far_end(off, 60.0) * (1.0 + 2e-9)
+def test_trees_stand_in_shells_of_grass_that_stay_where_they_are_while_it_ends_elsewhere() -> None:
+    off = np.array([3.0, 20.0, 30.0, 47.9, 48.1, 59.0, 61.0, 90.0])
+    near, far = shells_of(off, off, 60.0)
+    assert np.array_equal(near, far)
+    assert near.tolist() == sorted(near, reverse=True)
+    assert near[-2:].tolist() == [0, 0]
+    for shell in range(1, SHELLS):
+        assert off[near == shell].min(initial=60.0) >= SHELL * off[near == shell].max(initial=0.0)
+    together = near[:, None] == near
+    elsewhere = shells_of(off, off, 70.0).near
+    assert np.array_equal((elsewhere[:, None] == elsewhere)[:6, :6], together[:6, :6])
+    assert not shells_of(off, off, 0.0).near.any()

@@ -1,0 +1,39 @@
+"""Shells of grass about the eye: trees in one are drawn together, and their soft edges come after the same grass."""
+
+from math import ceil, log
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.arrays import Doubles
+
+SHELL = 0.75
+"""How near the near end of a shell is, of its far end."""
+
+SHELLS = 5
+"""Shells that have trees of their own. The nearest goes to the eye: grass is blades from a quarter of its way on."""
+
+
+class Shells(NamedTuple):
+    """The shells that trees of a model stand in: 0 beyond all grass that stands, and then from far to near."""
+
+    near: NDArray[np.intp]
+    """Those of trees that are drawn near by, shape (n,)."""
+
+    far: NDArray[np.intp]
+    """And of those that are drawn as far off, shape (m,)."""
+
+
+def shells_of(near: Doubles, far: Doubles, reach: float, /) -> Shells:
+    """Return the shells of trees so far off along the ground, shapes (n,) and (m,) [m]; grass stands up to `reach` [m].
+
+    They end at powers of `SHELL`, and stay where they are while the grass ends elsewhere: trees change theirs seldom.
+    """
+    outmost = ceil(log(reach) / -log(SHELL)) if reach > 0.0 else 0
+    ends = SHELL ** (np.arange(SHELLS) - outmost)
+
+    def within(off: Doubles) -> NDArray[np.intp]:
+        return np.where(off < reach, (off[:, None] < ends).sum(axis=1), 0)
+
+    return Shells(within(near), within(far))
