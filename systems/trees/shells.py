@@ -11,8 +11,8 @@ from ...components.arrays import Doubles
 SHELL = 0.75
 """How near the near end of a shell is, of its far end."""
 
-SHELLS = 5
-"""Shells that have trees of their own. The nearest goes to the eye: grass is blades from a quarter of its way on."""
+SHELLS = 7
+"""Shells that have trees of their own. The nearest goes to the eye: up to a quarter of its way, grass is blades."""
 
 
 class Shells(NamedTuple):

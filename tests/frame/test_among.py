@@ -2,11 +2,12 @@
 
 from collections.abc import Iterator
 
+import esper
 import moderngl
 import numpy as np
 import pytest
 
-from tallgrass import Prairie
+from tallgrass import Pose, Prairie, Tree
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_truth
 from tallgrass.systems.trees.shells import SHELL, SHELLS, shells_of
@@ -59,6 +60,27 @@ def test_n3_neither_grass_nor_wood_behind_leaves_hides_their_soft_edges(
     assert red > 0.85
     if eye is NEAR:
         assert blue == pytest.approx(1.0, abs=0.25)
+
+
+@pytest.mark.slow
+def test_n3_trees_behind_change_nothing_of_the_order_in_which_a_trees_edges_and_grass_are_drawn(
+    ctx: moderngl.Context, prairie: Prairie
+) -> None:
+    stage = Stage(ctx, SIZE)
+
+    def red() -> float:
+        stage.begin()
+        prairie.draw(*stage.matrices(FAR_OFF))
+        seen = stage.read()[:, : SIZE[0] // 2].astype(int)
+        return float(np.maximum(seen[..., 0] - seen[..., 1:].max(axis=-1), 0).sum())
+
+    alone = red()
+    behind = [esper.create_entity(Tree("thorn", 4.0), Pose(x, -8.5)) for x in (2.4, 2.8, 3.2, 3.6)]  # of all its models
+    try:
+        assert red() == pytest.approx(alone, rel=0.02)
+    finally:
+        for each in behind:
+            esper.delete_entity(each, immediate=True)
 
 
 def test_trees_stand_in_shells_of_grass_that_stay_where_they_are_while_it_ends_elsewhere() -> None:
