@@ -10,13 +10,10 @@ from numpy.typing import NDArray
 from ...components.arrays import Bytes, Doubles, Floats
 from ...engine.gl.mipmaps import mipmapped
 from ...engine.gl.stream import release_all
-from .far import COARSER, COLUMNS, EACH_ROW, FINER, FIRST_ROW, LINES, ROWS
+from .far import COARSER, COLUMNS, EACH_ROW, FINER, FIRST_ROW, LEVELS, LINES, ROWS
 
 CARD = 256
 """Pixels of a twig's card across and up."""
-
-LEVELS = 5
-"""Sizes of a picture that are kept, each half the one before: coarser ones would mix neighbours."""
 
 DEPTHS = 4.0, 2.0
 """How far the pictures of a tree and of a twig go to the front and back: of half their height, and usual lengths."""

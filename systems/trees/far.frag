@@ -56,10 +56,21 @@ void mix_pictures(vec2 at, vec2 parts, out vec4 texel, out vec4 shading) {
         }
 }
 
+// The sides of the coarser texels that are read, of a picture.
+vec2 texel_sides() {
+    return exp2(min(ceil(told.w), float(LEVELS) - 1.0)) / lines * vec2(slim, 1.0);
+}
+
 // A place on one that is nowhere its neighbours'.
 vec2 within(vec2 at) {
-    vec2 edge = TILE_EDGE / lines * vec2(slim, 1.0);
+    vec2 edge = TILE_EDGE * texel_sides();
     return clamp(at, edge, 1.0 - edge);
+}
+
+// How much of what is read there is its own: beyond its edge there is nothing, as if texels of nothing lay there.
+float own_of(vec2 at) {
+    vec2 inside = clamp((0.5 - abs(at - 0.5)) / texel_sides() + TILE_EDGE, 0.0, 1.0);
+    return inside.x * inside.y;
 }
 
 #ifdef IN_ROWS
@@ -98,7 +109,7 @@ vec2 blown_from(vec2 at) {
     vec2 aside = told.y * at.y * sin(waves + SHIMMER_TURNS * at.yx);
     float high = clamp(on.z, 0.0, 1.0);
     aside.x += told.z * (high - cantilever(high));
-    return within(at + vec2(slim, 1.0) * aside);
+    return at + vec2(slim, 1.0) * aside;
 }
 
 const float CLUMP = 7.0;       // a clump of leaves across [texels]
@@ -116,7 +127,10 @@ vec2 clump_by_clump(vec2 at) {
 void main() {
     vec4 texel, shading;
     vec2 at = blown_from(on_own());
-    mix_pictures(at, clump_by_clump(at), texel, shading);
+    mix_pictures(within(at), clump_by_clump(at), texel, shading);
+    float own = own_of(at);
+    texel *= own;
+    shading *= own;
     float whole = 1.0 / max(texel.a, LEAST_COVER), wood = texel.g * whole, left = mix(foliage_of(meets), 1.0, wood);
     float cover = 1.0 - pow(max(1.0 - texel.a * left, 0.0), sunlit.a);  // twigs that are left cover the rest of what all leaves do
     wood /= max(left, LEAST_COVER);  // of what is left with fewer leaves

@@ -18,8 +18,11 @@ COARSER = 2
 FINER = 2
 """Each texel is the mean of so many by so many pixels."""
 
+LEVELS = 5
+"""Sizes of a picture that are kept, each half the one before: coarser ones would mix neighbours."""
+
 TILE_EDGE = 0.5
-"""What of a picture is its neighbours' at its edge [texels]."""
+"""What of a picture is its neighbours' at its edge [texels of the size that is read]."""
 
 FINER_BY = -0.5 * log2(3.0)
 """Level at which one is shown, from that of its pixels: there it is as blurred as by the mean over a pixel.
@@ -38,5 +41,6 @@ THICKEST = 0.6
 
 GLSL = {
     "COLUMNS": COLUMNS, "ROWS": ROWS, "FIRST_ROW": FIRST_ROW, "EACH_ROW": EACH_ROW, "TILE_EDGE": TILE_EDGE,
+    "LEVELS": LEVELS,
     "COARSER": COARSER, "FINER_BY": FINER_BY, "CAST_COARSER": CAST_COARSER, "THICKEST": THICKEST,
 }  # fmt: skip

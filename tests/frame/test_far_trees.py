@@ -98,6 +98,20 @@ def test_clumps_of_one_picture_give_way_to_those_of_another_in_no_lattice(
     assert alike[(np.hypot(down, across) > CLUMP) & (np.maximum(abs(down), abs(across)) < SIZE // 2)].max() < 0.3
 
 
+@pytest.mark.parametrize("pixels", [6.0, 9.0, 13.0])
+def test_over_the_top_of_a_tree_that_is_few_pixels_high_there_is_sky(
+    stage: Stage, prairie: Prairie, pixels: float
+) -> None:
+    """On their texture, pictures of it from higher up lie there, whose feet are wide."""
+    aim = looking(0.0, 1.7, 60.0, pitch=4.0, view=math.degrees(2.0 * math.atan(HIGH * SIZE / (120.0 * pixels))))
+    with without_trees(prairie):
+        bare = stage.shot(prairie, aim)
+    rows = np.abs(stage.shot(prairie, aim) - bare).max(axis=(1, 2))
+    high = SIZE / 2.0 - (HIGH - 1.7 - 60.0 * math.tan(math.radians(4.0))) * pixels / HIGH
+    assert rows.max() > 30.0
+    assert rows[: int(high) - 2].max() <= 1.0  # a texel of them is read between its neighbours
+
+
 @pytest.mark.parametrize("aim", [AWAY, ABOVE])
 def test_a_bush_has_an_outline_and_grain_as_with_every_leaf(
     ctx: moderngl.Context, prairie: Prairie, aim: Camera
