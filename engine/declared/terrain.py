@@ -65,6 +65,10 @@ class TerrainSource(Declaration):
     flip: bool = False
     """Whether the file's first row is the near edge (+z) instead of the far one."""
 
+    beyond: Literal["level", "mirror"] = "level"
+    """How the ground goes on beyond the terrain: as high as its edge, for 600 m; or as a mirror image of it, for 4000 m,
+    the last half of which fades into the haze."""
+
     @field_validator("size")
     @classmethod
     def _sides(cls, size: list[float] | None) -> list[float] | None:
@@ -91,3 +95,5 @@ class TerrainSource(Declaration):
         for name in ("size", "holes"):
             if getattr(self, name) is not None:
                 raise DeclarationError("ground with a window has no edge that this could lie within", name)
+        if self.beyond == "mirror":
+            raise DeclarationError("ground with a window has no edge that could be a mirror", "beyond")

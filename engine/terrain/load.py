@@ -57,7 +57,8 @@ def load_terrain(source: TerrainSource, folder: Path, /, *, about: Sequence[floa
     """
     if isinstance(source.heights, HeightFunction) and source.window is not None:
         return _streamed(source.heights, source, source.window, about)
-    return _with_holes(_loaded(source, folder), source, folder)
+    loaded = _with_holes(_loaded(source, folder), source, folder)
+    return replace(loaded, mirrored=True) if source.beyond == "mirror" else loaded
 
 
 def _streamed(asked: HeightFunction, source: TerrainSource, window: float, about: Sequence[float]) -> Terrain:

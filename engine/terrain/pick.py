@@ -18,7 +18,8 @@ def pick(terrain: Terrain, origin: Doubles, direction: Doubles, /, *, farthest: 
     """Return where rays first meet the ground (x, y, z) [m], NaN where they do not within `farthest` [m], shape (n, 3).
 
     They begin at `origin` (n, 3) [m] and go along `direction` (n, 3), of any length but 0. One that begins below the
-    ground meets it where it begins. Beyond the terrain the height of its nearest edge holds, as for `height_at`.
+    ground meets it where it begins. Beyond the terrain ground is where `height_at` has it; of ground that is mirrored
+    they meet what is drawn.
     """
     found = np.full((len(origin), 3), np.nan, np.float32)
     lowest, highest = terrain.span[0] - _MARGIN, terrain.span[1] + _MARGIN
@@ -26,6 +27,8 @@ def pick(terrain: Terrain, origin: Doubles, direction: Doubles, /, *, farthest: 
         along = way / np.linalg.norm(way)
         along[np.abs(along) < _SAME] = 0.0
         begin, end = _between(start[1], along[1], lowest, highest)
+        if terrain.mirrored:
+            begin, end = _over_mirrored(terrain, start, along, begin, end)
         away = _met(terrain, start, along, begin, min(end, farthest))
         if away is not None:
             found[number] = start + away * along
@@ -42,6 +45,20 @@ def _between(y: float, rise: float, lowest: float, highest: float) -> tuple[floa
     return max(ends[0], 0.0), max(ends[1], 0.0)
 
 
+def _over_mirrored(
+    terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: float
+) -> tuple[float, float]:
+    """Return the part of a stretch of a ray [m] that lies over what is drawn of a mirrored terrain."""
+    for place, way, side in zip(start[::2], along[::2], terrain.size, strict=True):
+        reach = side / 2.0 + terrain.beyond
+        if way == 0.0:
+            end = end if abs(place) <= reach else -1.0
+        else:
+            enters, leaves = sorted(((-reach - place) / way, (reach - place) / way))
+            begin, end = max(begin, enters), min(end, leaves)
+    return begin, end
+
+
 def _met(terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: float) -> float | None:
     """Return how far along a ray the ground is met first between two distances [m]; None where it is not."""
     if end < begin:
@@ -49,7 +66,8 @@ def _met(terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: fl
     rows, columns = terrain.heights.shape
     at = (start[::2] - np.array(terrain.origin)) / terrain.cell
     way = along[::2] / terrain.cell
-    lines = [_crossings(at[axis], way[axis], begin, end, count) for axis, count in ((0, columns), (1, rows))]
+    counts = (np.inf, np.inf) if terrain.mirrored else (columns, rows)
+    lines = [_crossings(at[axis], way[axis], begin, end, count) for axis, count in enumerate(counts)]
     inner = np.sort(np.concatenate(lines))
     last = end if np.isfinite(end) else (inner[-1] if len(inner) else begin)
     stops = np.concatenate([[begin], inner, [last]])
@@ -57,7 +75,7 @@ def _met(terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: fl
     middle = at + 0.5 * (before + after)[:, None] * way
     a, b, c, d = _corners(terrain, np.floor(middle).astype(np.intp))
     cell = np.floor(middle)
-    inside = (cell >= 0) & (cell < np.array([columns - 1, rows - 1]))
+    inside = ((cell >= 0) & (cell < np.array([columns - 1, rows - 1]))) | terrain.mirrored
     u, v = (at - cell + before[:, None] * way).T * inside.T
     du, dv = way[:, None] * inside.T
     twist = a - b - c + d
@@ -70,12 +88,17 @@ def _met(terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: fl
     return float(before[hit[0]] + roots[hit[0]]) if len(hit) else None
 
 
-def _crossings(at: float, way: float, begin: float, end: float, count: int) -> Doubles:
-    """Return how far along a ray it crosses the lines 0 to count - 1 of an axis, between two distances [m]."""
+def _crossings(at: float, way: float, begin: float, end: float, count: float) -> Doubles:
+    """Return how far along a ray it crosses the lines 0 to count - 1 of an axis, between two distances [m].
+
+    Of a count without end all lines are meant, those below 0 too.
+    """
     if way == 0.0:
         return np.zeros(0)
     ends = sorted((at + begin * way, at + end * way))
-    first, last = max(np.ceil(ends[0]), 0.0), min(np.floor(ends[1]), count - 1.0)
+    first, last = np.ceil(ends[0]), np.floor(ends[1])
+    if count < np.inf:
+        first, last = max(first, 0.0), min(last, count - 1.0)
     crossed = (np.arange(first, last + 1.0) - at) / way
     return np.asarray(crossed[(crossed > begin) & (crossed < end)])
 
@@ -84,10 +107,19 @@ def _corners(terrain: Terrain, cell: NDArray[np.intp]) -> Doubles:
     """Return the heights of the corners of cells (n, 2): far left, far right, near left, near right, shape (4, n)."""
     rows, columns = terrain.heights.shape
     i, j = cell.T
-    left, right = np.clip(i, 0, columns - 1), np.clip(i + 1, 0, columns - 1)
-    far, near = np.clip(j, 0, rows - 1), np.clip(j + 1, 0, rows - 1)
+    on = _in_mirror if terrain.mirrored else _nearest
+    left, right = on(i, columns), on(i + 1, columns)
+    far, near = on(j, rows), on(j + 1, rows)
     heights = terrain.heights
     return np.array([heights[far, left], heights[far, right], heights[near, left], heights[near, right]], np.float64)
+
+
+def _nearest(sample: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+    return np.clip(sample, 0, count - 1)
+
+
+def _in_mirror(sample: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+    return np.asarray(count - 1 - np.abs(count - 1 - np.mod(sample, 2 * (count - 1))))
 
 
 def _first_root(low: Doubles, slope: Doubles, bend: Doubles, length: Doubles) -> Doubles:

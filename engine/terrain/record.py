@@ -13,6 +13,15 @@ from .part import MOST, Part
 from .plots import Plots
 
 
+BEYOND = 600.0
+"""How far level ground goes on beyond the terrain's edge [m]: a walker's horizon lies two pixels higher."""
+
+MIRRORED = 4000.0
+"""How far mirrored ground does [m]: the usual haze hides nine tenths of what is as far off, and the rest fades out."""
+
+GLSL = {"GOES_ON": MIRRORED}
+
+
 @dataclass(slots=True, eq=False)
 class Changes:
     """What a game has changed of a terrain."""
@@ -78,6 +87,9 @@ class Terrain:
     blocks: Blocks | None = None
     """The ground that it is the window of."""
 
+    mirrored: bool = False
+    """Whether it goes on beyond its edge as a mirror image of itself; else as high as its nearest edge."""
+
     changes: Changes = field(init=False, default_factory=Changes)
 
     found: object = field(init=False, default=None)
@@ -113,6 +125,11 @@ class Terrain:
     def whole(self) -> tuple[float, float]:
         """Width (x) and depth (z) of all the ground that there is, centred on the origin [m]."""
         return self.size if self.blocks is None else (2.0 * REACH, 2.0 * REACH)
+
+    @property
+    def beyond(self) -> float:
+        """How far ground is drawn beyond its edge [m]."""
+        return MIRRORED if self.mirrored else BEYOND
 
     def find(self, found: object, /) -> None:
         """Keep what somebody has made out of the heights, for as long as they are those of this window."""

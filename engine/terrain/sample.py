@@ -27,11 +27,12 @@ _BLOCK = 12288
 def height_at(terrain: Terrain, place: Floats, /) -> Floats:
     """Return the ground's height [m] at ground positions (x, z) [m] of shape (n, 2), shape (n,).
 
-    Beyond the terrain the height of its nearest edge holds.
+    Beyond the terrain the height of its nearest edge holds, or if that is a mirror, that of what is seen in it.
     """
     far_off = _far_off(terrain, place)
     if far_off is not None:
         return _by_block(height_at, terrain, place, far_off)
+    place, _ = mirrored(terrain, place)
     flat = terrain.heights.reshape(-1)
     result = np.empty(len(place), np.float32)
     for block in _blocks(len(place)):
@@ -39,6 +40,22 @@ def height_at(terrain: Terrain, place: Floats, /) -> Floats:
         far, near = _rows(flat, at)
         result[block] = far + at.down * (near - far)
     return result
+
+
+def mirrored(terrain: Terrain, place: Floats, /) -> tuple[Floats, Floats | None]:
+    """Return which places of a terrain are seen at ground positions (x, z) [m] beyond it, and which way round, (n, 2).
+
+    That is 1 along x and z, and -1 where they are turned round; None where no place lies in the mirror of its edges.
+    """
+    low, size = np.array(terrain.origin), np.array(terrain.size)
+    off = np.zeros(len(place), np.bool_) if not terrain.mirrored else ((place < low) | (place > low + size)).any(axis=1)
+    if not off.any():
+        return place, None
+    seen, turned = place.copy(), np.ones(place.shape, np.float32)
+    across = np.mod(place[off] - low, 2.0 * size)
+    seen[off] = low + size - np.abs(size - across)
+    turned[off] = np.where(across > size, -1.0, 1.0)
+    return seen, turned
 
 
 def _far_off(terrain: Terrain, place: Floats) -> Mask | None:
@@ -67,11 +84,12 @@ def slope_at(terrain: Terrain, place: Floats, /) -> Floats:
     """Return the ground's slope (dh/dx, dh/dz) at ground positions (x, z) [m], both of shape (n, 2).
 
     It is the exact slope of `height_at`, so it changes by a little step from cell to cell. Beyond the terrain the
-    slope of its nearest edge holds.
+    slope of its nearest edge holds, or that of what is seen in it as in a mirror.
     """
     far = _far_off(terrain, place)
     if far is not None:
         return _by_block(slope_at, terrain, place, far)
+    place, turned = mirrored(terrain, place)
     flat = terrain.heights.reshape(-1)
     slope = np.empty((len(place), 2), np.float32)
     for block in _blocks(len(place)):
@@ -81,7 +99,7 @@ def slope_at(terrain: Terrain, place: Floats, /) -> Floats:
         slope[block, 0] = (b - a) + at.down * ((d - c) - (b - a))
         slope[block, 1] = (c - a) + at.right * ((d - b) - (c - a))
     slope *= np.float32(1.0 / terrain.cell)
-    return slope
+    return slope if turned is None else slope * turned
 
 
 def normal_at(terrain: Terrain, place: Floats, /) -> Floats:

@@ -55,11 +55,11 @@ class LandPart(Part):
         record["terrain_origin"] = self._heights.origin
         folds = any(kind.profile == "fold" for kind in grown.scene.grass.values())
         ground = grown.ground
-        special = {"FOLDS": folds, "SLOPED": bool(ground.density.slopes)}
+        special = {"FOLDS": folds, "SLOPED": bool(ground.density.slopes), "MIRRORED": terrain.mirrored}
         self._kinds = {"KINDS": len(grown.growths), **{name: 1 for name, is_so in special.items() if is_so}}
 
     def defines(self) -> Mapping[str, str | int]:
-        """Return how many kinds there are, and whether blades of any are folded."""
+        """Return how many kinds there are, whether blades of any are folded, and the like."""
         return self._kinds
 
     def use(self) -> None:

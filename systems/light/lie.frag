@@ -1,5 +1,6 @@
 // How a place lies to the sun: with STILL the terrain's normal (x, z) and two slow noises; without, how high the terrain
-// stands before the sun, as the tangent of the angle that it is seen at.
+// stands before the sun, as the tangent of the angle that it is seen at. With MIRRORED that is told for what the sun is in the
+// terrain's own place, and in its mirror images along x, z and both.
 #include "lib/terrain.glsl"
 #include "systems/light/lie.py"
 
@@ -24,17 +25,32 @@ uniform float highest;  // ground of the terrain [m]
 const float ABOVE = 0.05;  // how high over the ground the sun is looked for [m]
 const float LEVEL = -0.05;  // what stands before the sun over level ground: below any sun
 
-void main() {
-    vec2 place = corner + at * terrain_size;
+float before_sun(vec2 place, vec2 toward) {
     float foot = height_at(place) + ABOVE, away = FIRST * terrain_cell, most = LEVEL;
     for (int step = 0; step < STEPS; step++) {
-        vec2 there = place + toward_sun * away;
+        vec2 there = place + toward * away;
+#ifdef MIRRORED
+        bool ends = false;
+#else
         vec2 inside = abs(there - terrain_origin - 0.5 * terrain_size);
-        if (highest - foot < most * away || any(greaterThan(inside, 0.5 * terrain_size)))
+        bool ends = any(greaterThan(inside, 0.5 * terrain_size));
+#endif
+        if (highest - foot < most * away || ends)
             break;
         most = max(most, (height_at(there) - foot) / away);
         away *= LONGER;
     }
-    told = vec4(most);
+    return most;
+}
+
+void main() {
+    vec2 place = corner + at * terrain_size;
+#ifdef MIRRORED
+    const vec2 TURNED = vec2(-1.0, 1.0);
+    told.rg = vec2(before_sun(place, toward_sun), before_sun(place, toward_sun * TURNED.xy));
+    told.ba = vec2(before_sun(place, toward_sun * TURNED.yx), before_sun(place, toward_sun * TURNED.xx));
+#else
+    told = vec4(before_sun(place, toward_sun));
+#endif
 }
 #endif

@@ -25,6 +25,9 @@ terrain], and how many times farther each comes than the last."""
 _FARTHEST = GLSL["FIRST"] * GLSL["LONGER"] ** (GLSL["STEPS"] - 1)
 """How far off that is looked for [cells of the terrain]."""
 
+IMAGES = 4
+"""Images of a terrain in the mirrors of its edges, itself among them, each with the sun on another side."""
+
 Box = tuple[int, int, int, int]
 """Of the map: the first column and row, and how many there are."""
 
@@ -70,25 +73,35 @@ class _Coming:
 class LieMap:
     """A texture of two maps over the terrain, side by side: what never changes, and what the sun's azimuth changes.
 
-    Whatever the sun's elevation, the second says where it is seen. As its azimuth goes on, rows are drawn again, some
+    Whatever the sun's elevation, the second says where it is seen; on a terrain that is mirrored beyond its edge, from
+    each of its mirror images too. As its azimuth goes on, rows are drawn again, some
     in each frame. Where the terrain becomes another window of its ground, the map of that is drawn beside, likewise.
     """
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
-        self.ctx = ctx
+        self.ctx, self._block, self._units = ctx, block, units
         self._unit = units["lie"]
-        self._still = joined(ctx, block, {**units, "slow": self._unit}, FILLED, SHADER, {"STILL": 1})
-        self._before = joined(ctx, block, units, FILLED, SHADER, {})
-        self._arrays = [ctx.vertex_array(each, []) for each in (self._still, self._before)]
+        self._make(mirrored=False)
         self._laid: _Laid | None = None
         self._coming: _Coming | None = None
         self._toward: Place | None = None
         self._hands: ThreadPoolExecutor | None = None
 
+    def _make(self, *, mirrored: bool) -> None:
+        ctx, block, units = self.ctx, self._block, self._units
+        told: dict[str, str | int] = {"MIRRORED": 1} if mirrored else {}
+        self._is_mirrored, self._at_once = mirrored, AT_ONCE // (IMAGES if mirrored else 1)
+        self._still = joined(ctx, block, {**units, "slow": self._unit}, FILLED, SHADER, told | {"STILL": 1})
+        self._before = joined(ctx, block, units, FILLED, SHADER, told)
+        self._arrays = [ctx.vertex_array(each, []) for each in (self._still, self._before)]
+
     def lay(self, terrain: Terrain, /, *, seed: int) -> None:
         """Take over another terrain, or another seed."""
         self._rows, self._columns = map_shape(terrain.size)
         self._terrain, self._seed, self._seen, self._leaps = terrain, seed, -1, terrain.changes.leaps
+        if terrain.mirrored != self._is_mirrored:
+            release_all(*self._arrays, self._still, self._before)
+            self._make(mirrored=terrain.mirrored)
         self._let_go()
         self._laid = self._made(terrain.origin, slow_map(terrain.size, terrain.origin, seed=seed))
         self.leap()
@@ -145,7 +158,7 @@ class LieMap:
 
     def prepare(self, toward: Place, /) -> int:
         """Draw what is due for a sun in this direction over the ground (x, z); return the number of draw calls."""
-        laid, each = self._laid, max(AT_ONCE // self._columns, 1)
+        laid, each = self._laid, max(self._at_once // self._columns, 1)
         assert laid is not None
         rows = each
         if toward != self._toward:
@@ -188,7 +201,8 @@ class LieMap:
     def _follow(self, laid: _Laid, toward: Place) -> int:
         """Draw what is other since heights have changed; return the number of draw calls.
 
-        What they stand before is drawn at once where it is little, and else all of that map in its turn.
+        What they stand before is drawn at once where it is little, and else all of that map in its turn; so it is where
+        mirror images of them stand before more.
         """
         terrain, whole = self._terrain, (0, 0, self._columns, self._rows)
         changed = None if self._seen < 0 else terrain.changes.since(self._seen)
@@ -197,7 +211,7 @@ class LieMap:
         laid.slow.use(self._unit)
         still = [whole] if changed is None else [self._box(laid, part, 2.0) for part in changed]
         calls = sum(self._draw(laid, 0, box) for box in still)
-        if changed is None or laid.left == self._rows:
+        if changed is None or laid.left == self._rows or self._is_mirrored:
             laid.left = self._rows
             return calls
         before = [self._box(laid, part, 1.0, np.multiply(toward, _FARTHEST)) for part in changed]

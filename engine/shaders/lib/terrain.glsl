@@ -4,9 +4,18 @@
 
 uniform sampler2D heights;
 
+// Where on the terrain a place lies, from its corner [m]. With MIRRORED it goes on beyond its edge as in a mirror.
+vec2 on_terrain(vec2 place) {
+#ifdef MIRRORED
+    return terrain_size - abs(terrain_size - mod(place - terrain_origin, 2.0 * terrain_size));
+#else
+    return place - terrain_origin;
+#endif
+}
+
 float height_at(vec2 place) {
     ivec2 last = textureSize(heights, 0) - 1;
-    vec2 cell = clamp((place - terrain_origin) / terrain_cell, vec2(0.0), vec2(last));
+    vec2 cell = clamp(on_terrain(place) / terrain_cell, vec2(0.0), vec2(last));
     ivec2 low = min(ivec2(cell), last - 1);
     vec2 part = cell - vec2(low);
     float a = texelFetch(heights, low, 0).r, b = texelFetch(heights, low + ivec2(1, 0), 0).r;
@@ -16,7 +25,7 @@ float height_at(vec2 place) {
 
 // The same as a texture's filter has it, within 1/256 of what a cell rises by: one sample, for who asks often.
 float height_near(vec2 place) {
-    vec2 on = clamp((place - terrain_origin) / terrain_size, 0.0, 1.0), size = vec2(textureSize(heights, 0));
+    vec2 on = clamp(on_terrain(place) / terrain_size, 0.0, 1.0), size = vec2(textureSize(heights, 0));
     return textureLod(heights, (on * (size - 1.0) + 0.5) / size, 0.0).r;
 }
 

@@ -19,9 +19,6 @@ GRID = 8
 FINE, COARSENESS = 1.25, 0.3
 """Largest distance between grid points near the viewer: on cells of 1 m and more, and on the smallest cells [m]."""
 
-BEYOND = 600.0
-"""How far the ground goes on beyond the terrain's edge [m]: a walker's horizon lies two pixels higher."""
-
 SPREAD = 6.0
 """Distance at which a spacing gives way to the next, in tile sides: the farthest corner of a tile of twice the side
 that is split must lie inside it."""
@@ -46,7 +43,7 @@ def tiles_around(
     rims: Rims | None = None,
     parted: bool = False,
 ) -> Tiles:
-    """Return the tiles that cover a terrain and what lies `BEYOND`, for who is near a place (x, z) [m], shape (n, 4).
+    """Return the tiles that cover a terrain and what is drawn beyond it, for who is near a place (x, z) [m], shape (n, 4).
 
     "Near" is at most `about` [m] away, which may be a third of the finest tiles' side. A tile of `GRID` quads is split
     in four while it is nearer than `SPREAD` sides of its quarters, down to `spacing` [m] between grid points. At `rims`
@@ -55,7 +52,7 @@ def tiles_around(
     """
     more = 0 if rims is None else max(int(np.ceil(np.log2(spacing / terrain.cell))), 0)
     side = spacing * GRID
-    edge, size = np.asarray(terrain.origin) - BEYOND, np.asarray(terrain.size) + 2.0 * BEYOND
+    edge, size = np.asarray(terrain.origin) - terrain.beyond, np.asarray(terrain.size) + 2.0 * terrain.beyond
     levels = max(0, int(np.ceil(np.log2(max(size) / side))))
     side *= 2.0**levels
     low = np.floor(edge / side) * side
