@@ -140,6 +140,7 @@ def test_d6_what_needs_an_edge_is_refused_in_a_sentence() -> None:
     density = np.ones((4, 4), np.float32)
     for more, why in (
         ({"terrain": {**ground, "size": [500, 500]}}, "terrain.size: ground with a window has no edge"),
+        ({"terrain": {**ground, "beyond": "mirror"}}, "terrain.beyond: ground with a window has no edge that could be"),
         ({"terrain": {"noise": "hills", "window": 1024.0}}, "terrain.window: it is for heights that are a function"),
         ({"terrain": {**ground, "cell": 0.05}}, "terrain.heights: a window of 1024 m has more than 4096 cells"),
         ({"grass": {"tall": {"place": {"map": density}}}}, "grass.tall.place: a map has no place on ground without"),

@@ -1,5 +1,7 @@
 """Where rays meet the ground: exactly, on slopes, through hills and beyond the edge."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -55,6 +57,30 @@ def test_level_ground_is_met_where_it_is_beyond_its_edge_too(way: tuple[float, f
     level = Terrain(np.full((3, 3), 4.0, np.float32), 10.0)
     met = pick(level, np.array([[1.0, 6.0, 2.0]]), np.array([way]))
     np.testing.assert_allclose(met[0], np.array([1.0, 6.0, 2.0]) + 2.0 / -way[1] * np.array(way), rtol=1e-6)
+
+
+def test_rays_meet_mirrored_ground_where_it_is_seen() -> None:
+    seen = Terrain(np.pad(HILLS.heights, ((117, 117), (147, 147)), mode="reflect"), HILLS.cell)
+    start, way = rays(300)
+    met, there = pick(replace(HILLS, mirrored=True), start, way), pick(seen, start, way)
+    np.testing.assert_array_equal(np.isnan(met[:, 0]), np.isnan(there[:, 0]))
+    meets = (np.abs(met[:, ::2]) < np.array(seen.size) / 2).all(axis=1)
+    beyond = np.abs(met[:, ::2]) > np.array(HILLS.size) / 2
+    assert beyond[meets].any(axis=1).sum() > 30
+    np.testing.assert_allclose(met[meets], there[meets], atol=1e-3)
+
+
+@pytest.mark.parametrize("way", [(1.0, 0.0), (0.0, -1.0), (-1.0, 1.0)])
+def test_rays_meet_no_mirrored_ground_beyond_what_is_drawn(way: tuple[float, float]) -> None:
+    level = Terrain(np.full((5, 5), 4.0, np.float32), 10.0, mirrored=True)
+    falls = 4020.0 + np.array([-1.0, 1.0])
+    met = pick(level, np.array([[0.0, 6.0, 0.0]] * 2), np.array([[way[0], -2.0 / fall, way[1]] for fall in falls]))
+    assert np.isnan(met[:, 0]).tolist() == [False, True]
+
+
+def test_a_level_ray_over_mirrored_ground_meets_none() -> None:
+    over = np.array([[1.0, HILLS.span[1] + 0.5, 2.0]])
+    assert np.isnan(pick(replace(HILLS, mirrored=True), over, np.array([[1.0, 0.0, 0.3]]))).all()
 
 
 def test_a_ray_that_begins_below_meets_the_ground_there_and_one_into_the_sky_nowhere() -> None:

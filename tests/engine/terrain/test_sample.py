@@ -1,5 +1,7 @@
 """Heights, slopes and densities at any place."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -82,6 +84,40 @@ def test_beyond_the_terrain_its_nearest_edge_holds(x: float, z: float) -> None:
     nearest = np.clip(place, -half, half).astype(np.float32)
     np.testing.assert_allclose(height_at(terrain, place), height_at(terrain, nearest), atol=1e-4)
     assert np.isfinite(slope_at(terrain, place)).all()
+
+
+MIRRORED = replace(rough(), mirrored=True)
+SEEN = Terrain(np.pad(rough().heights, ((24, 24), (39, 39)), mode="reflect"), 2.0)
+"""What is seen in its mirrors, three times as far to each side and a part of the fourth."""
+
+
+def test_mirrored_ground_goes_on_as_what_is_seen_in_a_mirror_along_its_edges() -> None:
+    place = inside(SEEN, 4000)
+    assert (np.abs(place) > np.array(MIRRORED.size) / 2).any(axis=1).mean() > 0.9
+    np.testing.assert_allclose(height_at(MIRRORED, place), height_at(SEEN, place), atol=1e-3)
+    part = (place - np.array(SEEN.origin)) / SEEN.cell % 1.0
+    between = ((part > 0.01) & (part < 0.99)).all(axis=1)
+    np.testing.assert_allclose(slope_at(MIRRORED, place)[between], slope_at(SEEN, place)[between], atol=1e-3)
+
+
+def test_on_the_terrain_itself_nothing_is_other_where_it_is_mirrored_beyond() -> None:
+    place, level = inside(MIRRORED), rough()
+    np.testing.assert_array_equal(height_at(MIRRORED, place), height_at(level, place))
+    np.testing.assert_array_equal(slope_at(MIRRORED, place), slope_at(level, place))
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("times", [-3, -1, 1, 3])
+def test_mirrored_heights_are_continuous_over_the_edges(axis: int, times: int) -> None:
+    place = inside(MIRRORED, 400)
+    place[:, axis] = times * MIRRORED.size[axis] / 2
+    step = np.zeros(2, np.float32)
+    step[axis] = 1e-3
+    ends = height_at(MIRRORED, place - step), height_at(MIRRORED, place + step)
+    np.testing.assert_allclose(*ends, atol=2e-3)
+    slopes = slope_at(MIRRORED, place - step), slope_at(MIRRORED, place + step)
+    np.testing.assert_allclose(slopes[0][:, axis], -slopes[1][:, axis], atol=1e-3)
+    np.testing.assert_allclose(slopes[0][:, 1 - axis], slopes[1][:, 1 - axis], atol=2e-2)
 
 
 def test_the_slope_is_that_of_the_heights() -> None:

@@ -1,6 +1,7 @@
 """The ground: tiles that cover what is seen, and meet without cracks (T1, T2)."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from itertools import product
 from math import pi
 
@@ -22,7 +23,6 @@ from tallgrass.systems.land.maps import density_texture
 from tallgrass.systems.light.slow import laid_over
 from tallgrass.systems.show.carpet.rims import NOWHERE, Rims
 from tallgrass.systems.show.carpet.tiles import (
-    BEYOND,
     GRID,
     TILE,
     by_layer,
@@ -39,6 +39,7 @@ RecordOf = Callable[..., NDArray[np.void]]
 Corners = Callable[..., NDArray[np.float32]]
 
 WIDE = Terrain(np.zeros((41, 61), np.float32), 10.0)
+MIRRORED = replace(WIDE, mirrored=True)
 ALL_ROUND = (0.0, pi)
 SPACING = 1.25
 
@@ -52,10 +53,13 @@ def covering(tiles: NDArray[np.void], place: NDArray[np.float64]) -> NDArray[np.
     return np.asarray(inside.all(axis=2).sum(axis=1))
 
 
-@given(eyes)
-def test_t1_every_place_of_the_terrain_and_beyond_is_under_one_tile(eye: tuple[float, float, float]) -> None:
-    tiles = ground_tiles(WIDE, eye, ALL_ROUND, spacing=SPACING)
-    place = np.random.default_rng(0).uniform((-300 - BEYOND, -200 - BEYOND), (300 + BEYOND, 200 + BEYOND), (400, 2))
+@pytest.mark.parametrize(("terrain", "beyond"), [(WIDE, 600.0), (MIRRORED, 4000.0)])
+@given(eye=eyes)
+def test_t1_every_place_of_the_terrain_and_beyond_is_under_one_tile(
+    terrain: Terrain, beyond: float, eye: tuple[float, float, float]
+) -> None:
+    tiles = ground_tiles(terrain, eye, ALL_ROUND, spacing=SPACING)
+    place = np.random.default_rng(0).uniform((-300 - beyond, -200 - beyond), (300 + beyond, 200 + beyond), (400, 2))
     assert (covering(tiles, place) == 1).all()
 
 
@@ -103,6 +107,11 @@ def test_t5_tiles_come_from_far_to_near() -> None:
     tiles = ground_tiles(WIDE, eye, ALL_ROUND, spacing=SPACING)["tile"].astype(float)
     middle = tiles[:, :2] + tiles[:, 2:3] * GRID / 2
     assert (np.diff(np.linalg.norm(middle - (eye[0], eye[2]), axis=1)) <= 1e-3).all()
+
+
+def test_mirrored_ground_takes_a_few_more_tiles_though_it_goes_on_seven_times_as_far() -> None:
+    counts = [len(ground_tiles(each, (1.0, 1.7, 2.0), (0.4, 0.5), spacing=SPACING)) for each in (WIDE, MIRRORED)]
+    assert counts[0] < counts[1] < 1.5 * counts[0]
 
 
 def test_the_number_of_tiles_hardly_grows_with_the_terrain() -> None:
@@ -164,8 +173,11 @@ def test_no_tile_is_within_a_negative_reach() -> None:
 
 
 @pytest.fixture
-def corners(ctx: moderngl.Context, laid: Laid, record_of: RecordOf) -> Iterator[Corners]:
+def corners(
+    ctx: moderngl.Context, laid: Laid, record_of: RecordOf, request: pytest.FixtureRequest
+) -> Iterator[Corners]:
     """Where the graphics card puts the grid points of tiles (n,), shape (n, GRID + 1, GRID + 1, 3)."""
+    defines: dict[str, str | int] = getattr(request, "param", {})
     site = laid()
     record = record_of(site)
     textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {
@@ -174,7 +186,7 @@ def corners(ctx: moderngl.Context, laid: Laid, record_of: RecordOf) -> Iterator[
         "density": density_texture(ctx, site.ground.density),
         "rims": ctx.texture((1, 1), 1, np.full(1, NOWHERE, np.float32).tobytes(), dtype="f4"),
     }
-    made, block = program(ctx, "systems/show/carpet/ground.vert", None, varyings=("place",)), FrameBlock(ctx)
+    made, block = program(ctx, "systems/show/carpet/ground.vert", None, defines=defines, varyings=("place",)), FrameBlock(ctx)
     block.join(made)
     line = np.arange(GRID + 1, dtype=np.float32)
     grid = ctx.buffer(np.stack(np.meshgrid(line, line), -1).reshape(-1, 2))
@@ -307,4 +319,13 @@ def test_t1_the_points_of_the_ground_lie_on_the_terrain_and_beyond_it_as_high_as
     np.testing.assert_allclose(points[:, 1], height_at(hills, np.ascontiguousarray(points[:, ::2])), atol=1e-4)
     half = np.array(hills.size) / 2
     outermost = np.abs(points[:, ::2]).max(axis=0)
-    assert (outermost >= half + BEYOND).all()
+    assert (outermost >= half + hills.beyond).all()
+
+
+@pytest.mark.parametrize("corners", [{"MIRRORED": 1}], indirect=True)
+def test_t1_the_points_of_mirrored_ground_lie_where_heights_are_asked_for(corners: Corners, hills: Terrain) -> None:
+    eye, ground = (0.3, 3.0, 0.7), replace(hills, mirrored=True)
+    points = corners(ground_tiles(ground, eye, ALL_ROUND, spacing=SPACING), eye).reshape(-1, 3)
+    assert (np.abs(points[:, ::2]).max(axis=0) >= 4000.0).all()
+    # Single precision knows places 4 km off to a quarter of a millimetre.
+    np.testing.assert_allclose(points[:, 1], height_at(ground, np.ascontiguousarray(points[:, ::2])), atol=2e-3)

@@ -1,0 +1,86 @@
+"""Ground that goes on beyond the terrain as its mirror image: up to the horizon, in its own light (T1, F10)."""
+
+from collections.abc import Callable
+from math import radians
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tallgrass.engine.camera import Camera
+from tallgrass.systems.prairie import Prairie
+from tallgrass.testing import LITTLE
+
+Stage = Any
+Load = Callable[..., Prairie]
+Aim = Callable[..., Camera]
+
+GROUND = "terrain: { noise: rolling, seed: 2, size: [60, 60], feature: 30, scale: 4 }"
+
+SOUTH, NORTH = 160.0, -20.0
+"""Two azimuths of the sun, one opposite to the other [degrees]."""
+
+
+def lit(azimuth: float) -> str:
+    return f"light: {{ azimuth: {azimuth}, elevation: 5, haze: 1000000 }}\n"
+
+
+def mirrored(text: str) -> str:
+    return text.replace(GROUND, GROUND.replace(" }", ", beyond: mirror }"))
+
+
+def from_above(camera: Aim) -> Camera:
+    return camera(0.0, 60.0, 20.0, yaw=20, pitch=-12, view=40)
+
+
+def below_horizon(stage: Stage, aim: Camera, degrees: float) -> Any:
+    """Which rows of a picture look down by more than that in all their pixels."""
+    away = aim.position[1] / np.tan(radians(degrees))
+    seen = stage.ground(aim) - np.array(aim.position)[[0, 2]]
+    return (np.linalg.norm(seen, axis=-1) < away).all(axis=1)
+
+
+@pytest.mark.parametrize("lod", [pytest.param("auto", marks=pytest.mark.slow), "carpet"])
+def test_t1_from_high_up_no_sky_is_seen_below_the_horizon(stage: Stage, load: Load, camera: Aim, lod: str) -> None:
+    aim = from_above(camera)
+    below, sky = below_horizon(stage, aim, 0.9), []
+    assert below.sum() > 60
+    for text in (LITTLE, mirrored(LITTLE)):
+        stage.shot(load(text, lod=lod), aim)
+        sky.append((stage.depth()[below] == 1.0).mean())
+    assert sky[0] > 0.1, "level ground ends 600 m beyond the terrain"
+    assert sky[1] == 0.0
+
+
+def test_t1_mirrored_ground_ends_in_the_haze_and_not_in_an_edge(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie = load(mirrored(LITTLE) + "light: { haze: 1000000 }\n", lod="carpet")
+    rows = stage.shot(prairie, camera(0.0, 60.0, 20.0, yaw=20, pitch=-1.4, view=3)).mean(axis=1)
+    assert np.ptp(rows, axis=0).max() > 60.0, "the air alone hides nothing there"
+    assert np.abs(np.diff(rows, axis=0)).max() < 0.12 * np.ptp(rows, axis=0).max()
+
+
+def test_f10_light_and_shadow_of_a_low_sun_lie_in_the_mirror_as_on_the_ground_that_is_seen_in_it(
+    stage: Stage, load: Load, camera: Aim, tmp_path: Path
+) -> None:
+    aim, brighter = camera(10.0, 40.0, -20.0, yaw=30, pitch=-24, view=40), []
+    terrain = load(LITTLE).site.ground.terrain
+    np.save(tmp_path / "seen.npy", np.pad(terrain.heights, 3 * (len(terrain.heights) - 1), mode="reflect"))
+    seen = LITTLE.replace(GROUND, f"terrain: {{ heights: {tmp_path / 'seen.npy'}, cell: {terrain.cell} }}")
+    for ground in (mirrored(LITTLE), seen):
+        suns = [stage.shot(load(ground + lit(each), lod="carpet"), aim)[..., 1] for each in (SOUTH, NORTH)]
+        brighter.append(suns[0] - suns[1])
+    away = np.abs(stage.ground(aim)).max(axis=-1)
+    beyond = (away > 35.0) & (away < 180.0)
+    assert brighter[0][beyond].std() > 5.0
+    assert np.corrcoef(*(each[beyond] for each in brighter))[0, 1] > 0.98
+
+
+def test_ground_that_is_not_mirrored_knows_nothing_of_it(stage: Stage, load: Load, camera: Aim) -> None:
+    told = []
+    for text in (LITTLE, mirrored(LITTLE)):
+        prairie = load(text, lod="carpet")
+        stage.shot(prairie, camera(0.0, 2.0, 20.0))
+        assert prairie.painter is not None
+        told.append("MIRRORED" in prairie.painter.block.defines)
+    assert told == [False, True]
