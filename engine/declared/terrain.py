@@ -66,7 +66,7 @@ class TerrainSource(Declaration):
     """Whether the file's first row is the near edge (+z) instead of the far one."""
 
     beyond: Literal["level", "mirror"] = "level"
-    """How the ground goes on beyond the terrain: as high as its edge, for 600 m; or as a mirror image of it, for 4000 m,
+    """How ground goes on beyond the terrain: as high as its edge, for 600 m; or as a mirror image of it, for 4000 m,
     the last half of which fades into the haze."""
 
     @field_validator("size")

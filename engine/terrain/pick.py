@@ -45,9 +45,7 @@ def _between(y: float, rise: float, lowest: float, highest: float) -> tuple[floa
     return max(ends[0], 0.0), max(ends[1], 0.0)
 
 
-def _over_mirrored(
-    terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: float
-) -> tuple[float, float]:
+def _over_mirrored(terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: float) -> tuple[float, float]:
     """Return the part of a stretch of a ray [m] that lies over what is drawn of a mirrored terrain."""
     for place, way, side in zip(start[::2], along[::2], terrain.size, strict=True):
         reach = side / 2.0 + terrain.beyond

@@ -12,7 +12,6 @@ from .crowns import Crowns
 from .part import MOST, Part
 from .plots import Plots
 
-
 BEYOND = 600.0
 """How far level ground goes on beyond the terrain's edge [m]: a walker's horizon lies two pixels higher."""
 

@@ -43,7 +43,7 @@ def tiles_around(
     rims: Rims | None = None,
     parted: bool = False,
 ) -> Tiles:
-    """Return the tiles that cover a terrain and what is drawn beyond it, for who is near a place (x, z) [m], shape (n, 4).
+    """Return the tiles that cover a terrain and what is beyond it, for who is near a place (x, z) [m], shape (n, 4).
 
     "Near" is at most `about` [m] away, which may be a third of the finest tiles' side. A tile of `GRID` quads is split
     in four while it is nearer than `SPREAD` sides of its quarters, down to `spacing` [m] between grid points. At `rims`

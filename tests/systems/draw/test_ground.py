@@ -186,7 +186,8 @@ def corners(
         "density": density_texture(ctx, site.ground.density),
         "rims": ctx.texture((1, 1), 1, np.full(1, NOWHERE, np.float32).tobytes(), dtype="f4"),
     }
-    made, block = program(ctx, "systems/show/carpet/ground.vert", None, defines=defines, varyings=("place",)), FrameBlock(ctx)
+    made = program(ctx, "systems/show/carpet/ground.vert", None, defines=defines, varyings=("place",))
+    block = FrameBlock(ctx)
     block.join(made)
     line = np.arange(GRID + 1, dtype=np.float32)
     grid = ctx.buffer(np.stack(np.meshgrid(line, line), -1).reshape(-1, 2))
