@@ -218,6 +218,11 @@ def joined(
     Without a fragment shader, the outputs that `varyings` names are written into a buffer.
     """
     made = program(ctx, vertex, fragment, defines={**block.defines, **defines}, varyings=varyings)
+    return wired(made, block, units)
+
+
+def wired(made: moderngl.Program, block: FrameBlock, units: Mapping[str, int], /) -> moderngl.Program:
+    """Tell a program where the block and the textures are, and return it; `units` gives each sampler its unit."""
     block.join(made)
     for name, unit in units.items():
         if name in made:

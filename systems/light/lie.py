@@ -8,11 +8,11 @@ import moderngl
 import numpy as np
 
 from ...components.arrays import Bytes, Doubles
-from ...engine.gl.shaders import tell
+from ...engine.gl.shaders import program, tell
 from ...engine.gl.stream import release_all
 from ...engine.terrain.part import Part
 from ...engine.terrain.record import Terrain
-from ..frame.block import FrameBlock, joined
+from ..frame.block import FrameBlock, wired
 from .slow import laid_over, map_shape, slow_map
 
 AT_ONCE = 1 << 15
@@ -88,12 +88,15 @@ class LieMap:
         self._hands: ThreadPoolExecutor | None = None
 
     def _make(self, *, mirrored: bool) -> None:
-        ctx, block, units = self.ctx, self._block, self._units
-        told: dict[str, str | int] = {"MIRRORED": 1} if mirrored else {}
         self._is_mirrored, self._at_once = mirrored, AT_ONCE // (IMAGES if mirrored else 1)
-        self._still = joined(ctx, block, {**units, "slow": self._unit}, FILLED, SHADER, told | {"STILL": 1})
-        self._before = joined(ctx, block, units, FILLED, SHADER, told)
-        self._arrays = [ctx.vertex_array(each, []) for each in (self._still, self._before)]
+        self._still, self._before = self._program("STILL"), self._program()
+        self._arrays = [self.ctx.vertex_array(each, []) for each in (self._still, self._before)]
+
+    def _program(self, *switches: str) -> moderngl.Program:
+        """Return a program with some switches; the block's may still be those of another terrain."""
+        switches = (*switches, "MIRRORED") if self._is_mirrored else switches
+        made = program(self.ctx, FILLED, SHADER, defines=dict.fromkeys(switches, 1))
+        return wired(made, self._block, {**self._units, "slow": self._unit})
 
     def lay(self, terrain: Terrain, /, *, seed: int) -> None:
         """Take over another terrain, or another seed."""

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from tallgrass.engine.camera import Camera
+from tallgrass.engine.scene import parse_scene
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import LITTLE
 
@@ -84,3 +85,37 @@ def test_ground_that_is_not_mirrored_knows_nothing_of_it(stage: Stage, load: Loa
         assert prairie.painter is not None
         told.append("MIRRORED" in prairie.painter.block.defines)
     assert told == [False, True]
+
+
+def test_n7_a_scene_that_is_read_again_with_or_without_a_mirror_is_drawn_as_it_says(
+    stage: Stage, load: Load, camera: Aim
+) -> None:
+    aim, texts = from_above(camera), [LITTLE + lit(SOUTH), mirrored(LITTLE) + lit(SOUTH)]
+    level, image = (stage.shot(load(text, lod="carpet"), aim) for text in texts)
+    assert (level != image).mean() > 0.3
+    prairie = load(texts[0], lod="carpet")
+    stage.shot(prairie, aim)
+    for text, due in ((texts[1], image), (texts[0], level)):
+        prairie.reload(parse_scene(text))
+        np.testing.assert_array_equal(stage.shot(prairie, aim), due)
+
+
+def test_f10_heights_that_a_game_changes_are_seen_in_the_mirror_and_shade_what_is_there(
+    stage: Stage, load: Load, camera: Aim, tmp_path: Path
+) -> None:
+    aim, heights = camera(10.0, 40.0, -20.0, yaw=30, pitch=-24, view=40), load(LITTLE).site.ground.terrain.heights
+    file = f"terrain: {{ heights: {tmp_path / 'heights.npy'}, beyond: mirror }}"
+    ground, pictures = LITTLE.replace(GROUND, file) + lit(SOUTH), []
+    dike = heights[8:11].copy() + 4.0
+    for late in (True, False):
+        if not late:
+            heights = np.concatenate([heights[:8], dike, heights[11:]])
+        np.save(tmp_path / "heights.npy", heights)
+        prairie = load(ground, lod="carpet")
+        pictures.append(stage.shot(prairie, aim))
+        if late:
+            prairie.set_heights((-30.0, -22.0), dike)
+            pictures.append(stage.shot(prairie, aim))
+    away = np.abs(stage.ground(aim)).max(axis=-1)
+    assert np.abs(pictures[1] - pictures[0])[(away > 35.0) & (away < 120.0)].max() > 40.0
+    np.testing.assert_array_equal(pictures[1], pictures[2])
