@@ -5,12 +5,15 @@ from math import radians
 from pathlib import Path
 from typing import Any
 
+import moderngl
 import numpy as np
 import pytest
 
+from tallgrass import testing
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.scene import parse_scene
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.show.carpet.ground import GroundPainter
 from tallgrass.testing import LITTLE
 
 Stage = Any
@@ -119,3 +122,22 @@ def test_f10_heights_that_a_game_changes_are_seen_in_the_mirror_and_shade_what_i
     away = np.abs(stage.ground(aim)).max(axis=-1)
     assert np.abs(pictures[1] - pictures[0])[(away > 35.0) & (away < 120.0)].max() > 40.0
     np.testing.assert_array_equal(pictures[1], pictures[2])
+
+
+def test_t1_where_hills_far_off_fall_away_nobody_looks_down_to_the_roots_of_their_grass(
+    ctx: moderngl.Context, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hills = "terrain: { noise: hills, seed: 11, size: [300, 300], feature: 90, scale: 15, beyond: mirror }"
+    text = LITTLE.replace(GROUND, hills) + "light: { haze: 1000000 }\n"
+    for root, tip in (("5a5a2c", "dcc98f"), ("27401a", "8fae4a")):
+        text = text.replace(root, "1010ff").replace(tip, "ff1010")
+    prairie, aim = load(text, lod="carpet"), camera(0.0, 60.0, 0.0, yaw=30, pitch=-5, view=8)
+    with testing.stage(ctx, (480, 270)) as stage:
+        whole = stage.shot(prairie, aim)
+        monkeypatch.setattr(GroundPainter, "draw_carpet", lambda *_: 0)
+        under = stage.shot(prairie, aim)
+        ground = stage.depth() < 1.0
+    seen = ground & (whole == under).all(axis=-1)
+    bluer = whole[..., 2] / whole[..., 0].clip(1.0)
+    assert seen.sum() > 300, "over a crest, the carpet lets through what is under it"
+    assert np.median(bluer[seen]) < np.median(bluer[ground])

@@ -10,6 +10,7 @@ const float LAIN = 0.9;  // how much deeper it lies along an outline where grass
 const vec2 SINKS_IN = vec2(0.05, 1.0);  // how deep it lies at least, and at most, of the height of the grass
 const vec2 BEHIND = vec2(0.01, 0.05);  // slopes at which ground falls away from the eye: hardly, and wholly
 const float WITHIN = 0.25;  // how high the eye is over the layer from which on it is not within the grass [m]
+const vec2 COARSE = vec2(10.0, 20.0);  // how far apart points of the mesh are where it is seen: far off, hills have few faces [m]
 const float SHADED = 0.6;  // how far down what is seen stands, of how deep is seen into the grass
 const float FLAT_SIGHT = 0.07;  // slope of a line of sight by which grass counts as sparse: a walker's over some 25 m
 const float ON_TOP = 0.9;  // where it stands if nothing is seen into it, of the height of the grass
@@ -31,6 +32,9 @@ float sunk_by(Laid laid, vec3 place) {
     over_crest += LAIN * (1.0 - laid.stands) * min(bulges / BULGES, 1.0) * clamp(1.0 - laid.slope / BEHIND.y, 0.0, 1.0);
     float behind = clamp((-laid.slope - BEHIND.x) / (BEHIND.y - BEHIND.x), 0.0, 1.0);  // nobody sees it
     behind *= clamp((eye.y - place.y) / WITHIN, 0.0, 1.0);  // from within the grass, what stands around is seen
+#ifdef MIRRORED
+    behind *= 1.0 - smoothstep(COARSE.x, COARSE.y, spaced);
+#endif
     return max(clamp(max(sunk, over_crest), SINKS_IN.x, SINKS_IN.y), behind);
 }
 
