@@ -109,7 +109,7 @@ def test_t5_tiles_come_from_far_to_near() -> None:
     assert (np.diff(np.linalg.norm(middle - (eye[0], eye[2]), axis=1)) <= 1e-3).all()
 
 
-def test_mirrored_ground_takes_a_few_more_tiles_though_it_goes_on_seven_times_as_far() -> None:
+def test_mirrored_ground_takes_half_as_many_tiles_again_though_it_goes_on_seven_times_as_far() -> None:
     counts = [len(ground_tiles(each, (1.0, 1.7, 2.0), (0.4, 0.5), spacing=SPACING)) for each in (WIDE, MIRRORED)]
     assert counts[0] < counts[1] < 1.5 * counts[0]
 
