@@ -14,8 +14,8 @@ import numpy as np
 
 from ...components.arrays import Bytes
 from ...engine.kept import keep, kept
-from .bake import CARD, LEVELS
-from .far import COARSER, COLUMNS, ROWS
+from .bake import CARD
+from .far import COARSER, COLUMNS, LEVELS, ROWS
 from .twig import PICTURES as OF_TWIGS
 
 SUFFIX = ".trees"
