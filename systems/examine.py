@@ -1,6 +1,6 @@
 """Examining a saved state's arrays: what is trodden, cut, sown, cleared and dug, or a sentence on what cannot be."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, cast
 
 import numpy as np
@@ -8,10 +8,13 @@ import numpy as np
 from ..components.arrays import Bytes, Doubles, Floats, Ints
 from ..components.patch import Cell
 from ..components.presser import Presser
+from ..engine.scene import LoadedScene
 from ..engine.terrain.change import Squares, must_be_squares
+from ..engine.terrain.density import load_density
 from ..engine.terrain.plots import CELLS, Plots
-from ..engine.terrain.record import Terrain
+from ..engine.terrain.record import Density, Terrain
 from .fitting import kinds_of
+from .mow.sown import carried
 from .press.footprint import discs_of
 from .press.trail import BEGUN, FIRST, LAST, LEFT, NUMBERS, REACH, Stretches
 from .press.walk import Stand
@@ -94,20 +97,26 @@ def mown_of(arrays: Arrays, plots: Plots, /) -> tuple[Ints, Floats]:
     return _plots(arrays, "mown", plots, len(heights)), heights
 
 
-def sown_of(saved: Saved, plots: Plots, names: Sequence[str], /) -> tuple[Ints, Bytes]:
-    """Return which plots are sown, (n, 3), and the densities of their pages, kinds of grass in the order of `names`.
+def sown_of(saved: Saved, density: Density, loaded: LoadedScene, /) -> tuple[Ints, Bytes]:
+    """Return which plots are sown, (n, 3), and the densities of their pages, of the kinds that a scene has.
 
-    Raises ValueError for what cannot be, and for other kinds of grass.
+    A kind that the state does not know grows where its ground is as it was painted. Raises ValueError for what cannot
+    be, and for kinds that the scene does not have.
     """
-    found = saved.arrays.get("sown_densities", np.zeros(0))
+    found, plots, kinds = saved.arrays.get("sown_densities", np.zeros(0)), density.sown, loaded.scene.grass
     if found.dtype != np.uint8 or found.ndim != plots.pages.ndim:
         refuse("what is sown are no densities")
-    was = kinds_of(saved.state, names, sown=len(found) > 0)
-    if not was:
-        found = np.zeros((0, *plots.pages.shape[1:]), np.uint8)
-    if found.shape[1:] != plots.pages.shape[1:]:
+    if not len(found):
+        return _plots(saved.arrays, "sown", plots, 0), plots.pages[:0]
+    then = kinds_of(saved.state, list(kinds))
+    if found.shape[1:] != (CELLS, CELLS, len(then)):
         refuse("what is sown are no densities of its scene's kinds")
-    return _plots(saved.arrays, "sown", plots, len(found)), found[..., was] if was else found
+    where = _plots(saved.arrays, "sown", plots, len(found))
+    if then == list(kinds):
+        return where, found
+    land = cast(Terrain, density.land)
+    painted = load_density({name: kinds[name] for name in then}, land, loaded.folder, loaded.pictures)
+    return carried(where, found, painted, density, [then.index(name) if name in then else None for name in kinds])
 
 
 def _plots(arrays: Arrays, name: str, plots: Plots, pages: int) -> Ints:

@@ -71,12 +71,13 @@ def _must_be_alike(then: SavedScene, now: SavedScene, /, *, cleared: int) -> Non
         unfit(f"patches of {then.patch:g} m are cleared in it, and here they have {now.patch:g} m")
 
 
-def kinds_of(state: State, names: Sequence[str], /, *, sown: bool) -> list[int]:
-    """Return which of a state's kinds of grass each of a scene's was, by `names`, as ground that is `sown` has them."""
+def kinds_of(state: State, names: Sequence[str], /) -> list[str]:
+    """Return the kinds of grass that a state's ground is sown with, in its order; a scene has those of `names`."""
     then = state.scene.grass if isinstance(state.scene, SavedScene) else list(names)
-    if sown and sorted(then) != sorted(names):
-        unfit(f"ground is sown or cleared in it with {_listed(then, 'grass')}, and this has {_listed(names, 'grass')}")
-    return [then.index(name) for name in names] if sown else []
+    gone = [name for name in then if name not in names]
+    if gone:
+        unfit(f"ground is sown or cleared in it with {_listed(gone, 'grass')}, which this scene does not have")
+    return then
 
 
 def _open(heights: Floats, holes: Mask) -> Floats:

@@ -282,9 +282,9 @@ class Prairie(Tending):
         """Read the scene again, or another one, and go on with it at the same time: what did not change stays.
 
         Only terrain, kinds of grass and textures whose values, maps or preset have changed are made anew. Winds that
-        have not changed blow on, and so do those that you added; so do your changes to `systems` and, where terrain and
-        kinds are the same, to ground and grass. Give the `site` that `finding`'s function returned, and nothing has to
-        grow here; then the scene is the one that it was found for. Raises `SceneError` with every problem, and then
+        have not changed blow on, and so do those that you added; so do your changes to `systems` and, where the terrain
+        is the same, to ground and grass. Give the `site` that `finding`'s function returned, and nothing has to grow
+        here; then the scene is the one that it was found for. Raises `SceneError` with every problem, and then
         nothing has changed; ValueError if there is no scene to read; TypeError for another `site`; RuntimeError after
         `release`, and while another esper world is current.
         """

@@ -120,7 +120,7 @@ class Saving:
             [component_of(each.kind, each.fields) for each in state.things],
             treading_of(state.treading, saved.arrays),
             mown_of(saved.arrays, self.mown.plots),
-            sown_of(saved, site.ground.density.sown, list(site.scene.grass)),
+            sown_of(saved, site.ground.density, loaded),
             cells_of(saved.arrays),
             ground_of(saved.arrays, site.ground.terrain),
             self.seasons.read(state.seasons),

@@ -32,7 +32,9 @@ class Mowing(Feature):
         del time
         self.mown.change(grown.ground.terrain)
         if grown.ground.density is not before.ground.density:
-            carry_over(before.ground.density, grown.ground.density)
+            then = list(before.scene.grass)
+            was = [then.index(name) if name in then else None for name in grown.scene.grass]
+            carry_over(before.ground.density, grown.ground.density, was)
 
     def look(self, outlook: Outlook, /) -> None:
         """Note what is cut."""

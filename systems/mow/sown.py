@@ -6,7 +6,7 @@ from math import isfinite
 
 import numpy as np
 
-from ...components.arrays import Floats, Mask
+from ...components.arrays import Bytes, Floats, Ints, Mask
 from ...components.pose import Pose
 from ...engine.handed import NUMBERS
 from ...engine.terrain.part import Part
@@ -49,20 +49,36 @@ def wear(density: Density, area: Area, pose: Pose, part: float, /) -> None:
     _stroke(density, area, pose, partial(_worn, part=np.float32(part)), 0.0, None)
 
 
-def carry_over(before: Density, after: Density, /) -> None:
-    """Let what was sown and cleared be so where the same kinds are painted in another way, or on another terrain."""
+def carry_over(before: Density, after: Density, was: Sequence[int | None], /) -> None:
+    """Let what was sown and cleared be so where kinds are painted in another way, or on another terrain.
+
+    `was` says which of the kinds of before each one is; None of one that is new.
+    """
     where, pages = before.sown.saved()
-    if not len(where) or len(before.maps) != len(after.maps):
-        return
-    made, numbers = list[Values](), dict[bytes, int]()
+    if len(where):
+        after.sown.resume(*carried(where, pages, before, after, was))
+
+
+def carried(
+    where: Ints, pages: Bytes, before: Density, after: Density, was: Sequence[int | None], /
+) -> tuple[Ints, Bytes]:
+    """Return plots (n, 3) and pages, as `Plots.saved` does, that say of `after` what these say of `before`.
+
+    Cells that are as they were painted come to be painted as now. In all others what grows stays, and none of the kinds
+    that are new, of which `was` is None.
+    """
+    where, made, numbers = where.copy(), list[Bytes](), dict[bytes, int]()
+    known = [number for number, old in enumerate(was) if old is not None]
+    olds = [old for old in was if old is not None]
     for number, (row, column, page) in enumerate(where.tolist()):
         plot = Part(row * CELLS, column * CELLS, CELLS, CELLS)
-        old, new = _painted(before, plot), _painted(after, plot)
-        values = np.where((pages[page] == old).all(axis=2, keepdims=True), new, pages[page])
+        as_painted = (pages[page] == _painted(before, plot)).all(axis=2, keepdims=True)
+        values = np.where(as_painted, _painted(after, plot), np.uint8(0))
+        values[..., known] = np.where(as_painted, values[..., known], pages[page][..., olds])
         where[number, 2] = numbers.setdefault(values.tobytes(), len(made))
         if where[number, 2] == len(made):
             made.append(values)
-    after.sown.resume(where, np.stack(made))
+    return where, np.stack(made)
 
 
 def _stroke(

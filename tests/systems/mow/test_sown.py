@@ -169,7 +169,7 @@ def test_f4_what_was_sown_stays_where_all_else_is_painted_anew() -> None:
     clear(density, BEND, HERE, soft=1.0)
     other = Density(PAINTED[[1, 0, 2]], (60.0, 40.0))
     painted = painted_at(other, PLACES)
-    carry_over(density, other)
+    carry_over(density, other, [1, 0, 2])
     on = (np.abs(PLACES) < (29.0, 19.0)).all(axis=1)
     away = beside(BEND, HERE, PLACES)
     found = density_at(other, PLACES)
@@ -178,6 +178,16 @@ def test_f4_what_was_sown_stays_where_all_else_is_painted_anew() -> None:
     np.testing.assert_allclose(
         found[:, free], painted[:, free], atol=0.02
     )  # a plot's outermost cells go on to its edge
+
+
+def test_f4_what_was_sown_stays_of_its_kind_where_kinds_come_go_and_change_places() -> None:
+    density, now = meadow(), np.full((3, 2, 2), 0.25, np.float32)
+    sow(density, 1, AMONG, Footprint(radius=6.0), 1.0, HERE, soft=0.0)
+    other = Density(now, (100.0, 100.0))
+    carry_over(density, other, [None, 1, 0])  # the flowers are gone, and another kind comes first
+    found, away = density_at(other, PLACES), np.hypot(*PLACES.T)
+    np.testing.assert_array_equal(found[:, away < 5.5], np.tile([[0.0], [1.0], [0.0]], (away < 5.5).sum()))
+    np.testing.assert_allclose(found[:, away > 6.5], 0.25, atol=STEP)
 
 
 def test_f4_a_map_is_saved_and_brought_back_to_the_bit() -> None:

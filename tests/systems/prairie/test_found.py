@@ -43,3 +43,19 @@ def test_another_preset_comes_with_the_next_reload_and_what_a_game_did_stays(
     prairie.preset = "lowest"
     with pytest.raises(ValueError, match="unknown preset 'lowest'; there are minimal, low"):
         prairie.reload()
+
+
+def test_what_was_sown_stays_where_a_scene_that_is_read_again_has_another_kind_first(
+    load: Callable[..., Prairie],
+) -> None:
+    prairie = load()
+    prairie.sow("green", Footprint(radius=3.0), 0.8)
+    assert prairie.path is not None
+    text = prairie.path.read_text("utf-8")
+    dry = "dry: { height: [0.4, 0.6] }"
+    prairie.path.write_text(text.replace("grass: {", f"grass: {{ {dry},"), "utf-8")
+    prairie.reload()
+    assert list(prairie.scene.grass) == ["dry", "green"]
+    sown, else_where = prairie.grass_at([(0.0, 0.0), (0.0, 5.0)]).density
+    assert sown.tolist() == pytest.approx([0.0, 0.8])
+    assert else_where.tolist() == pytest.approx([0.5, 0.5], abs=0.01)
