@@ -100,7 +100,7 @@ class Scene(Declaration):
     """A prairie: grass kinds, terrain, winds, camera, light and quality."""
 
     tallgrass: Literal[2]
-    """Version of the scene format; always the first key."""
+    """Version of the scene format; by custom the first key."""
 
     seed: int = Field(default=1, ge=0, le=MOST_SEED)
     """Everything random in the scene comes from it."""

@@ -46,8 +46,6 @@ def _of_version(document: Document) -> Iterator[Problem]:
         yield document.problem((), FIRST)
     elif not _is_whole(version):
         yield document.problem(("tallgrass",), f"tallgrass must be the number {FORMAT}, found {found(version)}")
-    elif document.file is not None and next(iter(document.root.keys)) != "tallgrass":
-        yield document.problem(("tallgrass",), FIRST, at_key=True)
 
 
 def upgraded(document: Document, /) -> dict[str, Any]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -49,6 +50,13 @@ def test_d4_a_scene_declares_kinds_terrain_and_winds(tmp_path: Path) -> None:
     assert loaded.scene.grass["lawn"].height == [0.1, 1.0]
     (breeze,) = loaded.scene.wind
     assert breeze.model_dump() | {"kind": "breeze", "strength": 0.25, "start": 3.0} == breeze.model_dump()
+
+
+@pytest.mark.parametrize("text", BUNDLED)
+def test_a_scene_reads_the_same_with_its_keys_in_another_order(text: str) -> None:
+    keys = yaml.safe_load(text)
+    assert [*keys] != sorted(keys)
+    assert parse_scene(yaml.safe_dump(keys)) == parse_scene(text)
 
 
 def test_quality_is_a_preset_or_its_numbers() -> None:
