@@ -121,6 +121,8 @@ class Schedule:
     """The systems of which it has been said that they wait."""
 
     _numbers: Iterator[int] = field(init=False, default_factory=count)
+    _runs: bool = field(init=False, default=False)
+    """Whether its systems are running now."""
 
     def __iter__(self) -> Iterator[System]:
         return iter(tuple(self._systems.values()))
@@ -209,8 +211,17 @@ class Schedule:
         for system in self:
             if first <= system.phase <= last:
                 self.milliseconds.pop(system.name, None)
-        for system in self._turns(first, last):
-            self._run(system)
+        self._runs = True
+        try:
+            for system in self._turns(first, last):
+                self._run(system)
+        finally:
+            self._runs = False
+
+    def must_be_idle(self) -> None:
+        """Raise RuntimeError while its systems run: where one of them draws, all would run again, itself among them."""
+        if self._runs:
+            raise RuntimeError("this prairie is being drawn: its systems cannot draw it; do so before or after")
 
     def step(self, which: Phase | str, /) -> None:
         """Run one system by its name, or those of a phase that are enabled, once and out of the order of a frame.

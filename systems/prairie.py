@@ -127,8 +127,7 @@ class Prairie(Tending):
         loaded = replace(self.loaded, scene=self.scene.model_copy(update={"seed": seed}))
         return Prairie(
             loaded, ctx=self._assembly.screen.ctx, preset=self.preset, lod=self.lod,
-            transitions=self.site.transitions, live=self.winds.quarantine.live,
-            linear=self._assembly.screen.linear,
+            transitions=self.site.transitions, live=self.winds.quarantine.live, linear=self._assembly.screen.linear,
         )  # fmt: skip
 
     @property
@@ -164,14 +163,14 @@ class Prairie(Tending):
         or without a window. A viewport without pixels draws nothing.
         """
         self._must_be_there("draw it")
+        self.systems.must_be_idle()
         must_be_viewer(viewer)
         must_be_known("depth", depth, DEPTHS)
         chosen = as_parts(self.scene.parts if parts is None else parts)
         seen = view_of(view, projection, self._origin)
         self._turn(self._assembly.stage)
         before = self.viewers[viewer].frame if viewer in self.viewers else None
-        time = self.time
-        frame, asked, goes_on = Frame(seen, time, self.site, chosen).after(before, depth=depth)
+        frame, asked, goes_on = Frame(seen, self.time, self.site, chosen).after(before, depth=depth)
         if not goes_on:
             self._go_with(viewer, seen)
         with self._assembly.screen.opened(self.site) as painter:
@@ -249,6 +248,7 @@ class Prairie(Tending):
         middle. Matrices and errors are those of `draw`.
         """
         self._must_be_there("follow a viewer")
+        self.systems.must_be_idle()
         must_be_viewer(viewer)
         seen = view_of(view, projection, self._origin)
         self._turn()

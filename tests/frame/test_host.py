@@ -253,6 +253,18 @@ def test_a_frame_ends_where_a_system_releases_the_prairie(stage: Stage, load: Lo
         stage.shot(prairie, Camera((0.0, 4.0, 20.0), 0.0, 0.0, 1.0))
 
 
+def test_a_system_that_draws_its_own_prairie_is_left_out_in_a_sentence(stage: Stage, load: Load) -> None:
+    prairie, view = load(), np.eye(4)
+    seen = stage.shot(prairie)
+    prairie.systems.add("input", "mirror", lambda: prairie.draw(view, view, viewer="mirror"))
+    prairie.systems.add("input", "map", lambda: prairie.follow(view, view, viewer="map"))
+    np.testing.assert_array_equal(stage.shot(prairie), seen)
+    told = "run raised RuntimeError: this prairie is being drawn: its systems cannot draw it; do so before or after"
+    assert [each.split(": ", 1)[1] for each in prairie.systems.failures.values()] == [told, told]
+    assert [outlook.viewer.name for outlook in prairie.viewers.values()] == ["main"]
+    np.testing.assert_array_equal(stage.shot(prairie), seen)
+
+
 def test_d2_released_a_prairie_leaves_no_entity_behind(stage: Stage, load: Load) -> None:
     kept = load()
     theirs = esper.create_entity("a game's own")

@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from ctypes import addressof, c_int, c_int64
 from types import SimpleNamespace
 from typing import Any
@@ -365,3 +366,13 @@ def test_n4_a_context_that_was_released_is_refused_in_a_sentence() -> None:
     released: Any = SimpleNamespace(mglo=moderngl.InvalidObject())
     with pytest.raises(RuntimeError, match=r"^the moderngl context of this prairie was released"), kept(released):
         pass
+
+
+def test_n4_a_thread_without_a_context_is_refused_in_a_sentence(ctx: moderngl.Context) -> None:
+    def draw() -> None:
+        with kept(ctx):
+            pass
+
+    with ThreadPoolExecutor(1) as other, pytest.raises(RuntimeError, match=r"^no GL context is current in this thread"):
+        other.submit(draw).result()
+    draw()
