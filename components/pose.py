@@ -11,7 +11,8 @@ from .arrays import Floats
 class Pose:
     """A frame of reference on the ground: its own x points to the right, and its own -z ahead.
 
-    As the component of a wind's entity it says where the wind is, in place of what the wind itself says.
+    As the component of a wind's entity it says where the wind is, in place of what the wind itself says. An entity is
+    left out as long as its pose is not finite, and the log says so.
     """
 
     x: float = 0.0
