@@ -65,6 +65,8 @@ def _asked(value: Any, as_text: core_schema.ValidatorFunctionWrapHandler) -> Any
 def _taken(value: Any, as_text: core_schema.ValidatorFunctionWrapHandler) -> Any:
     if isinstance(value, np.ma.MaskedArray):
         raise DeclarationError("the mask of a masked array is not read; hand in what its filled() returns")
+    if isinstance(value, list | tuple):
+        raise DeclarationError("a map is a file's name or, in a program, an array: hand in numpy.array(rows), no list")
     if isinstance(value, MapArray):
         return value
     return MapArray(value) if isinstance(value, np.ndarray) else as_text(value)

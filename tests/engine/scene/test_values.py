@@ -115,6 +115,7 @@ def test_values_that_hold_themselves_and_too_many_are_refused() -> None:
         (1e6 * np.ones((9, 9)), "its heights go from 1e+06 to 1e+06 m; scale them, or mark its voids"),
         (np.where(HEIGHTS[3, 4] == HEIGHTS, np.inf, HEIGHTS), "1 height is no number, the first at row 3, column 4, "),
         (np.full((9, 9), -np.inf), "81 heights are no numbers, the first at row 0, column 0, counted from 0"),
+        (HEIGHTS.tolist(), "a map is a file's name or, in a program, an array: hand in numpy.array(rows), no list"),
         (np.ma.masked_array(HEIGHTS), "the mask of a masked array is not read; hand in what its filled() returns"),
     ],
 )
