@@ -86,10 +86,12 @@ class Answering(Underflowing):
         self.viewers.begin_anew()
 
     def advance(self, dt: float) -> None:
-        """Move time on by `dt` [s]: ValueError below 0 and above 1e9 s, TypeError for anything but a number."""
+        """Move time on by `dt` [s]: ValueError below 0 and beyond 1e9 s in all, TypeError for anything but a number."""
         self._must_be_there("move its time on")
         must_be_step(dt)
-        self._clock += float(dt)  # in single precision, time would soon stand still
+        later = self._clock + float(dt)  # in single precision, time would soon stand still
+        must_be_time(later, "a prairie advances", "to")
+        self._clock = later
         self.winds.pass_to(self.time)
 
     @property

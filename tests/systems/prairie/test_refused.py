@@ -25,6 +25,17 @@ Load = Callable[..., Prairie]
 PLACES = np.random.default_rng(0).uniform(-25.0, 25.0, (50, 2)).astype(np.float32)
 
 
+def test_time_comes_no_farther_than_what_can_be_asked_and_saved(prairie: Prairie) -> None:
+    prairie.advance(9e8)
+    with pytest.raises(ValueError, match=r"^a prairie advances to 0 s to 1e\+09 s, not to 1800000000.0$"):
+        prairie.advance(9e8)
+    assert prairie.time == 9e8
+    prairie.advance(1e8)
+    assert np.isfinite(prairie.wind_at(PLACES)).all()
+    prairie.restore(prairie.state())
+    assert prairie.time == 1e9
+
+
 @pytest.mark.parametrize("dt", [-0.01, float("nan"), float("inf"), 1e308])
 def test_time_does_not_go_back_or_leap(prairie: Prairie, dt: float) -> None:
     with pytest.raises(ValueError, match=r"^a prairie advances by 0 s to 1e\+09 s, not by "):
