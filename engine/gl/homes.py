@@ -9,7 +9,7 @@ import moderngl
 
 from .current import current_handle
 from .functions import NUMBERS, Functions
-from .host import current, is_lost, pyglet_context
+from .host import current, has_windows, is_hidden, is_lost, pyglet_context
 from .stream import Releasable
 
 
@@ -114,7 +114,7 @@ class Homes(Generic[Thing]):
 
     def check(self) -> None:
         """Raise RuntimeError where the pyglet window that something was drawn in is closed, and no other is there."""
-        if any(is_lost(home.place) for home in self._homes) and pyglet_context() is None:
+        if any(is_lost(home.place) for home in self._homes) and not has_windows() and _is_nowhere(pyglet_context()):
             raise RuntimeError("there is no window any more: create another one before the prairie is drawn again")
 
     def release(self) -> None:
@@ -127,3 +127,8 @@ class Homes(Generic[Thing]):
         self._homes.clear()
         last = list(dict.fromkeys(home.handle for home in reversed(_left)))[:MOST_LEFT]
         _left[:] = [home for home in _left if home.handle in last]
+
+
+def _is_nowhere(context: object) -> bool:
+    """Return whether a pyglet context is none, or that of the hidden window."""
+    return context is None or is_hidden(context)

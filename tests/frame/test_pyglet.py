@@ -62,7 +62,7 @@ import pyglet
 from tallgrass import Prairie
 from tallgrass.engine.camera import camera_at, projection_matrix, view_matrix
 
-pyglet.options.shadow_window = False
+pyglet.options.shadow_window = len(sys.argv) > 2
 prairie = Prairie.load(sys.argv[1], live=False)
 camera = camera_at(prairie.scene.camera, None, prairie.height_at)
 
@@ -88,10 +88,11 @@ prairie.release()
 """
 
 
-def test_d6_without_pyglets_hidden_window_windows_may_come_and_go_too(tmp_path: Path) -> None:
+@pytest.mark.parametrize("hidden", [[], ["hidden"]], ids=["without", "with"])
+def test_d6_with_pyglets_hidden_window_and_without_windows_may_come_and_go(tmp_path: Path, hidden: list[str]) -> None:
     (tmp_path / "scene.yaml").write_text(SCENE, "utf-8")
     done = subprocess.run(
-        [sys.executable, "-W", "error", "-c", ALONE, tmp_path / "scene.yaml"],
+        [sys.executable, "-W", "error", "-c", ALONE, tmp_path / "scene.yaml", *hidden],
         capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
