@@ -100,7 +100,7 @@ def test_n3_the_pop_benchmark_tells_every_key_and_sees_a_pop(scene: Path, capsys
 
 
 def test_n3_hard_switches_show_where_they_happen(scene: Path) -> None:
-    with Studio(Take(str(scene), (192, 108))) as studio:
+    with Studio(Take(str(scene), (128, 72))) as studio:
         walk = legs(studio.prairie)[:1]
         once = walked(studio, walk, SEAMLESS, watch=unwatched)
         hard = walked(studio, walk, HARD, watch=unwatched)

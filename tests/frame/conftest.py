@@ -4,12 +4,15 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import moderngl
+import numpy as np
 import pytest
 
 from tallgrass import testing
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.gl import homes
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.trees import kind
+from tallgrass.systems.trees.kept import Picture, sizes_of
 from tallgrass.testing import LITTLE, Stage, looking
 
 BLOWN = LITTLE + "wind: [{ kind: breeze, strength: 0.4 }]\n"
@@ -74,6 +77,16 @@ def _what_a_test_loads_is_released(request: pytest.FixtureRequest) -> Iterator[N
     for prairie in loaded[before:]:
         prairie.release()
     del loaded[before:]
+
+
+@pytest.fixture
+def unpictured(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let trees be all white on their pictures, where nobody looks: to draw them takes longer than most tests."""
+
+    def white(_: str, sides: list[tuple[int, int]]) -> list[Picture]:
+        return [[np.full(size, 255, np.uint8) for size in each] for each in sizes_of(sides)]
+
+    monkeypatch.setattr(kind, "kept_pictures", white)
 
 
 @pytest.fixture(scope="session")

@@ -69,7 +69,7 @@ def test_g3_no_rows_show_from_twelve_metres_up_or_in_a_lawn(ctx: moderngl.Contex
 
 @pytest.fixture(scope="module")
 def hills(load: Load) -> Prairie:
-    return load("hills")
+    return load("hills", preset="low")
 
 
 @pytest.mark.parametrize(
@@ -100,7 +100,7 @@ tallgrass: 2
 terrain: {{ size: [20, 40], noise: flat }}
 grass: {{ bunch: {{ height: [0.45, 0.85], width: 0.026, lean: 0.35, root: "#4a5f2b", tip: "#bcc26c" }} }}
 quality:
-  models: 2
+  models: 1
   blade_rings: [{{ to: 1, segments: 2 }}]
   strip_rings: [{{ to: 16, strips: {strips}, texel: 0.02 }}]
   carpet_to: 20
@@ -180,7 +180,7 @@ def test_f2_a_plain_from_twelve_metres_up_shows_neither_rows_of_strips_nor_where
 @pytest.fixture(scope="module")
 def carpet(load: Load) -> Prairie:
     """The same where all of it is carpet: through a narrow lens strips reach far."""
-    return load("plain", lod="carpet")
+    return load("plain", lod="carpet", preset="low")
 
 
 @pytest.mark.parametrize("heading", [pytest.param(0, marks=pytest.mark.slow), 40])
@@ -201,7 +201,7 @@ def test_g4_blades_of_the_carpet_stand_upright_whichever_way_they_are_seen(
 
 
 def test_x5_the_sky_does_not_shine_through_ground_behind_a_far_crest(ctx: moderngl.Context) -> None:
-    prairie = Prairie.load("hills", ctx=ctx, live=False)
+    prairie = Prairie.load("hills", ctx=ctx, live=False, preset="low")
     prairie.advance(3.0)
     with testing.stage(ctx, (960, 540)) as large:
         _, green, blue = np.moveaxis(large.shot(prairie), -1, 0)
@@ -228,7 +228,7 @@ def test_x5_the_sky_does_not_shine_through_a_crest_at_the_terrains_edge(ctx: mod
 def test_the_ground_goes_on_to_the_horizon_beyond_the_terrains_edge(
     ctx: moderngl.Context, wide: Stage, lod: LodName
 ) -> None:
-    prairie = Prairie.load(CAMERAS / "edge.yaml", ctx=ctx, live=False, lod=lod)
+    prairie = Prairie.load(CAMERAS / "edge.yaml", ctx=ctx, live=False, lod=lod, preset="low")
     camera = camera_at(prairie.scene.camera, None, prairie.height_at)
     seen = wide.shot(prairie, camera)
     true = draw_truth(prairie, *wide.matrices(camera), wide.size, samples=SAMPLES).picture
@@ -242,7 +242,7 @@ def test_the_ground_goes_on_to_the_horizon_beyond_the_terrains_edge(
 
 
 def test_f5_the_suns_disc_is_half_a_degree_wide(load: Load, wide: Stage) -> None:
-    prairie = load("plain")
+    prairie = load("plain", lod="carpet", preset="low")
     light = prairie.scene.light
     view = math.radians(4.0)
     seen = wide.shot(

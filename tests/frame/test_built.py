@@ -19,7 +19,11 @@ from tallgrass.testing import LITTLE, Stage
 Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
 
-FLAT = LITTLE.replace("noise: rolling", "noise: flat").replace("blades: 60", "blades: 300")
+FLAT = (
+    LITTLE.replace("noise: rolling", "noise: flat")
+    .replace("blades: 60", "blades: 300")
+    .replace("models: 2", "models: 1")
+)
 NEAR, FAR = 16.0, -12.0
 """Where a floor lies among strips, and where on the carpet (z) [m]."""
 

@@ -198,6 +198,7 @@ def test_large_programs_are_made_one_a_step_for_a_loading_screen_to_go_on_betwee
     assert max(steps) <= 12
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_scene_read_again_is_as_ready_as_before(stage: Stage, load: Load, camera: Aim, made: list[str]) -> None:
     prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0, pitch=-10)
     prairie.prepare()

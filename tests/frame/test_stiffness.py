@@ -34,7 +34,7 @@ grass:
 light: {{ haze: 100000 }}
 quality:
   blades: 350
-  models: 2
+  models: 1
   blade_rings: [{{ to: 8, segments: 8 }}]
   strip_rings: [{{ to: 10, strips: 8, columns: 4, sections: 6, texel: 0.008 }}]
   carpet_to: 24

@@ -21,6 +21,14 @@ from tallgrass.testing import looking, private_world
 Stage = Any
 
 AWAY = 3000.0, -2500.0
+SOON_GROWN = {
+    "blades": 160,
+    "models": 1,
+    "blade_rings": [{"to": 1, "segments": 3}, {"to": 8, "segments": 3}],
+    "strip_rings": [{"to": 12, "strips": 2, "columns": 1, "sections": 1, "texel": 0.03}],
+    "carpet_to": 24,
+    "carpet": 32,
+}
 ROAD = Road([(AWAY[0] + 5.0, AWAY[1] - 30.0), (AWAY[0] + 5.0, AWAY[1] + 10.0)], width=3.0)
 
 
@@ -40,7 +48,7 @@ def prairies(ctx: moderngl.Context) -> Iterator[Any]:
             "tallgrass": 2,
             "terrain": {"heights": dunes, "window": window, "cell": 2.0},
             "grass": {"tall": {"height": [0.4, 0.8]}, "short": {"height": [0.2, 0.3], "slope": 20}},
-            "quality": "low",
+            "quality": SOON_GROWN,
             "camera": {"position": [*about]},
             "trees": trees or {},
         }

@@ -34,7 +34,7 @@ quality:
 RATE, COUNT = 25.0, 144
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def prairie(ctx: moderngl.Context) -> Iterator[Prairie]:
     with private_world(), little_prairie(scene=SCENE, ctx=ctx) as made:
         esper.create_entity(Tree("oak", 13.0), Pose(0.0, 0.0))
@@ -58,6 +58,7 @@ def power(of: NDArray[np.float64]) -> tuple[NDArray[np.floating[Any]], NDArray[n
     return np.fft.rfftfreq(len(of), 1.0 / RATE), found / found.sum()
 
 
+@pytest.mark.usefixtures("unpictured")
 def test_w4_an_oak_in_a_breeze_swings_with_the_frequencies_of_trunks_limbs_and_leaves(
     ctx: moderngl.Context, prairie: Prairie
 ) -> None:
