@@ -251,12 +251,12 @@ def test_of_a_folder_every_scene_has_a_row_and_a_picture_beside_its_reference(
     pytest.importorskip("flip_evaluator")
     folder, pictures = scene.parent, scene.parent / "pictures"
     (folder / "again.yaml").write_text(scene.read_text())
-    command = ["bench", "picture", str(folder), "--size", "96x54"]
+    command = ["bench", "picture", str(folder), "--size", "48x27"]
     assert run([*command, "--json", "-o", str(pictures)]) == 0
     told = json.loads(capsys.readouterr().out)
     assert [row["camera"] for row in told["rows"]] == ["again", "little"]
     assert told["rows"][0] | {"camera": "little"} == told["rows"][1]
-    assert np.asarray(Image.open(pictures / "little.png")).shape == (54, 2 * 96, 3)
+    assert np.asarray(Image.open(pictures / "little.png")).shape == (27, 2 * 48, 3)
     (folder / "again.yaml").unlink()
     assert run(command) == 0
     head, line = (text.split() for text in capsys.readouterr().out.splitlines())

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from tallgrass import Prairie
 from tallgrass.engine.camera import camera_at, projection_matrix, view_matrix
+from tallgrass.engine.declared.quality import LodName
 
 Picture = NDArray[np.uint8]
 SIZE = (96, 64)
@@ -95,9 +96,9 @@ def gl(name: str, *arguments: object) -> int:
 
 
 @contextmanager
-def prairie_of() -> Iterator[Prairie]:
+def prairie_of(lod: LodName = "auto") -> Iterator[Prairie]:
     """A prairie that is told of no context."""
-    prairie = Prairie.load(sys.argv[1], live=False)
+    prairie = Prairie.load(sys.argv[1], live=False, lod=lod)
     yield prairie
     prairie.release()
 
@@ -132,7 +133,7 @@ def check_two_that_share(screens: Screens) -> str:
 def check_closed_and_opened_again(screens: Screens) -> str:
     """Contexts that come and go while another stays; a new one often has the address of one that is gone."""
     stays, pictures = screens.open(), []
-    with prairie_of() as prairie:
+    with prairie_of("strips") as prairie:
         for number in range(4):
             window = screens.open(stays if number % 2 else None)
             pictures += [window.picture(prairie), stays.picture(prairie)]
@@ -149,12 +150,12 @@ def check_the_hosts_moderngl(screens: Screens) -> str:
         window.switch_to()
         moderngl.init_context()
         contexts.append(moderngl.get_context())
-    with prairie_of() as prairie:
+    with prairie_of("strips") as prairie:
         pictures = [window.picture(prairie) for window in (*windows, *windows)]
     told = "" if moderngl.get_context() is contexts[1] else "the default context is another one; "
     for window, ctx in zip(windows, contexts, strict=True):
         window.switch_to()
-        given = Prairie.load(sys.argv[1], ctx=ctx, live=False)
+        given = Prairie.load(sys.argv[1], ctx=ctx, live=False, lod="strips")
         pictures.append(window.picture(given))
         given.release()
     return told + ", ".join(f"picture {k} is another one" for k in range(1, 6) if (pictures[k] != pictures[0]).any())
@@ -163,7 +164,7 @@ def check_the_hosts_moderngl(screens: Screens) -> str:
 def check_embedded(screens: Screens) -> str:
     """OpenGL ES is refused in one sentence that says what to ask for."""
     window, said = screens.open(kind=EMBEDDED), ""
-    with prairie_of() as prairie:
+    with prairie_of("strips") as prairie:
         try:
             window.picture(prairie)
         except RuntimeError as error:

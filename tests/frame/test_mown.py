@@ -29,7 +29,13 @@ tallgrass: 2
 terrain: { noise: flat, size: [100, 100] }
 grass: { lawn: { height: [0.25, 0.5] } }
 light: { azimuth: 130, elevation: 40 }
-quality: low
+quality:
+  blades: 160
+  models: 1
+  blade_rings: [{ to: 8, segments: 3 }]
+  strip_rings: [{ to: 12, strips: 2, columns: 1, sections: 1, texel: 0.03 }]
+  carpet_to: 24
+  carpet: 32
 """
 ALL = Footprint(radius=90.0)
 KEPT = ["blades", "strips", "carpet", "auto"]

@@ -43,7 +43,13 @@ terrain: { noise: flat, size: [120, 120] }
 grass:
   barley: { height: [0.4, 0.6], width: 0.018 }
   poppy: { plant: flower, plants: 50, height: [0.45, 0.65], tip: "#dd2a12", head: { petals: 5, size: [0.07, 0.1] } }
-quality: low
+quality:
+  blades: 160
+  models: 2
+  blade_rings: [{ to: 8, segments: 3 }]
+  strip_rings: [{ to: 12, strips: 2, columns: 1, sections: 1, texel: 0.02 }]
+  carpet_to: 24
+  carpet: 32
 """
 QUALITY = """\
 quality:

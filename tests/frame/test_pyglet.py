@@ -63,7 +63,7 @@ from tallgrass import Prairie
 from tallgrass.engine.camera import camera_at, projection_matrix, view_matrix
 
 pyglet.options.shadow_window = len(sys.argv) > 2
-prairie = Prairie.load(sys.argv[1], live=False)
+prairie = Prairie.load(sys.argv[1], live=False, lod="strips")
 camera = camera_at(prairie.scene.camera, None, prairie.height_at)
 
 

@@ -17,6 +17,7 @@ from pyglet.math import Mat4, Vec3
 from pyglet.model import MaterialGroup
 
 from tallgrass.engine.camera import camera_at, projection_matrix, view_matrix
+from tallgrass.engine.declared.quality import LodName
 from tallgrass.engine.scene import read_scene
 from tallgrass.systems.prairie import Prairie
 
@@ -156,9 +157,9 @@ def together(**said: str) -> str:
 
 
 @contextmanager
-def prairies(count: int = 1) -> Iterator[list[Prairie]]:
+def prairies(count: int = 1, lod: LodName = "auto") -> Iterator[list[Prairie]]:
     """Prairies of the little scene, released in the end."""
-    made = [Prairie(LOADED, live=False) for _ in range(count)]
+    made = [Prairie(LOADED, live=False, lod=lod) for _ in range(count)]
     yield made
     for prairie in made:
         prairie.release()

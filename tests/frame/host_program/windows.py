@@ -29,13 +29,13 @@ def check_resize(game: Game) -> str:
     if pyglet.options.headless:
         return ""  # there, what a window draws into keeps its size
     size = (220, 90)
-    with prairies() as (prairie,):
+    with prairies(lod="strips") as (prairie,):
         picture(prairie)
         resize(game, size)
         found, told = picture(prairie, size), around(game, prairie, tidy, size)
-    with prairies() as (prairie,):
+    with prairies(lod="strips") as (prairie,):
         expected = picture(prairie, size)
-    with framebuffer(size), prairies() as (prairie,):
+    with framebuffer(size), prairies(lod="strips") as (prairie,):
         elsewhere = picture(prairie, size)
     resize(game, SIZE)
     near = "" if (found != elsewhere).any(axis=-1).mean() < 0.005 else "it is another one"
@@ -44,7 +44,7 @@ def check_resize(game: Game) -> str:
 
 def check_no_pixels(_: Game) -> str:
     """In a window without any pixels nothing is drawn, and nothing goes wrong."""
-    with prairies() as (prairie,):
+    with prairies(lod="strips") as (prairie,):
         for width, height in ((0, 0), (0, 50), (50, 0)):
             gl.glViewport(0, 0, width, height)
             prairie.draw(*matrices(prairie))
