@@ -4,10 +4,8 @@ The program is a process of its own, `contexts_program.py`, whose checks stand h
 """
 
 import json
-import os
 import re
-import subprocess
-import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import moderngl
@@ -24,17 +22,13 @@ Said = dict[str, str]
 
 
 @pytest.fixture(scope="module")
-def said(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> Said:
+def said(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory, python: Callable[..., str]) -> Said:
     """What the program says; it is not run where there is no GL."""
     assert ctx.version_code >= 330
     scene = tmp_path_factory.mktemp("scene") / "scene.yaml"
     scene.write_text(LITTLE + "wind: [{ kind: breeze, strength: 0.4 }]\n", "utf-8")
-    done = subprocess.run(
-        [sys.executable, "-W", "error", PROGRAM, scene],
-        env={**os.environ, "MESA_EXTENSION_OVERRIDE": LACKING}, capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    found: Said = json.loads(done.stdout)
+    told = python(scene.parent, str(PROGRAM), str(scene), place={"MESA_EXTENSION_OVERRIDE": LACKING})
+    found: Said = json.loads(told.splitlines()[-1])
     return found
 
 

@@ -1,9 +1,8 @@
 """Pressers as a game has them: entities with a footprint and a pose, and what `bent_at` says of them (F4)."""
 
-import subprocess
-import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import ceil, floor
+from pathlib import Path
 from time import process_time
 
 import esper
@@ -118,11 +117,12 @@ def test_f4_what_a_game_reads_of_receivers_is_what_it_is_told_at_their_places(pr
     assert bent > 0.8
 
 
-def test_f4_two_processes_with_different_steps_tread_the_same(tmp_path_factory: pytest.TempPathFactory) -> None:
-    folder, found = tmp_path_factory.mktemp("steps"), []
+def test_f4_two_processes_with_different_steps_tread_the_same(tmp_path: Path, python: Callable[..., str]) -> None:
+    (tmp_path / "program.py").write_text(RUN, "utf-8")
+    found = []
     for steps in (50, 240):
-        subprocess.run([sys.executable, "-c", RUN, str(steps), str(folder / f"{steps}.npy")], check=True)
-        found.append(np.load(folder / f"{steps}.npy"))
+        python(tmp_path, "program.py", str(steps), f"{steps}.npy", place={})
+        found.append(np.load(tmp_path / f"{steps}.npy"))
     assert np.linalg.norm(found[0], axis=1).max() > 0.9
     np.testing.assert_allclose(found[0], found[1], atol=1e-4)
 

@@ -1,7 +1,5 @@
 """A prairie's state, saved and restored: the same wind, grass and light in another process, or a sentence (F4, N5)."""
 
-import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from hashlib import blake2b
 from pathlib import Path
@@ -146,13 +144,14 @@ Path(state).write_bytes(prairie.state())
 """
 
 
-def test_n5_a_state_brings_everything_back_to_the_bit_in_another_process(played: Prairie, tmp_path: Path) -> None:
+def test_n5_a_state_brings_everything_back_to_the_bit_in_another_process(
+    played: Prairie, tmp_path: Path, python: Callable[..., str]
+) -> None:
     state, places, out = tmp_path / "state", tmp_path / "places.npy", tmp_path / "out.npz"
     state.write_bytes(played.state())
     np.save(places, PLACES)
-    command = [sys.executable, "-W", "error", "-c", PROGRAM, repr(SCENE), str(state), str(places), str(out)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    (tmp_path / "program.py").write_text(PROGRAM, "utf-8")
+    python(tmp_path, "program.py", repr(SCENE), str(state), str(places), str(out), place={})
     with np.load(out) as found:
         np.testing.assert_array_equal(found["wind"], played.wind_at(PLACES))
         np.testing.assert_array_equal(found["bent"], played.bent_at(PLACES))
