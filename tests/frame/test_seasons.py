@@ -57,7 +57,7 @@ def make_rare(prairie: Any) -> None:
         assert carpet.ground.carpet[3].program
 
 
-@pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
+@pytest.mark.parametrize("lod", ["blades", pytest.param("strips", marks=pytest.mark.slow), "carpet"])
 def test_f4_colours_that_have_eased_are_those_of_a_scene_that_had_them_from_the_start(
     stage: Stage, load: Load, camera: Aim, programs: list[object], lod: str
 ) -> None:
