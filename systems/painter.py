@@ -243,9 +243,13 @@ class Painter(Holding):
         self.draw_calls += self.coarsest.draw(target)
         self.ctx.disable(moderngl.CULL_FACE)
         target.depth_mask = True
-        reach = 0.0 if all_soft else max((each.reach for each in self.painters.values()), default=0.0)
         for part in self._doing["draw_soft"]:
-            self.draw_calls += part.draw_soft(reach)
+            among_grass = not all_soft and part.soft_left() is not None
+            self.draw_calls += part.draw_soft(self._reach() if among_grass else 0.0)
+
+    def _reach(self) -> float:
+        """Return how far off grass stands that is drawn from far to near [m]."""
+        return max(each.reach for each in self.painters.values())
 
     def _draw_grass(self, target: moderngl.Framebuffer, *, is_deep: bool) -> None:
         """Draw what stands on the land, the coarser representations first."""

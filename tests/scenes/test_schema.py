@@ -25,7 +25,7 @@ BEYOND = {
     "no-elevation-file", "not-a-number", "blades-without-room", "two-bad-maps", "blast-picture-missing",
     "heights-and-noise", "heights-swapped", "path-goes-back-in-time", "path-off-the-terrain", "quality-rings-fall",
     "wind-stops-before-it-starts", "wind-path-goes-back-in-time", "gust-intervals-fall", "blast-outline-twice",
-    "blast-ellipse-flat", "blast-outline-empty", "version-not-first", "presser-corners-in-a-line",
+    "blast-ellipse-flat", "blast-outline-empty", "presser-corners-in-a-line",
     "presser-goes-back-in-time", "trees-among-nothing", "trees-off-the-terrain",
     "head-on-grass", "head-of-no-form-on-grass", "head-longer-than-its-stem", "head-sizes-fall", "leaves-fall",
     "plants-of-grass", "blades-of-a-flower", "several-keys-of-another-plant",
