@@ -1,12 +1,12 @@
 """A tree that has grown, as one GL context holds it, and the streams of those that are drawn as it is."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles
+from ...components.arrays import Doubles, Mask
 from ...engine.gl.records import Records
 from ...engine.gl.stream import Stream, release_all
 from .bark import RUNS, SENT, sent
@@ -129,8 +129,8 @@ class ModelOnCard:
         """
         self._write_wood(near, wide, shells)
         self._send(FAR, far)
-        for number, name in enumerate(BACKS):
-            self._send(name, far[shells.far == number][::-1])
+        for name, own in self._parted(BACKS, shells.far):
+            self._send(name, far[own][::-1])
         self._send(LEAVES, leafy)
         self.most[LEAVES] = 1
         drawn = near["keep"] * (1.0 - near["gone"])
@@ -139,14 +139,19 @@ class ModelOnCard:
         if (group[beyond] == len(SHARES)).sum() < TOO_FEW:
             group = np.minimum(group, len(SHARES) - 1)
         group = np.where(beyond, group, len(SHARES) + shells.near)
-        for number, name in enumerate(CARDS):
-            self._write_cards(name, near[group == number])
+        for name, own in self._parted(CARDS, group):
+            self._write_cards(name, near[own])
+
+    def _parted(self, names: tuple[str, ...], number: NDArray[np.intp]) -> Iterator[tuple[str, Mask]]:
+        """Yield streams, and which trees come into each by its `number`, shape (n,), but for those that stay empty."""
+        trees = np.bincount(number, minlength=len(names)).tolist()
+        for own, (name, some) in enumerate(zip(names, trees, strict=True)):
+            if some or self.streams[name].count:
+                yield name, number == own
 
     def _write_wood(self, near: NDArray[np.void], wide: Doubles, shells: Shells) -> None:
         run = np.searchsorted(RUNS, wide)
-        stream = np.where(shells.near == 0, run, len(RUNS) + shells.near)
-        for number, name in enumerate(WOODS):
-            own = stream == number
+        for name, own in self._parted(WOODS, np.where(shells.near == 0, run, len(RUNS) + shells.near)):
             self._send(name, near[own])
             if own.any():
                 self.run[name] = finest = int(run[own].min())
