@@ -74,8 +74,8 @@ class LieMap:
     """A texture of two maps over the terrain, side by side: what never changes, and what the sun's azimuth changes.
 
     Whatever the sun's elevation, the second says where it is seen; on a terrain that is mirrored beyond its edge, from
-    each of its mirror images too. As its azimuth goes on, rows are drawn again, some
-    in each frame. Where the terrain becomes another window of its ground, the map of that is drawn beside, likewise.
+    each of its mirror images too. As its azimuth goes on, rows are drawn again, some in each frame. Where the terrain
+    becomes another window of its ground, the map of that is drawn beside, likewise.
     """
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:

@@ -1,7 +1,6 @@
 """Drawing trees: what of each is shown, and in what order; and the maps of what they leave of the light."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from math import inf
 
 import moderngl
 import numpy as np
@@ -25,7 +24,7 @@ from .leafy import leaf_by_leaf, leafy
 from .motion import PERIOD
 from .programs import HANG, HANG_LEAVES, HARD, SAMPLED, SOFT, STAND, Programs
 from .shade import ShadeMap
-from .shells import SHELLS, shells_of
+from .shells import farthest_of, shells_of
 from .standing import LEAFY, PLACED, TOLD, Standing, columns_of, shown, shows
 from .twig import LEAF_PIXELS
 from .wood import AWAY, CLOSED, OPAQUE, SOLID, SWAYS, THINNEST, nearest_ahead
@@ -388,7 +387,7 @@ class TreePart(Part):
                         told = kind.due(array.program, model) + of_call
                         reads = kind.reads(array.program, model, noise=sort in (WOOD, FAR))
                         form = moderngl.TRIANGLE_STRIP if name in CARDS or sort == FAR else moderngl.TRIANGLES
-                        far = {0: inf, SHELLS + 1: 0.0}.get(SHELL_OF[name], float(along.max()))
+                        far = farthest_of(SHELL_OF[name], along)
                         calls.append(Call(turn, array, first, vertices, stream.count, form, told, reads, far))
         return in_turn(sorted(calls, key=lambda call: (-call.far if soft else 0.0, call.turn)))
 

@@ -16,7 +16,8 @@ uniform sampler2DArray tree_cards;  // in place of twigs' cards: noise that repe
 in vec3 on;            // as far.vert has it
 flat in vec4 tiles;
 flat in vec2 mixed;
-flat in vec3 row_told;
+flat in vec2 row_told;
+flat in float texel_side;
 #ifdef CAST
 flat in vec4 shades;   // as far.vert has it
 flat in vec3 foot;
@@ -57,13 +58,13 @@ void mix_pictures(vec2 at, vec2 parts, out vec4 texel, out vec4 shading) {
 
 // A place on one that is nowhere its neighbours'.
 vec2 within(vec2 at) {
-    vec2 edge = TILE_EDGE * row_told.z * vec2(slim, 1.0);
+    vec2 edge = TILE_EDGE * texel_side * vec2(slim, 1.0);
     return clamp(at, edge, 1.0 - edge);
 }
 
 // How much of what is read there is its own: beyond its edge there is nothing, as if texels of nothing lay there.
 float own_of(vec2 at) {
-    vec2 inside = clamp((0.5 - abs(at - 0.5)) / (row_told.z * vec2(slim, 1.0)) + TILE_EDGE, 0.0, 1.0);
+    vec2 inside = clamp((0.5 - abs(at - 0.5)) / (texel_side * vec2(slim, 1.0)) + TILE_EDGE, 0.0, 1.0);
     return inside.x * inside.y;
 }
 

@@ -43,7 +43,8 @@ out vec3 on;           // where on its picture, each way from 0 to 1, or across 
 flat out vec4 tiles;   // where on their texture the pictures begin that are mixed, the first and the second
 flat out vec2 mixed;   // how much of the second
 flat out vec4 told;    // what tells it from others; how far its limbs seem to swing, and how far aside its top is, of its picture; its level
-flat out vec3 row_told; // how many stand side by side; from one to the next, and how large the coarser texels are that are read, of a picture
+flat out vec2 row_told; // how many stand side by side; from one to the next, of a picture
+flat out float texel_side; // how large the coarser texels are that are read, of a picture
 
 const vec2 MIXES = vec2(0.3, 0.7);  // between which parts of the way from one picture to the next they are mixed
 const float ASKEW_ROWS = 2.0;  // by how much of an angle rows of trees are turned from one another: else all would be parallel [rad]
@@ -178,7 +179,8 @@ void main() {
     }
     float half_wide = columns > 1.0 ? 0.5 * columns * column * scale : half_tall;
     vec3 seen_at = middle_of + half_wide * on.x * across + half_tall * on.y * up;
-    row_told = vec3(columns, 0.5 * slim * column / ball.y, exp2(min(ceil(told.w), float(LEVELS) - 1.0)) / lines);
+    row_told = vec2(columns, 0.5 * slim * column / ball.y);
+    texel_side = exp2(min(ceil(told.w), float(LEVELS) - 1.0)) / lines;
 #ifdef CAST
     cast_at(middle_of, across, up, half_tall);
 #else

@@ -1,6 +1,6 @@
 """Shells of grass about the eye: trees in one are drawn together, and their soft edges come after the same grass."""
 
-from math import ceil, log
+from math import ceil, inf, log
 from typing import NamedTuple
 
 import numpy as np
@@ -37,3 +37,11 @@ def shells_of(near: Doubles, far: Doubles, reach: float, /) -> Shells:
         return np.where(off < reach, (off[:, None] < ends).sum(axis=1), 0)
 
     return Shells(within(near), within(far))
+
+
+def farthest_of(shell: int, off: Doubles, /) -> float:
+    """Return how far off trees count as at most [m], which all stand in a shell, so far off along the ground (n,) [m].
+
+    That is infinite beyond all grass, and 0 for single leaves, which are before it.
+    """
+    return {0: inf, SHELLS + 1: 0.0}.get(shell, float(off.max()))
