@@ -32,6 +32,8 @@ Plot plot_at(vec2 place) {
     return Plot(float(PLOT_CELLS) * (at - corner), page_number(pages.xy), page_number(pages.zw));
 }
 
+const float BETWEEN_CELLS = 256.0;  // steps from one cell to the next: places are read alike wherever their page lies
+
 // The level of a page whose texels are as long as `side` [m].
 float page_level(float side) {
     return log2(clamp(side * (float(PLOT_CELLS) / PLOT_SIDE), 1.0, float(PLOT_CELLS)));
@@ -42,6 +44,7 @@ vec4 on_page(int page, vec2 cell, float level) {
     ivec2 size = textureSize(plots, 0);
     int row = size.x / PLOT_CELLS;
     float edge = 0.5 * exp2(ceil(level));
-    vec2 at = clamp(cell, edge, float(PLOT_CELLS) - edge) + float(PLOT_CELLS) * vec2(page % row, page / row);
+    vec2 own = (floor(BETWEEN_CELLS * clamp(cell, edge, float(PLOT_CELLS) - edge)) + 0.5) / BETWEEN_CELLS;
+    vec2 at = own + float(PLOT_CELLS) * vec2(page % row, page / row);
     return textureLod(plots, at / vec2(size), level);
 }

@@ -1,11 +1,14 @@
 """Sowing and clearing: densities that a game changes, in cells of 0.2 m on a terrain of any size (F4)."""
 
+from collections.abc import Callable
 from math import inf, pi
 
+import moderngl
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from tallgrass.components.arrays import Floats
 from tallgrass.components.footprint import Footprint, Road
@@ -14,8 +17,21 @@ from tallgrass.engine.terrain.part import Part
 from tallgrass.engine.terrain.plots import CELL, CELLS, SIDE, Plots, middles
 from tallgrass.engine.terrain.record import Density
 from tallgrass.engine.terrain.sample import density_at, density_on_lines, own_density_at, painted_at
+from tallgrass.systems.frame.block import FRAME
 from tallgrass.systems.mow.area import Area, beside, stroke
+from tallgrass.systems.mow.card import ROOM, WIDTH
 from tallgrass.systems.mow.sown import carry_over, clear, sow
+
+Probe = Callable[..., NDArray[np.float32]]
+
+ON_PAGE = """\
+#include "lib/plots.glsl"
+in vec3 row;
+out vec4 told;
+void main() {
+    told = on_page(int(row.x), row.yz, 0.0);
+}
+"""
 
 PAINTED = np.random.default_rng(4).random((3, 6, 8)).astype(np.float32)
 PAINTED[:2] /= PAINTED[:2].sum(axis=0)
@@ -237,3 +253,21 @@ def test_f4_what_is_no_road_is_told_in_a_sentence(line: list[tuple[float, float]
 
 def test_a_plot_ends_where_its_mip_maps_do() -> None:
     assert CELLS & (CELLS - 1) == 0
+
+
+def test_n5_what_a_page_has_is_the_same_wherever_it_lies(ctx: moderngl.Context, probe: Probe) -> None:
+    """Or a prairie that is restored, whose pages come in another order, is not the same to the byte."""
+    random, down, across = np.random.default_rng(5), ROOM + 1, WIDTH // CELLS
+    page = random.integers(0, 256, (CELLS, CELLS, 4), np.uint8)
+    texture = ctx.texture((WIDTH, CELLS * down), 4, np.tile(page, (down, across, 1)).tobytes())
+    texture.filter = moderngl.LINEAR, moderngl.LINEAR
+    rows = np.zeros((1000, 3), np.float32)
+    rows[:, 1:] = random.uniform(0.0, CELLS, (1000, 2))
+    told = []
+    for number in (0, across - 1, across, down * across - 1):
+        rows[:, 0] = number
+        told.append(probe(ON_PAGE, rows, np.zeros(1, FRAME), {"plots": texture}, 4))
+    texture.release()
+    assert np.ptp(told[0]) > 0.9
+    for each in told[1:]:
+        np.testing.assert_array_equal(each, told[0])
