@@ -17,6 +17,9 @@ _PLAIN = frozenset({float, np.float64, np.float32})
 FARTHEST = 1e6
 """Largest coordinate that is taken for a place [m]: beyond, the numbers of cells and squares would overflow."""
 
+SOMEWHERE = f"x, y, z [m] and yaw [rad] are finite numbers, at most {FARTHEST:.0e} either way"
+"""What a pose has to be that is a place."""
+
 MOST_SEED = 2**31 - 1
 """The largest seed of a scene."""
 

@@ -13,7 +13,7 @@ import esper
 
 from ..components.pose import Pose
 from ..components.resident import Resident
-from .handed import FARTHEST, NUMBERS, is_somewhere
+from .handed import NUMBERS, SOMEWHERE, is_somewhere
 
 Component = TypeVar("Component")
 Other = TypeVar("Other")
@@ -187,8 +187,8 @@ class World:
         if lost:
             self._told.update(entity for entity, _ in lost)
             (entity, pose), more = lost[0], f", and {len(lost) - 1} more likewise" if len(lost) > 1 else ""
-            due = f"x, y, z [m] and yaw [rad] are finite numbers, at most {FARTHEST:.0e} either way"
-            log.warning("%s of entity %d is left out while it has %s%s: %s", what, entity, pose or "no Pose", more, due)
+            have = pose or "no Pose"
+            log.warning("%s of entity %d is left out while it has %s%s: %s", what, entity, have, more, SOMEWHERE)
         return stand
 
     def _owner(self, entity: int) -> object | None:

@@ -16,7 +16,7 @@ from ..components.arrays import Floats
 from ..components.pose import Pose
 from ..components.wind import WindPrimitive, WindSource, must_be_name, must_be_wind, on_course
 from ..engine.declared.scene import Scene
-from ..engine.handed import is_somewhere
+from ..engine.handed import SOMEWHERE, is_somewhere
 from ..engine.plugins import wind_kinds
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
@@ -321,7 +321,7 @@ def _must_be_pose(thing: object) -> None:
     if not isinstance(thing, Pose):
         raise TypeError(f"a wind is put at a Pose such as Pose(x=3.0, z=-5.0), not at {shortened(thing)}")
     if not is_somewhere(thing):
-        raise ValueError(f"a wind is put where x, z [m] and yaw [rad] are finite numbers, not at {thing}")
+        raise ValueError(f"a wind is put where {SOMEWHERE}, not at {thing}")
 
 
 def declared(number: int, wind: WindPrimitive) -> str:

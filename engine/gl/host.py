@@ -59,7 +59,10 @@ FEEDBACK = "TRANSFORM_FEEDBACK_BUFFER"
 TEXELS = ("PIXEL_UNPACK_BUFFER", "PIXEL_PACK_BUFFER")
 """Buffers that texels would be loaded from, or read into, in place of memory."""
 
-TARGETS = ("ARRAY_BUFFER", "UNIFORM_BUFFER", *TEXELS, FEEDBACK)
+COPIED = ("COPY_READ_BUFFER", "COPY_WRITE_BUFFER")
+"""Buffers that moderngl copies from and to."""
+
+TARGETS = ("ARRAY_BUFFER", "UNIFORM_BUFFER", *TEXELS, *COPIED, FEEDBACK)
 
 REMEMBERED = (
     *((name, 1) for name in (*BLEND, *ALIGNMENTS, *LAYOUTS, *(f"{target}_BINDING" for target in TARGETS))),

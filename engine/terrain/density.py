@@ -30,6 +30,9 @@ MOST_SIDE = 4097
 _WHOLE = {"b1": 1.0, "u1": 255.0, "u2": 65535.0}
 """What stands for full density in arrays of these kinds and sizes."""
 
+ROUNDED = 1e-5
+"""By how much densities may pass 0 and 1: what sums and filters in single precision leave."""
+
 CHANNELS = ("red", "green", "blue", "alpha")
 
 
@@ -103,9 +106,10 @@ def _channels_of(values: NDArray[Any]) -> Channels:
         due = "floats from 0 to 1, unsigned integers of 8 or 16 bits, or true and false"
         raise MapError(None, f"it holds {values.dtype} values; densities are {due}")
     check_finite(None, values, "density", "densities")
-    if whole is None and (values.min() < 0.0 or values.max() > 1.0):
+    if whole is None and (values.min() < -ROUNDED or values.max() > 1.0 + ROUNDED):
         raise MapError(None, f"it goes from {values.min():.6g} to {values.max():.6g}; densities are from 0 to 1")
     numbers = values.reshape(*shape[:2], -1).astype(np.float32) / np.float32(whole or 1.0)
+    numbers = np.clip(numbers, 0.0, 1.0)
     return {name: numbers[..., number] for number, name in enumerate(CHANNELS[: numbers.shape[2]])}
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from ...components.arrays import Floats, Mask
 from ...components.footprint import Footprint, Road
 from ...components.pose import Pose
-from ...engine.handed import is_somewhere
+from ...engine.handed import SOMEWHERE, is_somewhere
 from ...engine.terrain.part import Part
 from ...engine.terrain.plots import CELL, CELLS, SIDE, Plots, Untouched, Values, ends_of, middles
 from ..space.polygon import in_polygon
@@ -43,7 +43,7 @@ def must_be_area(area: object, pose: object, done: str, /) -> None:
     if not isinstance(pose, Pose):
         raise TypeError(f"a footprint lies at a Pose, not at {pose!r}")
     if not is_somewhere(pose):
-        raise ValueError(f"a footprint lies at a pose of finite numbers, not at {pose!r}")
+        raise ValueError(f"a footprint lies where {SOMEWHERE}, not at {pose!r}")
 
 
 def beside(area: Area, pose: Pose, place: Floats, /, *, least: float = 0.0, near: Stretches = None) -> Floats:

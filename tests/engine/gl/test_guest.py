@@ -260,6 +260,23 @@ def test_d6_textures_and_samplers_of_the_host_stay_where_they_are_and_off_a_gues
         thing.release()
 
 
+@pytest.mark.parametrize("target", ["ARRAY_BUFFER", "UNIFORM_BUFFER", "COPY_READ_BUFFER", "COPY_WRITE_BUFFER"])
+def test_d6_buffers_of_the_host_stay_bound_while_a_guest_fills_and_copies_its_own(
+    ctx: moderngl.Context, host: moderngl.Framebuffer, target: str
+) -> None:
+    hosts, gl, found = ctx.buffer(reserve=16), functions_of(ctx), c_int()
+    gl.glBindBuffer(NUMBERS[target], hosts.glo)
+    with guest(ctx) as drawn_into:
+        assert drawn_into.glo == host.glo
+        one, two = ctx.buffer(b"tall"), ctx.buffer(reserve=4)
+        ctx.copy_buffer(two, one)
+    gl.glGetIntegerv(NUMBERS[f"{target}_BINDING"], addressof(found))
+    gl.glBindBuffer(NUMBERS[target], 0)
+    assert found.value == hosts.glo
+    for buffer in (hosts, one, two):
+        buffer.release()
+
+
 @pytest.mark.parametrize("store", LAYOUTS)
 def test_d6_however_the_host_lays_texels_out_a_guest_loads_and_reads_its_own_as_they_are(
     ctx: moderngl.Context, host: moderngl.Framebuffer, store: str

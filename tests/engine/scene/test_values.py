@@ -146,6 +146,12 @@ def test_an_array_that_is_no_map_of_densities_is_refused_in_a_sentence(
     assert wrong.startswith(f"grass.green.place.map: {sentence}")
 
 
+def test_densities_that_rounding_left_just_beyond_0_and_1_are_0_and_1() -> None:
+    grey = np.array([[1.0000012, -1e-6], [0.5, 1.0]])
+    _, found = load_maps(read(grass={"green": {"place": {"map": grey}}}))
+    np.testing.assert_array_equal(found.maps[0], np.array([[1.0, 0.0], [0.5, 1.0]], np.float32))
+
+
 def test_an_array_of_heights_means_what_a_file_of_it_does(tmp_path: Path) -> None:
     for heights, more in ((HEIGHTS, {"cell": 2.0}), ((100 * HEIGHTS).astype(np.uint16), {"cell": 5.0, "flip": True})):
         np.save(tmp_path / "heights.npy", heights)

@@ -234,10 +234,11 @@ NOWHERE: list[tuple[object, type[Exception], str]] = [
     (
         Pose(np.nan, 0.0),
         ValueError,
-        r"a wind is put where x, z \[m\] and yaw \[rad\] are finite numbers, not at Pose.*nan.*",
+        r"a wind is put where x, y, z \[m\] and yaw \[rad\] are finite numbers, .* either way, not at Pose.*nan.*",
     ),
-    (Pose(0.0, 0.0, np.inf), ValueError, r"a wind is put where .* finite numbers, not at Pose.*inf.*"),
-    (Pose("left", 0.0), ValueError, r"a wind is put where .* finite numbers, not at Pose.*'left'.*"),  # type: ignore[arg-type]
+    (Pose(2e6, 0.0), ValueError, r"a wind is put where .* at most 1e\+06 either way, not at Pose\(x=2000000.0.*"),
+    (Pose(0.0, 0.0, np.inf), ValueError, r"a wind is put where .* finite numbers, .* not at Pose.*inf.*"),
+    (Pose("left", 0.0), ValueError, r"a wind is put where .* finite numbers, .* not at Pose.*'left'.*"),  # type: ignore[arg-type]
 ]
 
 
