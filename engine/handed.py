@@ -39,8 +39,16 @@ def as_floats(thing: object, due: str, /, *, holes: bool = False) -> NDArray[np.
         raise ValueError(f"{due}, not {shortened(thing)}") from None
     bad = np.isinf(array) if holes else ~np.isfinite(array)
     if thing is None or bad.any():
-        raise ValueError(f"{due}, not {'None' if thing is None else 'infinity' if holes else 'NaN or infinity'}")
+        raise ValueError(f"{due}, not {'None' if thing is None else _unfit(thing, holes=holes)}")
     return array
+
+
+def _unfit(thing: object, *, holes: bool) -> str:
+    """Return what numbers are that no single precision holds."""
+    wide = np.asarray(thing, np.float64)
+    if not (np.isinf(wide) if holes else ~np.isfinite(wide)).any():
+        return f"numbers as large as {np.nanmax(np.abs(wide)):.3g}"
+    return "infinity" if holes else "NaN or infinity"
 
 
 def _as_singles(thing: object) -> NDArray[np.float32]:
@@ -89,6 +97,13 @@ def must_be_a(due: type, thing: object, what: str, /) -> None:
     """Raise TypeError for what is not of a class; `what` begins the sentence."""
     if not isinstance(thing, due):
         raise TypeError(f"{what}, unlike {shortened(thing)}")
+
+
+def must_be_flags(**flags: object) -> None:
+    """Raise TypeError for what is neither true nor false."""
+    for name, flag in flags.items():
+        if not isinstance(flag, bool | np.bool_):
+            raise TypeError(f"{name} is True or False, not {shortened(flag)}")
 
 
 def must_be_viewer(thing: object, /) -> None:

@@ -105,6 +105,9 @@ class Schedule:
     live: bool = True
     """Whether a system that waits in its turns is left out, as in a game; otherwise it is only named in the log."""
 
+    come_back: Callable[[], str] = lambda: ""
+    """Brings back what a system may not leave changed, and returns in words what one has, or nothing."""
+
     milliseconds: dict[str, float] = field(init=False, default_factory=dict)
     """What each system took when its phase was last run [ms]; only those that ran then and raised nothing."""
 
@@ -206,7 +209,7 @@ class Schedule:
 
         One that raises an Exception is named in the log and left out from then on, unless it is trusted. One that waits
         for longer than `WAITED`, for a disk or another program, is named once; where the schedule is `live` it is left
-        out when it has done so three times.
+        out when it has done so three times. So is one that leaves changed what `come_back` brings back.
         """
         for system in self:
             if first <= system.phase <= last:
@@ -257,6 +260,7 @@ class Schedule:
             if system.trusted:
                 raise
             log.debug("%s", system.name, exc_info=error)
+            self.come_back()
             self._leave_out(system, f"run raised {said(error)}")
         else:
             took, now = perf_counter() - start, self._systems.get(system.name)
@@ -264,6 +268,8 @@ class Schedule:
                 self.milliseconds[system.name] = 1000.0 * took
                 if not system.trusted:
                     self._judge(system, took, thread_time() - spent)
+            if not system.trusted and (left := self.come_back()):
+                self._leave_out(system, left)
 
     def _judge(self, system: System, took: float, busy: float) -> None:
         """Tell of a system that waits in its turns, and in a game leave it out when it does so often."""

@@ -220,6 +220,14 @@ class World:
         self.advance = None
         _worlds.discard(self)
 
+    def come_back(self) -> str:
+        """Make this world current again where somebody left another one so; return which, in words, or nothing."""
+        left = esper.current_world
+        if left == self.name or self.name not in esper.list_worlds():
+            return ""
+        esper.switch_world(self.name)
+        return f"run left esper world '{left}' current in place of '{self.name}'"
+
     def _must_be_current(self) -> None:
         if esper.current_world != self.name:
             if self.name not in esper.list_worlds():

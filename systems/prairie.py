@@ -13,7 +13,7 @@ from ..engine.camera import View, as_origin, camera_at, projection_matrix, view_
 from ..engine.declared.parts import DEPTHS, as_parts
 from ..engine.declared.quality import LodName
 from ..engine.gl.guest import unturned
-from ..engine.handed import must_be_a, must_be_known, must_be_seed, must_be_viewer
+from ..engine.handed import must_be_a, must_be_flags, must_be_known, must_be_seed, must_be_viewer
 from ..engine.plugged import bring_systems
 from ..engine.scene import LoadedScene, SceneLike, must_be_read, read_again, read_scene
 from ..engine.schedule import Phase, Schedule
@@ -85,7 +85,7 @@ class Prairie(Tending):
         self._seasons = Seasons(loaded.scene)
         self._ripening, self._streaming = Ripening(self._seasons, live=live), Streaming(live=live)
         self.lod: LodName = lod
-        self.statistics, self.systems = Statistics(blades_field=site.blades), Schedule(live=live)
+        self.statistics, self.systems = Statistics(blades_field=site.blades), Schedule(live, self.world.come_back)
         screen = Screen(ctx, self.features, self.winds, linear=linear)
         self._saving = Saving(
             self.world, self.winds, self.pressers, self._mown, self.clearings, self._shining, one(Trees, self.features),
@@ -116,6 +116,7 @@ class Prairie(Tending):
         representation, and for a `hold` that is no time.
         """
         must_be_known("representation", str(lod), get_args(LodName))
+        must_be_flags(live=live, linear=linear)
         return cls(
             read_scene(scene), ctx=ctx, preset=preset, lod=lod, transitions=transitions, live=live, hold=hold,
             linear=linear,
@@ -165,7 +166,7 @@ class Prairie(Tending):
         self._must_be_there("draw it")
         self.systems.must_be_idle()
         must_be_viewer(viewer)
-        must_be_known("depth", depth, DEPTHS)
+        must_be_known("depth", str(depth), DEPTHS)
         chosen = as_parts(self.scene.parts if parts is None else parts)
         seen = view_of(view, projection, self._origin)
         self._turn(self._assembly.stage)
@@ -220,6 +221,7 @@ class Prairie(Tending):
 
     @origin.setter
     def origin(self, place: Sequence[float]) -> None:
+        self._must_be_there("set its origin")
         self._origin = as_origin(place)
 
     def preparing(self) -> Iterator[tuple[int, int]]:
@@ -270,7 +272,7 @@ class Prairie(Tending):
         """
         self._must_be_there("put it into a batch")
         must_be_viewer(viewer)
-        must_be_known("depth", depth, DEPTHS)
+        must_be_known("depth", str(depth), DEPTHS)
         chosen = None if parts is None else as_parts(parts)
 
         def draw() -> None:
@@ -328,7 +330,9 @@ class Prairie(Tending):
         Raises ValueError, and changes nothing, for a state that does not fit the scene, or is damaged.
         """
         self._must_be_there("restore a state")
-        self._clock, became, kinds = self._saving.restore(state, self.site, self.loaded, entities or {})
+        there = {} if entities is None else entities
+        must_be_a(Mapping, there, "entities are a mapping, of those in the state to yours")
+        self._clock, became, kinds = self._saving.restore(state, self.site, self.loaded, there)
         self.viewers.begin_anew()
         self._move_to(self._ripening.resume(self.site, kinds))  # after it, as winds of entities stay what they are
         self._turn()

@@ -174,4 +174,5 @@ class Tending(Answering):
 
     @haze.setter
     def haze(self, haze: Haze | None) -> None:
+        self._must_be_there("set its haze")
         one(GivenHaze, self.features).give(haze)

@@ -135,7 +135,10 @@ class Trees(Feature):
 
     def _look(self, time: float) -> None:
         """Take over which entities stand where."""
-        found = [each for each in self._world.both(Tree, Pose) if self._knows(each[1])]
+        posed = self._world.both(Tree, Pose)
+        nowhere = {entity for entity, _ in self._world.all(Tree)}.difference(entity for entity, _, _ in posed)
+        self._world.standing([(entity, None) for entity in sorted(nowhere)], "the tree")
+        found = [each for each in posed if self._knows(each[1])]
         there = [*compress(found, self._world.standing([(who, pose) for who, _, pose in found], "the tree"))]
         self._let_go({entity for entity, _, _ in found}, time)
         self._rows, self._there = _rows(there, self._grown), [entity for entity, _, _ in there]

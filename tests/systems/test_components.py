@@ -7,7 +7,7 @@ import esper
 import numpy as np
 import pytest
 
-from tallgrass import Gust, Pose, Presser, WindSource
+from tallgrass import Gust, Pose, Presser, Tree, WindSource
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.blast import Blast
@@ -37,6 +37,7 @@ def test_d2_a_pose_that_is_nowhere_leaves_out_its_entity_until_it_has_another_an
     where, calm = [(0.0, 0.5)], prairie.wind_at([(0.0, 0.5)])
     wind = esper.create_entity(WindSource(Blast(), "lost"), pose)
     presser, bare = esper.create_entity(Presser(radius=0.8), pose), esper.create_entity(Presser())
+    tree = esper.create_entity(Tree("oak"))
     for _ in range(3):
         prairie.advance(0.1)
         watch(prairie)
@@ -44,7 +45,7 @@ def test_d2_a_pose_that_is_nowhere_leaves_out_its_entity_until_it_has_another_an
         np.testing.assert_array_equal(prairie.bent_at(where), calm)
     due = "x, y, z [m] and yaw [rad] are finite numbers, at most 1e+06 either way"
     pressers = (f"presser of entity {presser}", pose), (f"presser of entity {bare}", "no Pose")
-    lost = (*pressers, (f"wind of entity {wind}", pose))
+    lost = (*pressers, (f"tree of entity {tree}", "no Pose"), (f"wind of entity {wind}", pose))
     assert sorted(caplog.messages) == [f"the {what} is left out while it has {have}: {due}" for what, have in lost]
     esper.add_component(wind, Pose())
     assert prairie.wind_at(where).any()

@@ -185,7 +185,7 @@ def test_no_places_have_no_heights_no_winds_and_no_patches(prairie: Prairie) -> 
 def test_a_place_far_beyond_any_prairie_is_answered_without_a_warning(prairie: Prairie, far: float) -> None:
     for ask in (prairie.height_at, prairie.wind_at, prairie.bent_at, prairie.patch_at):
         assert np.isfinite(ask([(far, 0.0), (0.0, far)])).all()
-    with pytest.raises(ValueError, match="not NaN or infinity"):
+    with pytest.raises(ValueError, match=r"not numbers as large as 1e\+39"):
         prairie.height_at([(1e39, 0.0)])
 
 
@@ -348,3 +348,37 @@ def test_a_released_prairie_says_so_when_it_is_asked_for_more(prairie: Prairie) 
 def test_a_prairie_that_is_copied_says_what_to_keep(prairie: Prairie, how: Callable[[object], object]) -> None:
     with pytest.raises(TypeError, match=r"^a prairie cannot be pickled or copied: keep state\(\), and restore it"):
         how(prairie)
+
+
+def test_a_system_that_leaves_another_esper_world_current_is_named_and_the_frame_goes_on(
+    prairie: Prairie, caplog: pytest.LogCaptureFixture
+) -> None:
+    home, ran = esper.current_world, list[str]()
+    prairie.systems.add("INPUT", "level", partial(esper.switch_world, "next level"))
+    prairie.systems.add("SEE", "after", lambda: ran.append(esper.current_world))
+    try:
+        for _ in range(2):
+            prairie.follow(np.eye(4), Mat4.perspective_projection(1.5, 0.1, 100.0))
+        assert esper.current_world == home
+    finally:
+        esper.switch_world(home)
+        esper.delete_world("next level")
+    assert ran == [home] * 2
+    assert [message.partition(" of ")[0] for message in caplog.messages] == ["system 'level'"]
+    assert f"run left esper world 'next level' current in place of '{home}'" in prairie.systems.failures["level"]
+
+
+@pytest.mark.parametrize("flag", ["live", "linear"])
+def test_what_is_neither_true_nor_false_is_refused(flag: str) -> None:
+    with pytest.raises(TypeError, match=rf"^{flag} is True or False, not 'no'$"):
+        Prairie.load("plain", **{flag: "no"})  # type: ignore[arg-type]
+
+
+def test_entities_that_are_no_mapping_are_refused(prairie: Prairie) -> None:
+    with pytest.raises(TypeError, match=r"^entities are a mapping, of those in the state to yours, unlike 3$"):
+        prairie.restore(prairie.state(), 3)  # type: ignore[arg-type]
+
+
+def test_heights_too_large_for_single_precision_are_told_as_what_they_are(prairie: Prairie) -> None:
+    with pytest.raises(ValueError, match=r"not numbers as large as 1e\+300$"):
+        prairie.set_heights((0.0, 0.0), np.full((2, 2), 1e300))
