@@ -13,6 +13,11 @@ from tallgrass import Footprint, Pose, Prairie, testing
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.mow.mown import Mown
 from tallgrass.systems.show.carpet.edges import Edges
+from tallgrass.systems.show.carpet.holes import Stretches
+from tallgrass.systems.show.carpet.layer import EDGED
+from tallgrass.systems.show.carpet.painter import CarpetPainter
+from tallgrass.systems.show.carpet.pieces import PIECES
+from tallgrass.systems.show.carpet.tiles import TILE
 from tallgrass.systems.space.ground import Ground
 from tallgrass.testing import LITTLE, Stage
 
@@ -142,7 +147,7 @@ def test_x5_even_grass_looks_the_same_where_pixels_look_for_its_edges(
     pictures = []
     for looks in (False, True):
         if looks:
-            monkeypatch.setattr(Edges, "at", lambda *told: np.ones(len(told[-1]), np.bool_))
+            monkeypatch.setattr(Edges, "at", lambda *told: np.ones_like(sum(told[-1]), np.bool_))
         prairie = load(HILLS)
         prairie.cut(Footprint(radius=150.0), np.inf)  # which cuts nothing
         for x, z, eye, pitch in ((0.0, 40.0, 1.5, 0), (10.0, 60.0, 2.5, 0), (0.0, 70.0, 9.0, -8)):
@@ -154,8 +159,9 @@ def test_x5_even_grass_looks_the_same_where_pixels_look_for_its_edges(
         assert np.abs(other - even).mean() < 0.4  # those that look light their soil, and choose their images, by pixel
 
 
-def squares(*places: tuple[float, float]) -> NDArray[np.float64]:
-    return np.array([(x - 1.0, z - 1.0, 2.0) for x, z in places])
+def squares(*places: tuple[float, float]) -> Stretches:
+    x, z = np.array(places).T
+    return Stretches(x - 1.0, x + 1.0, z - 1.0, z + 1.0)
 
 
 def test_edges_are_found_where_density_or_cuts_end_and_nowhere_else(load: Load) -> None:
@@ -172,3 +178,35 @@ def test_edges_are_found_where_density_or_cuts_end_and_nowhere_else(load: Load) 
     for line, found in ((soft, False), ((soft > 0.5).astype(np.float32), True)):
         density = type(ground.density)(np.broadcast_to(line, (1, 60, 60)).copy(), ground.terrain.size)
         assert Edges().at(Ground(ground.terrain, density, ground.patch), None, 1.0, where)[0] == found
+
+
+def test_only_pieces_of_the_ground_at_edges_are_drawn_as_those_and_a_stroke_moves_them(
+    room: Stage, load: Load, camera: Aim
+) -> None:
+    prairie, aim = load(FLAT), camera(0.0, 3.0, 20.0, pitch=-10)
+
+    def dear() -> list[tuple[float, ...]]:
+        """Return where such pieces lie (x, z) [m]."""
+        room.shot(prairie, aim)
+        painter = prairie.painter
+        assert painter is not None
+        carpet = painter.painters["carpet"]
+        assert isinstance(carpet, CarpetPainter)
+        shelf = carpet.ground.shelves.now
+        stream = shelf.streams[EDGED]
+        rows = (
+            np.frombuffer(stream.buffer.read(stream.count * TILE.itemsize), TILE) if stream.count else np.zeros(0, TILE)
+        )
+        return [tuple(at) for at in rows["tile"][:, :2] + rows["tile"][:, 2:3] * rows["piece"][:, :2]]
+
+    assert not dear()
+    prairie.cut(Footprint(radius=0.7), 0.05, pose=Pose(4.0, -20.0))
+    first = dear()
+    tiles = len({(x // 10.0, z // 10.0) for x, z in first})
+    assert 0 < len(first) < 0.8 * PIECES * tiles
+    prairie.clear(Footprint(radius=0.7), pose=Pose(-14.0, -6.0))
+    second = dear()
+    assert set(first) < set(second)
+    assert any(x < -8.0 for x, _ in second)
+    assert not any(x < -8.0 for x, _ in first)
+    prairie.release()

@@ -21,7 +21,13 @@ Stage = Any
 Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
 
-MADE = ((blades, "gather_blades"), (strips, "polygon_strips"), (carpet, "tiles_seen"), (carpet, "tiles_around"))
+MADE = (
+    (blades, "gather_blades"),
+    (strips, "polygon_strips"),
+    (carpet, "which_seen"),
+    (carpet, "tiles_around"),
+    (carpet, "part"),
+)
 """What takes long, and is the same as long as a viewer stands still."""
 
 

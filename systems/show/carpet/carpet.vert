@@ -165,7 +165,7 @@ void light_soil(vec3 ground, Laid laid) {
 
 void main() {
 #ifdef EDGED
-    place = on_ground(on_mesh_at(above_border()));
+    place = on_ground(on_mesh_at(above_border() + piece.xy));
 #else
     place = on_ground(on_mesh());
 #endif

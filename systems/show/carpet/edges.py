@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from ....components.arrays import Doubles, Floats, Ints, Mask
+from ....components.arrays import Floats, Ints, Mask
 from ....engine.handed import FARTHEST
 from ....engine.terrain.plots import CELLS, SIDE, Plots, Values
 from ...mow.mown import Mown
 from ...space.ground import Ground
 from .found import Found
-from .holes import MOST_BLOCKS, Blocks, Holes
+from .holes import MOST_BLOCKS, Blocks, Holes, Stretches
 
 WITHIN = 1.0 / 3.0
 """An edge is a step within this part of a patch's side: what is softer the mesh shows well enough."""
@@ -25,45 +25,51 @@ class Edges:
 
     def __init__(self) -> None:
         self._maps: Values | None = None
-        self._painted: list[Blocks] = []
+        self._painted: Blocks | None = None
         self._holes: Holes | None = None
         self._sown, self._cut = _OnPlots(STEP_OF_DENSITY * 255.0), _OnPlots(STEP_OF_HEIGHT)
 
-    def at(self, ground: Ground, mown: Mown | None, tallest: float, squares: Doubles, /) -> Mask:
-        """Return in which squares of ground (n, 3), their low corners (x, z) and sides [m], there are any, shape (n,).
+    def at(self, ground: Ground, mown: Mown | None, tallest: float, stretches: Stretches, /) -> Mask:
+        """Return in which stretches of ground there are any, of the shape that they have together.
 
         `tallest` is the height that no grass comes to [m].
         """
         density = ground.density
         if self._maps is not density.maps:
             self._maps = density.maps
-            self._painted = [each for values in density.maps for each in _painted_edges(values, ground)]
-        found = [each.touch(squares) for each in self._painted]
+            self._painted = _painted_edges(density.maps, ground)
         if self._holes is None or not self._holes.are_of(ground.terrain):
             self._holes = Found.of(ground.terrain).holes
-        found.append(self._holes.touch(squares))
-        found.append(self._sown.touch(density.sown, squares))
+        found = np.zeros(np.broadcast_shapes(*(each.shape for each in stretches)), np.bool_)
+        if self._painted is not None:
+            found |= self._painted.touch(stretches)
+        found |= self._holes.touch(stretches)
+        found |= self._sown.touch(density.sown, stretches)
         if mown is not None:
-            found.append(self._cut.touch(mown.plots, squares, most=tallest))
-        return np.asarray(np.any(found, axis=0))
+            found |= self._cut.touch(mown.plots, stretches, most=tallest)
+        return found
 
 
-def _painted_edges(values: Floats, ground: Ground) -> list[Blocks]:
-    """Return where a kind's density has edges over the terrain, as painted (rows, columns): nothing where nowhere."""
-    shape, size = np.array(values.shape), np.array(ground.terrain.size)[::-1]
+def _painted_edges(maps: Values, ground: Ground) -> Blocks | None:
+    """Return where any kind's density, as painted (kinds, rows, columns), has edges; None is nowhere."""
+    shape, size = np.array(maps.shape[1:]), np.array(ground.terrain.size)[::-1]
     within = ground.patch * WITHIN
     step = STEP_OF_DENSITY / min(1.0, within * float((shape / size).max()))
-    if np.ptp(values) <= step:
-        return []
     down, across = np.maximum(np.ceil(np.maximum(within * shape / size, shape / MOST_BLOCKS)), 1).astype(int).tolist()
+    uneven = [_uneven_blocks(values, down, across, step) for values in maps if np.ptp(values) > step]
+    if not any(each.any() for each in uneven):
+        return None
+    side = (size / shape * (down, across))[::-1]
+    return Blocks(np.logical_or.reduce(uneven), np.array(ground.terrain.origin), side)
+
+
+def _uneven_blocks(values: Floats, down: int, across: int, step: float) -> Mask:
+    """Return which blocks of so many samples have a step of at least that in them, or on the way to the next."""
     high, low = (_reduced(reach, _reduced(reach, values, 0, down), 1, across) for reach in (np.maximum, np.minimum))
-    uneven = high - low > step
-    if not uneven.any():
-        return []
+    uneven = np.asarray(high - low > step)
     for axis in (0, 1):  # the way to the first sample of the next block goes on into that
         uneven[(slice(None),) * axis + (slice(1, None),)] |= np.diff(uneven.astype(np.int8), axis=axis) < 0
-    side = (size / shape * (down, across))[::-1]
-    return [Blocks(uneven, np.array(ground.terrain.origin), side)]
+    return uneven
 
 
 def _reduced(reach: np.ufunc, values: Floats, axis: int, each: int) -> Floats:
@@ -84,8 +90,8 @@ class _OnPlots:
         self._level: Floats = np.zeros((0, 1), np.float32)
         self._blocks: Blocks | None = None
 
-    def touch(self, plots: Plots, squares: Doubles, *, most: float = np.inf) -> Mask:
-        """Return which squares (n, 3) touch an uneven plot, shape (n,).
+    def touch(self, plots: Plots, stretches: Stretches, *, most: float = np.inf) -> Mask:
+        """Return which stretches touch an uneven plot, of the shape that they have together.
 
         Values are told apart up to `most`, and where there is no plot it is as if they were all that.
         """
@@ -94,7 +100,7 @@ class _OnPlots:
                 self._seen = np.zeros(0, np.int64)
             self._look(plots, most)
             self._of = plots, plots.count, most
-        return np.zeros(len(squares), np.bool_) if self._blocks is None else self._blocks.touch(squares)
+        return np.zeros((), np.bool_) if self._blocks is None else self._blocks.touch(stretches)
 
     def _look(self, plots: Plots, most: float) -> None:
         self._blocks = None

@@ -1,11 +1,10 @@
 """Drawing the ground, and on it the 2D carpet, tile by tile."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from functools import partial
 
 import moderngl
 import numpy as np
-from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Floats
 from ....components.viewer import Viewer
@@ -16,10 +15,23 @@ from ....engine.gl.shaders import Texts
 from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import release_all
 from ...frame.block import EVERYWHERE, FrameBlock, joined
-from .layer import BARE, EDGED, EDGED_CARPET, EVEN, UNDER, GroundShelf, Layer
+from .layer import (
+    BARE,
+    BARE_PIECES,
+    EDGED,
+    EDGED_CARPET,
+    EVEN,
+    EVEN_PIECES,
+    UNDER,
+    UNDER_PIECES,
+    Grids,
+    GroundShelf,
+    Layer,
+)
+from .pieces import ByLayer
 from .stock import CarpetStock
 from .textures import image_count
-from .tiles import TILE, hanging_grid, in_orders, order_toward, tile_grid
+from .tiles import PIECE, TILE, hanging_grid, in_orders, order_toward, tile_grid
 
 Defines = dict[str, str | int]
 """What a program is told."""
@@ -69,10 +81,12 @@ class GroundPainter:
         self.units, self._side = units, side
         self._ctx, self.rims = ctx, ctx.texture((1, 1), 1, dtype="f4")
         self._coarser = COARSER if coarse else 1
-        self.grid, self.hanging = (
-            (ctx.buffer(make()[0]), *(ctx.buffer(in_orders(*make(wider))) for wider in (1, COARSER)))
-            for make in (tile_grid, hanging_grid)
+        makes = tile_grid, partial(tile_grid, quads=PIECE), partial(hanging_grid, quads=PIECE)
+        tile, piece, hanging = (
+            (ctx.buffer(make()[0]), *(ctx.buffer(in_orders(*make(wider))) for wider in (1, COARSER))) for make in makes
         )
+        self.grids: Grids = tile, piece
+        self.hanging: Grids = tile, hanging
         self.shelves = Shelves(partial(GroundShelf, ctx, side))
         self.bare: list[Layer] = []
         self.under: list[Layer] = []
@@ -121,7 +135,7 @@ class GroundPainter:
             make = partial(joined, ctx, self._block, self.units, *files, told)
             texts = partial(self._block.texts, *files, told)
             hangs = among is self.edged and name == "carpet"
-            among.append(Layer(make, texts, self.shelves, self.hanging if hangs else self.grid))
+            among.append(Layer(make, texts, self.shelves, self.hanging if hangs else self.grids))
         self.restock(stock)
 
     def texts(self) -> Iterator[Texts]:
@@ -146,9 +160,9 @@ class GroundPainter:
             layer.know({name: value})
 
     @property
-    def is_wide(self) -> bool:
-        """Whether points of its mesh are farther apart than tiles say."""
-        return self._coarser > 1
+    def wider(self) -> int:
+        """How many times as far apart points of its mesh are as tiles say."""
+        return self._coarser
 
     @property
     def _is_cut(self) -> bool:
@@ -174,11 +188,12 @@ class GroundPainter:
         """Whether anything shines beside sun and sky: then pixels of the carpet ask for its light."""
         return bool(self._block.record["beside_sun"][0])
 
-    def write(self, tiles: Sequence[NDArray[np.void]]) -> None:
+    def write(self, tiles: ByLayer) -> None:
         """Send the tiles, as `by_layer` parts them."""
         shelf = self.shelves.now
-        bare, even, *edged = tiles
-        for stream, some in zip(shelf.streams, (bare[::-1], even, *edged, even[::-1]), strict=True):
+        bare, bare_pieces, even, even_pieces, edged, carpet = tiles
+        sent = bare[::-1], bare_pieces[::-1], even, even_pieces, edged[::-1], carpet, even[::-1], even_pieces[::-1]
+        for stream, some in zip(shelf.streams, sent, strict=True):
             stream.write(some)
         shelf.tiles = tiles
 
@@ -257,15 +272,15 @@ class GroundPainter:
         """Draw the bare ground, where it comes `alone` that of the carpet too; return the number of draw calls."""
         self.use()
         bare = self.bare[2 if self._is_rare or self.is_trodden else self._is_cut]
-        calls = bare.draw(BARE, pushed=0.0) + self.edged[0].draw(EDGED)
+        calls = bare.draw(BARE, BARE_PIECES, pushed=0.0) + self.edged[0].draw(EDGED)
         if alone:
-            calls += bare.draw(EVEN, pushed=PUSHED)
+            calls += bare.draw(EVEN, EVEN_PIECES, pushed=PUSHED)
         return calls
 
     def draw_under(self) -> int:
         """Draw what lies under the carpet; return the number of draw calls."""
         self.use()
-        return self.under[self.is_trodden].draw(UNDER) + self.edged[1].draw(EDGED_CARPET)
+        return self.under[self.is_trodden].draw(UNDER, UNDER_PIECES) + self.edged[1].draw(EDGED_CARPET)
 
     def draw_carpet(self, part: int = WHOLE) -> int:
         """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""
@@ -276,16 +291,16 @@ class GroundPainter:
         else:
             even = self.carpet[3 if rare or any(self._came) else 2 if whole else self._is_cut]
         edged = self.edged[2:] if self._rehearses else [self.edged[2 + self.is_trodden]]
-        return even.draw(EVEN, part=part) + sum(layer.draw(EDGED_CARPET, part=part) for layer in edged)
+        return even.draw(EVEN, EVEN_PIECES, part=part) + sum(layer.draw(EDGED_CARPET, part=part) for layer in edged)
 
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Write the depth at which grass of the carpet stops light from a place [m]; return the draw calls."""
         self.shelves.now.shares.use(self.units["shares"])
         (layer,) = self.casting
         layer.know({"light": light})
-        return layer.draw(EVEN) + layer.draw(EDGED_CARPET)
+        return layer.draw(EVEN, EVEN_PIECES, EDGED_CARPET)
 
     def release(self) -> None:
         """Give everything back."""
         release_all(*(layer.made for layer in self._layers if layer.made is not None))
-        release_all(self.shelves, *self.grid, *self.hanging, self.rims)
+        release_all(self.shelves, *self.grids[0], *self.grids[1], *self.hanging[1], self.rims)

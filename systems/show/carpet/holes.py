@@ -1,4 +1,6 @@
-"""Holes of a terrain, and squares of ground that have something uneven."""
+"""Holes of a terrain, and stretches of ground that have something uneven."""
+
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,8 +13,17 @@ MOST_BLOCKS = 1024
 """Blocks along a side of a map at most."""
 
 
+class Stretches(NamedTuple):
+    """Rectangles of ground, by where they begin and end [m]: arrays of shapes that go together."""
+
+    low_x: Doubles
+    high_x: Doubles
+    low_z: Doubles
+    high_z: Doubles
+
+
 class Blocks:
-    """Which blocks of a terrain have an edge, summed up, so that squares of any size are asked alike."""
+    """Which blocks of a terrain have an edge, summed up, so that stretches of any size are asked alike."""
 
     def __init__(self, uneven: Mask, corner: Floats | Doubles, side: Floats | Doubles) -> None:
         """Take blocks (rows, columns), the first of them at a corner (x, z), with sides along x and z [m]."""
@@ -20,15 +31,18 @@ class Blocks:
         self._sums: NDArray[np.int32] = np.zeros(np.add(uneven.shape, 1), np.int32)
         self._sums[1:, 1:] = uneven.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)
 
-    def touch(self, squares: Doubles) -> Mask:
-        """Return which squares (n, 3) touch a block with an edge, shape (n,)."""
+    def touch(self, stretches: Stretches) -> Mask:
+        """Return which stretches touch a block with an edge, of the shape that they have together."""
         rows, columns = self._sums.shape
-        low = (squares[:, :2] - self._corner) / self._side
-        high = np.ceil(low + squares[:, 2:3] / self._side).astype(np.int64)
-        low = np.floor(low).astype(np.int64)
-        (left, top), (right, bottom) = (np.clip(each, 0, (columns - 1, rows - 1)).T for each in (low, high))
-        sums = self._sums
-        return np.asarray(sums[bottom, right] - sums[top, right] - sums[bottom, left] + sums[top, left] > 0)
+        left, right, top, bottom = (
+            np.clip(to((each - self._corner[axis]) / self._side[axis]).astype(np.intp), 0, count - 1)
+            for each, to, axis, count in zip(
+                stretches, (np.floor, np.ceil) * 2, (0, 0, 1, 1), (columns, columns, rows, rows), strict=True
+            )
+        )
+        sums, top, bottom = self._sums.reshape(-1), columns * top, columns * bottom
+        inside = sums.take(bottom + right) - sums.take(top + right) - sums.take(bottom + left) + sums.take(top + left)
+        return np.asarray(inside > 0)
 
 
 class Holes:
@@ -49,13 +63,13 @@ class Holes:
         """Be those of a terrain that has just become what they were made out of."""
         self._terrain, self._changes = terrain, terrain.changes.count
 
-    def touch(self, squares: Doubles) -> Mask:
-        """Return which squares (n, 3) touch a block of the terrain with a hole in it, shape (n,)."""
+    def touch(self, stretches: Stretches) -> Mask:
+        """Return which stretches touch a block with a hole in it, of the shape that they have together."""
         terrain = self._terrain
         if terrain.holes is not None and self._changes != terrain.changes.count:
             self._look(terrain, terrain.holes, terrain.changes.since(self._changes))
         self._changes = terrain.changes.count
-        return np.zeros(len(squares), np.bool_) if self._blocks is None else self._blocks.touch(squares)
+        return np.zeros((), np.bool_) if self._blocks is None else self._blocks.touch(stretches)
 
     def _look(self, terrain: Terrain, holes: Mask, changed: list[Part] | None) -> None:
         rows, columns = holes.shape

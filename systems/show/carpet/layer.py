@@ -9,11 +9,19 @@ from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import Stream, release_all
 from .tiles import ORDERS, TILE
 
-BARE, EVEN, EDGED, EDGED_CARPET, UNDER = STREAMS = range(5)
-"""What tiles are parted into, as `by_layer` has them, and once more those of the even carpet: near to far.
+BARE, BARE_PIECES, EVEN, EVEN_PIECES, EDGED, EDGED_CARPET, UNDER, UNDER_PIECES = STREAMS = range(8)
+"""What tiles and pieces of tiles are parted into, as `by_layer` has them, and once more those of the even carpet: near
+to far.
 
-So are bare ones. They are opaque: what the nearer ones hide costs nothing.
+So are those of the ground. They are opaque: what the nearer ones hide costs nothing.
 """
+
+WHOLE = BARE, EVEN, UNDER
+"""Of these, the streams of whole tiles."""
+
+
+Grids = tuple[tuple[moderngl.Buffer, ...], tuple[moderngl.Buffer, ...]]
+"""The grid points of a tile and of a piece of one, each with the corners of triangles by how far apart these are."""
 
 
 class GroundShelf:
@@ -46,9 +54,9 @@ class Layer:
         make: Callable[[], moderngl.Program],
         texts: Callable[[], Texts],
         shelves: Shelves[GroundShelf],
-        grid: tuple[moderngl.Buffer, ...],
+        grids: Grids,
     ) -> None:
-        self._make, self.texts, self._shelves, self._grid = make, texts, shelves, grid
+        self._make, self.texts, self._shelves, self._grids = make, texts, shelves, grids
         self._told: dict[str, object] = {}
         self._untold: dict[str, object] = {}
         """Of that, what the program is told before it draws next: of many, a frame draws with a few."""
@@ -71,7 +79,8 @@ class Layer:
         """Return what draws those tiles of the viewer that looks."""
         shelf = self._shelves.now
         if (self, stream, wider) not in shelf.arrays:
-            program, corners, indices = self.program, self._grid[0], self._grid[wider]
+            grid = self._grids[stream not in WHOLE]
+            program, corners, indices = self.program, grid[0], grid[wider]
             contents = [(corners, "2f", "corner"), shelf.streams[stream].binding(program)]
             shelf.arrays[self, stream, wider] = program.ctx.vertex_array(program, contents, index_buffer=indices)
         return shelf.arrays[self, stream, wider]
@@ -82,16 +91,18 @@ class Layer:
         self._told |= fresh
         self._untold |= fresh
 
-    def draw(self, stream: int, **told: float) -> int:
-        """Draw the tiles of a stream, if there are any, by a program that is told this; return the draw calls."""
-        shelf = self._shelves.now
-        count = shelf.streams[stream].count
-        if not count:
-            return 0
-        program, told["wider"] = self.program, shelf.wider
-        for name, value in told.items():
-            tell(program, name, value)
-        array = self._array(stream, shelf.wider)
-        corners = array.vertices // ORDERS
-        array.render(moderngl.TRIANGLES, corners, first=shelf.order * corners, instances=count)
-        return 1
+    def draw(self, *streams: int, **told: float) -> int:
+        """Draw the tiles of streams in which there are any, by a program that is told this; return the draw calls."""
+        shelf, calls, wider = self._shelves.now, 0, self._shelves.now.wider
+        for stream in streams:
+            count = shelf.streams[stream].count
+            if not count:
+                continue
+            if not calls:
+                program, told["wider"] = self.program, wider
+                for name, value in told.items():
+                    tell(program, name, value)
+            array, calls = self._array(stream, wider), calls + 1
+            corners = array.vertices // ORDERS
+            array.render(moderngl.TRIANGLES, corners, first=shelf.order * corners, instances=count)
+        return calls

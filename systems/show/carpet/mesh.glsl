@@ -4,7 +4,8 @@
 #include "systems/show/carpet/rims.py"
 #include "systems/show/carpet/tiles.py"
 
-in vec2 corner;  // of the grid, 0 .. GRID
+in vec2 corner;  // of the grid of a tile, or of a piece of it
+in vec3 piece;   // where that begins on the tile's grid, 0 of whole tiles; of pieces, which sides hang down, as bits
 in vec4 tile;    // x, z [m]; spacing [m]; distance at which the next coarser spacing has taken over [m], below 0 that from rims alone
 
 uniform sampler2D rims;  // over the terrain: how far the next rim of a cliff is [m]
@@ -61,22 +62,23 @@ vec2 on_mesh_at(vec2 corner) {
 }
 
 vec2 on_mesh() {
-    return on_mesh_at(corner);
+    return on_mesh_at(corner + piece.xy);
 }
 
-// The sheet of a tile may lie higher than that of the next one, so its border hangs down to the ground: else one would look in under
+// The sheet of a piece may lie higher than what is beside it, so its border hangs down to the ground: else one would look in under
 // it. Corners beyond the grid are the lower ends of that.
 vec2 above_border() {
-    return clamp(corner, vec2(0.0), vec2(GRID));
+    return clamp(corner, vec2(0.0), vec2(PIECE));
 }
 
-// How far a corner hangs down, of how high the sheet lies: on sides of the tile that face the eye. It tells what hangs down from
-// the sheet that it begins just under the border, so little that no ground is seen between.
+// How far a corner hangs down, of how high the sheet lies: on sides of the piece that face the eye, and no other piece as high. It
+// tells what hangs down from the sheet that it begins just under the border, so little that no ground is seen between.
 const float JUST_UNDER = 0.001;
 
 float hangs(vec2 at) {
     vec2 off = corner - above_border();
-    return dot(off, eye.xz - at) <= 0.0 ? 0.0 : dot(off, off) < 1.0 ? JUST_UNDER : 1.0;
+    int side = off.y < 0.0 ? LOW_Z : off.y > 0.0 ? HIGH_Z : off.x < 0.0 ? LOW_X : HIGH_X;
+    return (int(piece.z) & side) == 0 || dot(off, eye.xz - at) <= 0.0 ? 0.0 : dot(off, off) < 1.0 ? JUST_UNDER : 1.0;
 }
 
 vec3 on_ground(vec2 at) {

@@ -28,24 +28,25 @@ from .air import Air
 from .edges import Edges
 from .found import Found
 from .ground import DENSE, OUTLINE, RAISED, THIN, GroundPainter
+from .pieces import ByLayer, Parted, by_layer, part, whole
 from .pool import CarpetKept
 from .stock import CarpetStock
 from .textures import bent_texture, carpet_texture, sending_carpet
 from .tiles import (
     GRID,
     Tiles,
-    by_layer,
     finest_spacing,
     ground_tiles,
     meets_terrain,
     on_terrain,
+    records_of,
     tiles_around,
-    tiles_seen,
+    which_seen,
     within,
 )
 
-TilesSeen = list[NDArray[np.void]]
-"""Tiles by the layer that draws them, as `by_layer` has them."""
+AT_RIMS = 1.0
+"""How far grid points are from their places at rims of cliffs at most, where they are farthest apart [grid points]."""
 
 STEP = 0.4
 """How far the eye goes before tiles are chosen anew, in sides of the finest."""
@@ -58,7 +59,8 @@ class CarpetPainter(RepresentationPainter):
         self._ground, self._spacing = ground, finest_spacing(ground.terrain, ground.patch)
         self._whole_to = canvas.reach[-2] - int(border_of(canvas.reach[-2])) - 1
         self._units = canvas.units
-        self._around, self._seen = Remembered[Tiles](), Remembered[TilesSeen]()
+        self._around, self._seen = Remembered[Tiles](), Remembered[ByLayer]()
+        self._parted = Remembered[Parted]()
         self._edges, self._tallest = Edges(), 0.0
         self._rims, self._rims_sent = Found.of(ground.terrain).rims, -1
         self._laid = Remembered[Bytes]()
@@ -162,9 +164,6 @@ class CarpetPainter(RepresentationPainter):
         asked = outlook.noted(Asked, Asked())
         goes_on, self._deep = "beyond" in asked.parts, asked.is_deep
         mown = outlook.noted(Mown, None)
-        terrain = self._ground.terrain
-        dug = 0 if terrain.holes is None else terrain.changes.count
-        changes = 0 if mown is None else mown.strokes, self._ground.density.sown.count, dug
         made_of = (
             self._ground,
             viewer.eye,
@@ -173,7 +172,7 @@ class CarpetPainter(RepresentationPainter):
             cover is None,
             bare_to,
             goes_on,
-            changes,
+            *self._changes(mown),
             *self._windows,
         )
         shelf = self.ground.shelves.of(viewer.name, outlook)
@@ -194,20 +193,35 @@ class CarpetPainter(RepresentationPainter):
         """Write the depth at which grass stops light from a place [m]; return the number of draw calls."""
         return self.ground.cast(light)
 
-    def _tiles(self, viewer: Viewer, bare_to: int | None, mown: Mown | None, *, goes_on: bool) -> TilesSeen:
+    def _tiles(self, viewer: Viewer, bare_to: int | None, mown: Mown | None, *, goes_on: bool) -> ByLayer:
         """Return the tiles that a viewer sees, by layer.
 
         Up to the discrete distance `bare_to` there is no carpet on the terrain; None is everywhere. Tiles beyond the
         terrain are left out unless ground `goes_on` there.
         """
-        tiles = tiles_seen(self._tiles_around(viewer), viewer.eye, viewer.cone)
+        around = self._tiles_around(viewer)
+        seen = which_seen(around, viewer.eye, viewer.cone)
+        tiles = records_of(around, seen)
         if not goes_on:
-            tiles = tiles[meets_terrain(tiles, self._ground.terrain)]
+            meets = meets_terrain(tiles, self._ground.terrain)
+            tiles, seen = tiles[meets], seen[meets]
         bare = on_terrain(tiles, self._ground.terrain)
         if bare_to is not None:
             bare &= within(tiles, viewer.centre, patch=self._ground.patch, reach=bare_to)
-        squares = tiles["tile"][:, :3] * (1.0, 1.0, GRID)
-        return by_layer(tiles, ~bare, self._edges.at(self._ground, mown, self._tallest, squares))
+        return by_layer(tiles, ~bare, self._parted_by(around, viewer, mown).of(seen), viewer.eye)
+
+    def _parted_by(self, around: Tiles, viewer: Viewer, mown: Mown | None) -> Parted:
+        """Return which pieces of the tiles all around have edges: the same as long as these and the edges are."""
+        touches = partial(self._edges.at, self._ground, mown, self._tallest)
+        wider, off = self.ground.wider, AT_RIMS if self._rims.any else 0.0
+        make = partial(part, around, touches, wider=wider, off=off)
+        return self._parted.of(viewer.name, (around, self._ground, *self._changes(mown), off), make)
+
+    def _changes(self, mown: Mown | None) -> tuple[int, int, int]:
+        """Return how often edges may have changed: by cutting, by sowing and clearing, and by digging."""
+        terrain = self._ground.terrain
+        dug = 0 if terrain.holes is None else terrain.changes.count
+        return 0 if mown is None else mown.strokes, self._ground.density.sown.count, dug
 
     def _tiles_around(self, viewer: Viewer) -> Tiles:
         """Return the tiles all around: the same as long as the eye stays about where it is."""
@@ -221,7 +235,7 @@ class CarpetPainter(RepresentationPainter):
             spacing=self._spacing,
             about=step * HALF_DIAGONAL,
             rims=rims,
-            parted=self.ground.is_wide,
+            parted=self.ground.wider > 1,
         )
         return self._around.of(viewer.name, (self._ground, place, *self._windows), make)
 
@@ -248,7 +262,7 @@ class CarpetPainter(RepresentationPainter):
         """Send a carpet that lies everywhere, at this part of the height of the grass."""
         viewer, rims = outlook.viewer, self._rims if self._rims.any else None
         tiles = ground_tiles(self._ground.terrain, viewer.eye, viewer.cone, spacing=self._spacing, rims=rims)
-        self.ground.write(by_layer(tiles, np.ones(len(tiles), np.bool_), np.zeros(len(tiles), np.bool_)))
+        self.ground.write(by_layer(tiles, np.ones(len(tiles), np.bool_), whole(tiles), viewer.eye))
         everywhere = np.full(len(outlook.patches.progress), 255, np.uint8)
         self.ground.write_shares(everywhere)
         self.ground.look_from(viewer, beyond=1.0)

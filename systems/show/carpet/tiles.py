@@ -5,16 +5,18 @@ from math import cos, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Mask
 from ....engine.terrain.record import Terrain
 from ...space.cone import HALF_DIAGONAL, beyond_cone
 from .rims import Rims
 
 Tiles = NDArray[np.float64]
 
-TILE = np.dtype([("tile", "4f4")])
+TILE = np.dtype([("tile", "4f4"), ("piece", "3f4")])
 GRID = 8
 """Quads along a side of a tile."""
+
+PIECE = 2
+"""Quads along a side of a piece of one: as few as one may have whose points are twice as far apart."""
 
 FINE, COARSENESS = 1.25, 0.3
 """Largest distance between grid points near the viewer: on cells of 1 m and more, and on the smallest cells [m]."""
@@ -29,8 +31,13 @@ OUTWARD = np.array([False, True, True, False])
 ORDERS = 8
 """Orders in which the triangles of a tile are drawn."""
 
-GLSL = {"PARTED": 1.5 * SPREAD * GRID, "GRID": float(GRID)}
+PARTED = 1.5 * SPREAD * GRID
 """How far tiles reach at least, of their spacing, that are a quarter of one."""
+
+HANGS = 1, 2, 4, 8
+"""What `piece` of `TILE` has for sides of a piece whose border hangs down: to low z, high z, low x and high x."""
+
+GLSL = {"PARTED": PARTED, "PIECE": float(PIECE)} | dict(zip(("LOW_Z", "HIGH_Z", "LOW_X", "HIGH_X"), HANGS, strict=True))
 
 
 def tiles_around(
@@ -88,13 +95,22 @@ def _in_four(corners: Tiles, side: float) -> Tiles:
 
 def tiles_seen(tiles: Tiles, eye: tuple[float, float, float], cone: tuple[float, float], /) -> NDArray[np.void]:
     """Return those of `tiles_around` (n, 4) that may be seen, records of `TILE`, far to near."""
+    return records_of(tiles, which_seen(tiles, eye, cone))
+
+
+def which_seen(tiles: Tiles, eye: tuple[float, float, float], cone: tuple[float, float], /) -> NDArray[np.intp]:
+    """Return the numbers of those of `tiles_around` (n, 4) that may be seen, far to near."""
     side = tiles[:, 2] * GRID
     x, z = tiles[:, 0] + 0.5 * side, tiles[:, 1] + 0.5 * side
     seen = (beyond_cone(x, z, apex=(eye[0], eye[2]), cone=cone) <= 0.75 * side).nonzero()[0]
     across, along = x.take(seen) - eye[0], z.take(seen) - eye[2]
-    order = seen.take(np.argsort(-(across * across + along * along)))
-    found = np.zeros(len(order), TILE)
-    found["tile"] = tiles.take(order, axis=0)
+    return seen.take(np.argsort(-(across * across + along * along)))
+
+
+def records_of(tiles: Tiles, which: NDArray[np.intp], /) -> NDArray[np.void]:
+    """Return some of `tiles_around` (n, 4) whole, records of `TILE`."""
+    found = np.zeros(len(which), TILE)
+    found["tile"] = tiles.take(which, axis=0)
     return found
 
 
@@ -150,30 +166,31 @@ def _nearest(corners: Tiles, side: float, place: tuple[float, float]) -> Tiles:
     return away
 
 
-def tile_grid(wider: int = 1, /) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
-    """Return a tile's grid points (n, 2), and the corners of its triangles among them, (m, 6).
+def tile_grid(wider: int = 1, /, *, quads: int = GRID) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+    """Return the grid points (n, 2) of a tile, or of a piece of fewer quads, and the corners of its triangles, (m, 6).
 
     Corners are `wider` grid points apart.
     """
-    line, quads = np.arange(GRID + 1), np.arange(0, GRID, wider)
+    line, firsts = np.arange(quads + 1), np.arange(0, quads, wider)
     corners = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2).astype(np.float32)
-    first, up = (quads[:, None] * (GRID + 1) + quads).reshape(-1, 1), wider * (GRID + 1)
+    first, up = (firsts[:, None] * (quads + 1) + firsts).reshape(-1, 1), wider * (quads + 1)
     quad = np.array([0, up, wider, wider, up, up + wider])
     return corners, (first + quad).astype(np.int32)
 
 
-def hanging_grid(wider: int = 1, /) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+def hanging_grid(wider: int = 1, /, *, quads: int = GRID) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
     """Return the same with a border that hangs down: its lower corners lie beyond the grid."""
-    corners, quads = tile_grid(wider)
-    line, beyond = np.arange(GRID + 1.0), list[NDArray[np.float32]]()
+    corners, triangles = tile_grid(wider, quads=quads)
+    line, beyond = np.arange(quads + 1.0), list[NDArray[np.float32]]()
     for off in (0.5, 1.0):  # just under the border, and on the ground
         for axis in (0, 1):
-            beyond += [np.insert(line[:, None], 1 - axis, end, axis=1).astype(np.float32) for end in (-off, GRID + off)]
-    upper = len(corners) + (GRID + 1) * np.arange(4)[:, None] + np.arange(0, GRID, wider)
-    lower = upper + 4 * (GRID + 1)
+            ends = (-off, quads + off)
+            beyond += [np.insert(line[:, None], 1 - axis, end, axis=1).astype(np.float32) for end in ends]
+    upper = len(corners) + (quads + 1) * np.arange(4)[:, None] + np.arange(0, quads, wider)
+    lower = upper + 4 * (quads + 1)
     first, other = np.where(OUTWARD[:, None], upper, lower), np.where(OUTWARD[:, None], lower, upper)
     hangs = np.stack([first, other, first + wider, first + wider, other, other + wider], axis=-1).reshape(-1, 6)
-    return np.concatenate([corners, *beyond]).astype(np.float32), np.concatenate([quads, hangs]).astype(np.int32)
+    return np.concatenate([corners, *beyond]).astype(np.float32), np.concatenate([triangles, hangs]).astype(np.int32)
 
 
 def in_orders(corners: NDArray[np.float32], triangles: NDArray[np.int32], /) -> NDArray[np.int32]:
@@ -194,23 +211,3 @@ def order_toward(azimuth: float, /) -> int:
     """
     right, back = sin(azimuth), -cos(azimuth)
     return (right > 0.0) + 2 * (back > 0.0) + 4 * (abs(right) > abs(back))
-
-
-def by_layer(tiles: NDArray[np.void], laid: Mask, edged: Mask, /) -> list[NDArray[np.void]]:
-    """Return which tiles (n,) each layer draws, by where carpet may lie and where grass ends or is cut, (n,) each.
-
-    These are bare ground, the carpet and what is under it, and of edged tiles all ground, and the carpet. Those
-    that adjoin edged ones have bare ground as well: what lies under their carpet ends above the ground there.
-    """
-    even = laid & ~edged
-    bare = ~(laid | edged) | even & adjoining(tiles, edged)
-    return [tiles[chosen] for chosen in (bare, even, edged, laid & edged)]
-
-
-def adjoining(tiles: NDArray[np.void], some: Mask, /) -> Mask:
-    """Return which tiles (n,) have a border with, or a corner of, `some` of them, (n,)."""
-    low, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
-    high, near = low + side + 1e-3, np.zeros(len(tiles), np.bool_)
-    for one, other in zip(low[some], high[some], strict=True):
-        near |= ((low <= other) & (high >= one)).all(axis=1)
-    return near

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from itertools import product
 from math import pi
 
 import moderngl
@@ -25,7 +24,6 @@ from tallgrass.systems.show.carpet.rims import NOWHERE, Rims
 from tallgrass.systems.show.carpet.tiles import (
     GRID,
     TILE,
-    by_layer,
     finest_spacing,
     ground_tiles,
     tiles_around,
@@ -146,27 +144,6 @@ def test_t1_the_ground_near_the_viewer_is_as_fine_as_the_terrain_whatever_the_pa
     assert np.log2(patch / spacing) % 1.0 == 0.0
 
 
-def test_t1_beside_ground_whose_grass_ends_there_is_ground_below_all_grass_too() -> None:
-    tiles = ground_tiles(WIDE, (0.0, 1.7, 0.0), ALL_ROUND, spacing=SPACING)
-    low, side = tiles["tile"][:, :2], tiles["tile"][:, 2] * GRID
-    edged = covering_one(tiles, (31.0, 11.0))
-    beside = np.zeros(len(tiles), np.bool_)
-    for x, z in product(np.linspace(-0.55, 0.55, 23), repeat=2):  # a square that is a little larger than that tile
-        beside |= covering_one(tiles, low[edged][0] + side[edged][0] * np.array((0.5 + x, 0.5 + z)))
-    beside &= ~edged
-    bare, even, _, carpet = by_layer(tiles, np.ones(len(tiles), np.bool_), edged)
-    assert len(bare) == beside.sum() >= 5
-    assert (bare == tiles[beside]).all()
-    assert len(even) == len(tiles) - 1
-    assert len(carpet) == 1
-
-
-def covering_one(tiles: NDArray[np.void], place: tuple[float, float] | NDArray[np.floating]) -> NDArray[np.bool_]:
-    """Whether each of the tiles (n,) is over a place (x, z)."""
-    low, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
-    return np.asarray(((low <= place) & (low + side > place)).all(axis=1))
-
-
 def test_no_tile_is_within_a_negative_reach() -> None:
     tiles = ground_tiles(WIDE, (1.0, 1.7, 2.0), ALL_ROUND, spacing=SPACING)
     assert not within(tiles, np.zeros(2, np.int32), patch=25.0, reach=-1).any()
@@ -208,7 +185,7 @@ def corners(
                 made[name] = unit
         points = (GRID + 1) ** 2
         rows, result = ctx.buffer(tiles), ctx.buffer(reserve=12 * points * len(tiles))
-        array = ctx.vertex_array(made, [(grid, "2f", "corner"), (rows, "4f/i", "tile")])
+        array = ctx.vertex_array(made, [(grid, "2f", "corner"), (rows, "4f 3f/i", "tile", "piece")])
         array.transform(result, moderngl.POINTS, vertices=points, instances=len(tiles))
         found = np.frombuffer(result.read(), np.float32).reshape(len(tiles), GRID + 1, GRID + 1, 3)
         release_all(array, rows, result)
