@@ -1,20 +1,19 @@
 """A tree that has grown, as one GL context holds it, and the streams of those that are drawn as it is."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles, Mask
 from ...engine.gl.records import Records
 from ...engine.gl.stream import Stream, release_all
 from .bark import RUNS, SENT, sent
 from .lies import Lies
 from .model import Model
 from .outline import NOWHERE
-from .shells import SHELLS, Shells
-from .standing import COLUMN, HUNG, LEAFY, PLACED, SHOWN, TOLD
+from .shells import SHELLS
+from .standing import COLUMN, HUNG, LEAFY, SHOWN, TOLD
 from .twig import RANKS, ROW, TWIG
 from .wood import Parts, parts
 
@@ -52,6 +51,11 @@ SHELL_OF = {
     **{name: max(number - len(RUNS), 0) for number, name in enumerate(WOODS)},
 }  # fmt: skip
 """The shell of grass in which the trees of each stream stand: 0 beyond all of it; single leaves are before it."""
+
+STREAMS = (LEAVES, *CARDS, *WOODS, FAR, *BACKS)
+"""All streams of a model: of trees that are equally far off, those of the first ones are drawn first."""
+
+FIRST_OF = {name: number for number, name in enumerate(STREAMS)}
 
 ROOM = 16
 """Trees for which a stream has room at first: there are many streams, and most have few trees."""
@@ -91,8 +95,6 @@ class ModelOnCard:
         self.streams[LEAVES] = Stream(ctx, LEAFY)
         self.told = {id(each): Stream(ctx, TOLD, rows=ROOM) for each in self.streams.values()}
         """What is made out of the trees of each stream once a tree, by the stream's id."""
-        self.placed = {name: np.zeros(0, PLACED) for name in self.streams}
-        """Where the trees of each stream stand."""
         self.hung = {name: Stream(ctx, HUNG) for name in (*CARDS, LEAVES)}
         """What is made out of each twig of their trees once a twig."""
         self.most = dict.fromkeys(self.streams, 0)
@@ -119,65 +121,36 @@ class ModelOnCard:
         ]
         return self.vertices, " ".join(kept), *(name for name in names if name in program)
 
-    def write(
-        self, near: NDArray[np.void], wide: Doubles, leafy: NDArray[np.void], far: NDArray[np.void], shells: Shells
-    ) -> None:
-        """Send trees that are drawn near by, the nearest first, twigs of them that are leaf by leaf, and those far off.
-
-        `wide` is the radius of a stem of the model that is a pixel wide, where each is nearest, shape (n,); `shells`
-        are those that both stand in.
-        """
-        self._write_wood(near, wide, shells)
-        self._send(FAR, far)
-        for name, own in self._parted(BACKS, shells.far):
-            self._send(name, far[own][::-1])
-        self._send(LEAVES, leafy)
-        self.most[LEAVES] = 1
-        drawn = near["keep"] * (1.0 - near["gone"])
-        group = (drawn[:, None] < SHARES).sum(axis=1)
-        beyond = shells.near == 0
-        if (group[beyond] == len(SHARES)).sum() < TOO_FEW:
-            group = np.minimum(group, len(SHARES) - 1)
-        group = np.where(beyond, group, len(SHARES) + shells.near)
-        for name, own in self._parted(CARDS, group):
-            self._write_cards(name, near[own])
-
-    def _parted(self, names: tuple[str, ...], number: NDArray[np.intp]) -> Iterator[tuple[str, Mask]]:
-        """Yield streams, and which trees come into each by its `number`, shape (n,), but for those that stay empty."""
-        trees = np.bincount(number, minlength=len(names)).tolist()
-        for own, (name, some) in enumerate(zip(names, trees, strict=True)):
-            if some or self.streams[name].count:
-                yield name, number == own
-
-    def _write_wood(self, near: NDArray[np.void], wide: Doubles, shells: Shells) -> None:
-        run = np.searchsorted(RUNS, wide)
-        for name, own in self._parted(WOODS, np.where(shells.near == 0, run, len(RUNS) + shells.near)):
-            self._send(name, near[own])
-            if own.any():
-                self.run[name] = finest = int(run[own].min())
-                self.wood[name] = parts(self.model.wood[finest].radii, wide[own], near[own])
-
-    def _send(self, name: str, rows: NDArray[np.void]) -> None:
+    def write(self, name: str, rows: NDArray[np.void]) -> None:
+        """Send what is in a stream: trees, or twigs of them."""
         stream = self.streams[name]
         stream.write(rows)
         self.told[id(stream)].room(len(rows))
-        self.placed[name] = placed = np.zeros(len(rows), PLACED)
-        placed["root"], placed["crown_at"] = rows["root"], rows["scale"] * np.float32(self.model.middle)
-        placed["phase"], placed["hertz"] = rows["phase"], self.model.hertz / np.sqrt(rows["scale"])
 
-    def _write_cards(self, name: str, rows: NDArray[np.void]) -> None:
-        self._send(name, rows)
-        of_tree = rows["keep"] * (1.0 - rows["gone"])
-        share, twigs = float((of_tree * rows["foliage"]).max(initial=0.0)), len(self.model.twigs)
-        self.most[name] = twigs if of_tree.max(initial=0.0) >= SHARES[0] else drawn_of(twigs, share)
+    def empty(self, name: str) -> None:
+        """Have nothing in a stream."""
+        stream = self.streams[name]
+        for each in (stream, self.told[id(stream)], self.hung.get(name, stream)):
+            each.room(0)
 
-    def rehearse(self) -> None:
-        """Have a tree to draw in every way that there is."""
-        for name, stream in self.streams.items():
-            if not stream.count:
-                self._send(name, self._alone if name == LEAVES else self._alone[[*(SHOWN.names or ())]].astype(SHOWN))
-                self.most[name] = 1
-                self.wood[name] = Parts(1, 1)
+    def show_wood(self, name: str, wide: float, foliage: float) -> None:
+        """Draw as much wood of a stream's trees as `parts` has it."""
+        self.run[name] = run = int(np.searchsorted(RUNS, wide))
+        self.wood[name] = parts(self.model.wood[run].radii, wide, foliage)
+
+    def show_cards(self, name: str, keep: float, leaves: float) -> None:
+        """Draw so many twigs of a stream's trees: the greatest share of any, and of the leaves of any."""
+        twigs = len(self.model.twigs)
+        self.most[name] = twigs if keep >= SHARES[0] else drawn_of(twigs, leaves)
+
+    def rehearse(self) -> list[str]:
+        """Have a tree to draw in every way that there is; return the streams that have got one."""
+        empty = [name for name, stream in self.streams.items() if not stream.count]
+        for name in empty:
+            self.write(name, self._alone if name == LEAVES else self._alone[[*(SHOWN.names or ())]].astype(SHOWN))
+            self.most[name] = 1
+            self.wood[name] = Parts(1, 1)
+        return empty
 
     def release(self) -> None:
         """Give everything back."""

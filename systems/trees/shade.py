@@ -127,13 +127,12 @@ class ShadeMap:
         if self._standing is standing and self._streams:
             return
         self._standing = standing
-        for kind_number, kind in enumerate(kinds):
-            for model_number, model in enumerate(kind.models):
-                own = standing.of(kind_number, model_number)
-                own = own[own["ring"] < 2]  # what is farther off shades nothing that is seen to be shaded
-                if id(model) not in self._streams:
-                    self._streams[id(model)] = Stream(self._ctx, SHOWN)
-                self._streams[id(model)].write(shown(own, np.zeros(len(own)), model.model.height, 0.0))
+        for number, model in enumerate(model for kind in kinds for model in kind.models):
+            own = standing.of(number)
+            own = own[own["ring"] < 2]  # what is farther off shades nothing that is seen to be shaded
+            if id(model) not in self._streams:
+                self._streams[id(model)] = Stream(self._ctx, SHOWN)
+            self._streams[id(model)].write(shown(own, np.float32(model.model.height), np.float32(0.0)))
 
     def release(self) -> None:
         """Give everything back."""

@@ -1,7 +1,6 @@
 """Shells of grass about the eye: trees in one are drawn together, and their soft edges come after the same grass."""
 
 from math import ceil, inf, log
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,33 +14,20 @@ SHELLS = 7
 """Shells that have trees of their own. The nearest goes to the eye: up to a quarter of its way, grass is blades."""
 
 
-class Shells(NamedTuple):
-    """The shells that trees of a model stand in: 0 beyond all grass that stands, and then from far to near."""
+def shells_of(off: Doubles, reach: float, /) -> NDArray[np.intp]:
+    """Return the shells of trees so far off along the ground, shape (n,) [m]; grass stands up to `reach` [m].
 
-    near: NDArray[np.intp]
-    """Those of trees that are drawn near by, shape (n,)."""
-
-    far: NDArray[np.intp]
-    """And of those that are drawn as far off, shape (m,)."""
-
-
-def shells_of(near: Doubles, far: Doubles, reach: float, /) -> Shells:
-    """Return the shells of trees so far off along the ground, shapes (n,) and (m,) [m]; grass stands up to `reach` [m].
-
-    They end at powers of `SHELL`, and stay where they are while the grass ends elsewhere: trees change theirs seldom.
+    They are 0 beyond all grass that stands, and then from far to near. They end at powers of `SHELL`, and stay where
+    they are while the grass ends elsewhere: trees change theirs seldom.
     """
     outmost = ceil(log(reach) / -log(SHELL)) if reach > 0.0 else 0
     ends = SHELL ** (np.arange(SHELLS) - outmost)
-
-    def within(off: Doubles) -> NDArray[np.intp]:
-        return np.where(off < reach, (off[:, None] < ends).sum(axis=1), 0)
-
-    return Shells(within(near), within(far))
+    return np.where(off < reach, (off[:, None] < ends).sum(axis=1), 0)
 
 
-def farthest_of(shell: int, off: Doubles, /) -> float:
-    """Return how far off trees count as at most [m], which all stand in a shell, so far off along the ground (n,) [m].
+def farthest_of(shell: int, off: float, /) -> float:
+    """Return how far off trees count as at most [m], which all stand in a shell, up to so far off along the ground [m].
 
     That is infinite beyond all grass, and 0 for single leaves, which are before it.
     """
-    return {0: inf, SHELLS + 1: 0.0}.get(shell, float(off.max()))
+    return {0: inf, SHELLS + 1: 0.0}.get(shell, off)

@@ -5,8 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles
-from ...engine.declared.scene import MOST_TREES
+from ...components.arrays import Doubles, Floats
 from ...engine.random import hash3, stream, unit
 from .far import LINES
 from .model import MODELS
@@ -79,6 +78,7 @@ class Standing:
     """Records of `STANDING`, shape (n,)."""
 
     _sorted: list[NDArray[np.void]] = field(default_factory=list, init=False)
+    _models: list[NDArray[np.intp]] = field(default_factory=list, init=False)
     _usual: list[float] = field(default_factory=list, init=False)
     _rings: list[int] = field(default_factory=list, init=False)
 
@@ -98,14 +98,20 @@ class Standing:
             self._rings.append(int(self.rows["ring"].max(initial=0)))
         return self._rings[0] > 1
 
-    def of(self, kind: int, model: int, /) -> NDArray[np.void]:
-        """Return those of a model of a kind, by their numbers, records of `STANDING`."""
+    def by_model(self) -> tuple[NDArray[np.void], NDArray[np.intp]]:
+        """Return all of them, model after model, and the number of each one's model, of all models of all kinds."""
         if not self._sorted:
-            number = self.rows["kind"] * MODELS + self.rows["model"]
+            number = (self.rows["kind"] * MODELS + self.rows["model"]).astype(np.intp)
             order = np.argsort(number, kind="stable")
-            ends = np.searchsorted(number[order], np.arange(1, MOST_TREES * MODELS))
-            self._sorted.extend(np.split(self.rows[order], ends))
-        return self._sorted[kind * MODELS + model]
+            self._sorted.append(self.rows[order])
+            self._models.append(number[order])
+        return self._sorted[0], self._models[0]
+
+    def of(self, model: int, /) -> NDArray[np.void]:
+        """Return those of a model, by its number of all, records of `STANDING`."""
+        rows, number = self.by_model()
+        first, end = np.searchsorted(number, (model, model + 1))
+        return rows[first:end]
 
 
 def tell_apart(rows: NDArray[np.void], /) -> None:
@@ -116,20 +122,25 @@ def tell_apart(rows: NDArray[np.void], /) -> None:
     rows["phase"], rows["tint"] = unit(stream(own, 2)), 2.0 * unit(stream(own, 3)) - 1.0
 
 
-def shown(rows: NDArray[np.void], pixels: Doubles, height: float, variety: float, /) -> NDArray[np.void]:
-    """Return what shaders are told of trees of one model, whose own height is so much [m], records of `SHOWN`.
+def shown(rows: NDArray[np.void], height: Floats | np.float32, variety: Floats | np.float32, /) -> NDArray[np.void]:
+    """Return what shaders are told of trees far off, records of `SHOWN`.
 
-    `pixels` are how high each stands in the picture, shape (n,); `variety` is how far they differ in brightness.
+    Their models' own heights are so much [m]; `variety` is how far they differ in brightness, both of shape (n,) or ().
     """
     told = np.zeros(len(rows), SHOWN)
-    told["root"], told["scale"] = rows["root"], rows["height"] / np.float32(height)
+    told["root"], told["scale"] = rows["root"], rows["height"] / height
     told["turn"] = np.stack([np.cos(rows["yaw"]), np.sin(rows["yaw"])], axis=1)
     told["phase"], told["foliage"] = rows["phase"], rows["foliage"]
     told["tint"] = 1.0 + variety * rows["tint"]
-    told["keep"] = np.clip((pixels / WHOLE) ** FEWER_BY, FEWEST, 1.0)
-    told["gone"] = np.clip((BEGINS - pixels) / (BEGINS - GONE), 0.0, 1.0)
+    told["keep"], told["gone"] = FEWEST, 1.0
     told["columns"] = told["shows"] = 1.0
     return told
+
+
+def come_near(told: NDArray[np.void], pixels: Doubles, /) -> None:
+    """Write how much is drawn of trees, records of `SHOWN`, that stand so high in a picture, shape (n,) [pixels]."""
+    told["keep"] = np.clip((pixels / WHOLE) ** FEWER_BY, FEWEST, 1.0)
+    told["gone"] = np.clip((BEGINS - pixels) / (BEGINS - GONE), 0.0, 1.0)
 
 
 def shows(ring: NDArray[np.integer], off: Doubles, /) -> Doubles:

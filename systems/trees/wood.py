@@ -3,7 +3,6 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 
@@ -73,15 +72,14 @@ def nearest_ahead(clip: Doubles, middle: Doubles, eye: Doubles, reach: Doubles, 
     return np.asarray(np.maximum(ahead, off / np.linalg.norm(corners, axis=0).max()))
 
 
-def parts(radii: Doubles, wide: Doubles, rows: NDArray[np.void], /) -> Parts:
-    """Return what is drawn of the wood of trees, records of `SHOWN`.
+def parts(radii: Doubles, wide: float, foliage: float, /) -> Parts:
+    """Return what is drawn of the wood of trees that have so many of their leaves, or more.
 
     `radii` are those of the model's triangles, as `Wood` has them; `wide` is the radius of one that is a pixel wide,
-    where each tree is nearest, shape (n,) [m of the model].
+    where a tree is nearest [m of the model].
     """
 
     def so_thick(radius: float) -> int:
         return len(radii) - int(np.searchsorted(radii, radius))
 
-    nearest, leafy = float(wide.min()), float(rows["foliage"].min()) >= LEAFY
-    return Parts(so_thick(OPAQUE * nearest), so_thick(THINS[0] * nearest) if leafy else len(radii))
+    return Parts(so_thick(OPAQUE * wide), so_thick(THINS[0] * wide) if foliage >= LEAFY else len(radii))

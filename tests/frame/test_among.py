@@ -85,13 +85,12 @@ def test_n3_trees_behind_change_nothing_of_the_order_in_which_a_trees_edges_and_
 
 def test_trees_stand_in_shells_of_grass_that_stay_where_they_are_while_it_ends_elsewhere() -> None:
     off = np.array([3.0, 20.0, 30.0, 47.9, 48.1, 59.0, 61.0, 90.0])
-    near, far = shells_of(off, off, 60.0)
-    assert np.array_equal(near, far)
-    assert near.tolist() == sorted(near, reverse=True)
-    assert near[-2:].tolist() == [0, 0]
+    shells = shells_of(off, 60.0)
+    assert shells.tolist() == sorted(shells, reverse=True)
+    assert shells[-2:].tolist() == [0, 0]
     for shell in range(1, SHELLS):
-        assert off[near == shell].min(initial=60.0) >= SHELL * off[near == shell].max(initial=0.0)
-    together = near[:, None] == near
-    elsewhere = shells_of(off, off, 70.0).near
+        assert off[shells == shell].min(initial=60.0) >= SHELL * off[shells == shell].max(initial=0.0)
+    together = shells[:, None] == shells
+    elsewhere = shells_of(off, 70.0)
     assert np.array_equal((elsewhere[:, None] == elsewhere)[:6, :6], together[:6, :6])
-    assert not shells_of(off, off, 0.0).near.any()
+    assert not shells_of(off, 0.0).any()

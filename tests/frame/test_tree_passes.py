@@ -1,6 +1,6 @@
 """What each pass of trees draws, and what its calls are told (F3, N6)."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import moderngl
 import numpy as np
@@ -8,8 +8,10 @@ import pytest
 
 from tallgrass import Prairie
 from tallgrass.engine.camera import Camera
-from tallgrass.systems.trees.call import Call
+from tallgrass.systems.trees.call import Drawn, Pass, draw
+from tallgrass.systems.trees.card import Numbers
 from tallgrass.systems.trees.draw import TreePart
+from tallgrass.systems.trees.programs import HARD
 from tallgrass.systems.trees.wood import CLOSED
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 from tallgrass.testing.little import SPARSE
@@ -56,13 +58,13 @@ def asked_for(
     def draw_soft(beyond: float) -> int:
         del beyond
         with monkeypatch.context() as meanwhile, query:
-            meanwhile.setattr("tallgrass.systems.trees.draw.CLOSED", NOTHING_IS_OPAQUE)
+            meanwhile.setattr("tallgrass.systems.trees.call.CLOSED", NOTHING_IS_OPAQUE)
             vars(part)["_calls"].clear()
             part.begin_soft()
             return TreePart.draw_soft(part)
 
     with monkeypatch.context() as meanwhile:
-        meanwhile.setattr("tallgrass.systems.trees.draw.CLOSED", opaque_from)
+        meanwhile.setattr("tallgrass.systems.trees.call.CLOSED", opaque_from)
         meanwhile.setattr(part, "draw_soft", draw_soft)
         vars(part)["_calls"].clear()
         stage.shot(prairie, FAR_OFF)
@@ -82,38 +84,41 @@ def test_what_is_told_only_once_is_what_each_call_would_be_told(
     stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Calls leave out what those before them have told and bound."""
+
+    def each_alone(calls: Sequence[Drawn], numbers: Numbers) -> int:
+        for one in calls:
+            for told, *_ in one.call.due:
+                told[0] = None
+        return sum(draw([one], numbers) for one in calls)
+
     first = stage.shot(prairie, FAR_OFF)
+    assert prairie.painter is not None
+    monkeypatch.setattr("tallgrass.systems.trees.draw.draw", each_alone)
+    np.testing.assert_array_equal(stage.shot(prairie, FAR_OFF), first)
+
+
+def test_nothing_that_casts_a_shadow_is_told_that_it_is_farther_off_than_it_is(stage: Stage, prairie: Prairie) -> None:
+    """In a picture wood is, as it hides leaves."""
+    stage.shot(prairie, looking(0.0, 1.7, 4.0, pitch=4.0, view=12.0))
     assert prairie.painter is not None
     calls = vars(prairie.painter.part(TreePart))["_calls"]
 
-    def all_of(some: list[Call]) -> list[Call]:
-        return [each._replace(begins=True) for each in some]
+    def behind(*, casts: bool) -> list[object]:
+        told = [(one.call, one.call.array.program.extra.get("behind")) for one in calls.of(Pass(HARD, casts))]
+        return [value for call, own in told for each, value, _ in call.due if each is own]
 
-    fewer = sum(len(each.due) + len(each.reads) for some in calls.values() for each in some)
-    monkeypatch.setattr("tallgrass.systems.trees.draw.in_turn", all_of)
-    calls.clear()
-    np.testing.assert_array_equal(stage.shot(prairie, FAR_OFF), first)
-    assert 0 < fewer < sum(len(each.due) + len(each.reads) for some in calls.values() for each in some)
+    assert behind(casts=False)
+    assert behind(casts=True) == [(0.0,)] * len(behind(casts=False))
 
 
-def test_soft_edges_are_blended_from_far_to_near_whichever_kind_is_told_first(
-    stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_soft_edges_are_blended_from_far_to_near_whichever_kind_is_told_first(stage: Stage, prairie: Prairie) -> None:
     first = stage.shot(prairie, FAR_OFF)
     assert prairie.painter is not None
-    part = prairie.painter.part(TreePart)
-    listed, kinds = vars(TreePart)["_listed"], vars(part)["_kinds"]
-
-    def listed_backwards(*given: object, **keys: object) -> list[Call]:
-        kinds.reverse()
-        found: list[Call] = listed(part, *given, **keys)
-        kinds.reverse()
-        return found
-
-    monkeypatch.setattr(part, "_listed", listed_backwards)
-    vars(part)["_calls"].clear()
+    calls = vars(prairie.painter.part(TreePart))["_calls"]
+    lots = vars(calls)["_lots"]
+    calls.choose(sorted(lots, key=lambda lot: -lot.model))
     np.testing.assert_array_equal(stage.shot(prairie, FAR_OFF), first)
-    vars(part)["_calls"].clear()
+    calls.choose(lots)
 
 
 def test_nothing_of_trees_is_made_in_a_scene_without_any(ctx: moderngl.Context, stage: Stage) -> None:

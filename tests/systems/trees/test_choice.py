@@ -1,0 +1,168 @@
+"""Which trees a picture has, and in which streams those of all models are that are chosen in one go (F3, N6)."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from tallgrass.components.arrays import Doubles
+from tallgrass.engine.camera import View, projection_matrix, view_matrix
+from tallgrass.systems.space.frustum import picture_sides
+from tallgrass.systems.trees.card import BACKS, CARDS, FAR, LEAVES, SHARES, TOO_FEW, WOODS
+from tallgrass.systems.trees.choice import Choice, Chosen, Look
+from tallgrass.systems.trees.model import MODELS, Model, models_of
+from tallgrass.systems.trees.shells import SHELL
+from tallgrass.systems.trees.standing import GONE, STANDING, Standing
+from tallgrass.testing import looking
+
+PIXELS, REACH = 900.0, 120.0
+CAMERA = looking(0.0, 4.0, 0.0, pitch=5.0, view=45.0)
+EYE = np.array([0.0, 4.0, 0.0])
+
+
+@pytest.fixture(scope="module")
+def models() -> list[Model]:
+    return [*models_of("oak", 3), *models_of("birch", 4)]
+
+
+def a_wood(models: list[Model], *, count: int = 400) -> NDArray[np.void]:
+    """Return trees of all models all around, near by and far off, one as probable as the other."""
+    draw = np.random.default_rng(7)
+    rows, around = np.zeros(count, STANDING), draw.uniform(-np.pi, np.pi, count)
+    off = 3.0 * 400.0 ** draw.random(count)
+    rows["root"][:, 0], rows["root"][:, 2] = off * np.sin(around), off * np.cos(around)
+    rows["kind"], rows["model"] = np.divmod(draw.integers(0, len(models), count), MODELS)
+    rows["height"], rows["foliage"] = draw.uniform(5.0, 15.0, count), draw.uniform(0.3, 1.0, count)
+    rows["yaw"] = around
+    return rows
+
+
+def chosen(
+    rows: NDArray[np.void], models: list[Model], *, reach: float = REACH, leaves_from: float | None = None
+) -> Chosen:
+    view = View(view_matrix(CAMERA), projection_matrix(CAMERA.view, 1.0))
+    look = Look(EYE, picture_sides(view), view.clip.astype(np.float64), PIXELS, reach, leaves_from=leaves_from)
+    return Choice(Standing(rows), models, [0.1] * len(models)).of(look)
+
+
+def by_stream(found: Chosen) -> dict[tuple[int, str], bytes]:
+    """Return what is told of each stream, by the number of its model and its name."""
+    told = {(lot.model, lot.name): rows.tobytes() for lot, rows in zip(found.lots, found.told, strict=True)}
+    assert len(told) == len(found.lots)
+    return told
+
+
+def roots(found: Chosen, model: int, *names: str) -> Doubles:
+    """Return where those stand that are in some streams of a model."""
+    parts = zip(found.lots, found.told, strict=True)
+    some = [rows["root"] for lot, rows in parts if lot.model == model and lot.name in names]
+    return np.concatenate([np.zeros((0, 3)), *some])
+
+
+def test_trees_of_all_models_are_chosen_as_those_of_each_would_be_by_itself(models: list[Model]) -> None:
+    rows = a_wood(models)
+    together = by_stream(chosen(rows, models))
+    assert {model for model, _ in together} == {*range(len(models))}
+    alone = dict[tuple[int, str], bytes]()
+    for number in range(len(models)):
+        alone |= by_stream(chosen(rows[rows["kind"] * MODELS + rows["model"] == number], models))
+    assert together == alone
+
+
+def test_a_tree_is_in_as_many_streams_as_it_is_drawn_in_ways(models: list[Model]) -> None:
+    """With its wood and on cards near by, as a picture far off, from near to far and back, and in all in between."""
+    found = chosen(a_wood(models), models)
+    for model in range(len(models)):
+        cards, wood, far, back = (
+            sorted(map(tuple, roots(found, model, *each))) for each in (CARDS, WOODS, (FAR,), BACKS)
+        )
+        assert len(set(cards)) == len(cards) > 0
+        assert cards == wood
+        assert len(set(far)) == len(far) > 0
+        assert far == back
+    told = np.concatenate([rows for lot, rows in zip(found.lots, found.told, strict=True) if lot.name == FAR])
+    between = {tuple(each["root"]) for each in told if each["gone"] < 1.0}
+    near = {tuple(root) for model in range(len(models)) for root in roots(found, model, *CARDS)}
+    assert between == near & {tuple(each["root"]) for each in told}
+    assert between
+
+
+def test_streams_are_from_near_to_far_and_soft_edges_of_pictures_from_far_to_near(models: list[Model]) -> None:
+    found, seen = chosen(a_wood(models), models), set[bool]()
+    for lot, rows in zip(found.lots, found.told, strict=True):
+        off = np.linalg.norm(rows["root"] - EYE, axis=1)
+        if lot.amount > 1 and lot.name != LEAVES:
+            seen.add(lot.name in BACKS)
+            steps = np.diff(off[::-1] if lot.name in BACKS else off)
+            assert steps.min() > -2.0  # the middle of a tree counts, which is higher on a high one
+    assert seen == {False, True}
+
+
+def test_what_is_placed_and_how_far_off_it_is_is_of_the_trees_of_each_stream(models: list[Model]) -> None:
+    rows_of_all = a_wood(models)
+    found = chosen(rows_of_all, models)
+    height = {tuple(each["root"]): each["height"] for each in rows_of_all}
+    assert sum(lot.amount for lot in found.lots) == len(found.placed)
+    for lot, rows in zip(found.lots, found.told, strict=True):
+        placed = found.placed[lot.first : lot.first + lot.amount]
+        assert np.array_equal(placed["root"], rows["root"])
+        larger = np.array([height[tuple(root)] for root in rows["root"]]) / models[lot.model].height
+        assert np.allclose(rows["scale"], larger)
+        assert np.allclose(placed["crown_at"], larger * models[lot.model].middle)
+        off = np.linalg.norm(placed["root"] + placed["crown_at"][:, None] * (0.0, 1.0, 0.0) - EYE, axis=1)
+        assert (lot.nearest, lot.mean) == pytest.approx((off.min(), off.mean()))
+        assert lot.foliage == rows["foliage"].min()
+        assert lot.keep == (rows["keep"] * (1.0 - rows["gone"])).max()
+
+
+def test_trees_with_fewest_twigs_are_drawn_apart_only_where_they_are_many_of_a_model(models: list[Model]) -> None:
+    counts = TOO_FEW - 1, TOO_FEW
+    rows = a_wood(models, count=sum(counts))
+    rows["kind"], rows["model"] = 0, np.repeat((0, 1), counts)
+    rows["root"], rows["height"] = (0.0, 0.0, -60.0), 60.0 * 1.2 * GONE / PIXELS
+    rows["root"][:, 0] = np.linspace(-3.0, 3.0, len(rows))
+    names = [(lot.model, lot.name) for lot in chosen(rows, models, reach=40.0).lots if lot.name in CARDS]
+    assert names == [(0, CARDS[len(SHARES) - 1]), (1, CARDS[len(SHARES)])]
+
+
+def test_trees_among_the_grass_are_in_streams_by_shells_of_it_and_all_beyond_it_in_others(models: list[Model]) -> None:
+    found, shells = chosen(a_wood(models), models), set[str]()
+    for lot, rows in zip(found.lots, found.told, strict=True):
+        off = np.hypot(rows["root"][:, 0], rows["root"][:, 2])
+        if lot.name in (*CARDS, *WOODS, *BACKS):
+            assert lot.far == (pytest.approx(off.max()) if off.max() < REACH else np.inf)
+            assert off.min() > (SHELL * lot.far if 0.25 * REACH < off.max() < REACH else 0.0)
+            assert off.max() < REACH or off.min() >= REACH
+            shells |= {lot.name} if off.max() < REACH else set()
+    assert all(shells.intersection(names) for names in (CARDS, WOODS, BACKS))
+
+
+def test_twigs_that_are_drawn_leaf_by_leaf_are_of_trees_that_are_near(models: list[Model]) -> None:
+    found = chosen(a_wood(models), models)
+    leaves = [lot for lot in found.lots if lot.name == LEAVES]
+    assert leaves
+    for lot in leaves:
+        of, near = roots(found, lot.model, LEAVES), roots(found, lot.model, *CARDS)
+        assert lot.amount == len(of)
+        assert {*map(tuple, of)} < {*map(tuple, near)}
+        assert np.linalg.norm(of - EYE, axis=1).max() < np.linalg.norm(near - EYE, axis=1).max()
+        assert lot.far == 0.0  # no grass is behind them
+
+
+def test_as_a_reference_has_them_each_tree_that_is_high_enough_is_drawn_with_every_leaf(models: list[Model]) -> None:
+    rows, least = a_wood(models), 100.0
+    found = chosen(rows, models, leaves_from=least)
+    nearer = {tuple(each["root"]) for each in rows if each["height"] * PIXELS > least * np.linalg.norm(each["root"])}
+    for model in range(len(models)):
+        leaves, far = ({*map(tuple, roots(found, model, name))} for name in (LEAVES, FAR))
+        assert leaves & nearer
+        assert far - nearer
+        assert not leaves & far
+
+
+def test_where_no_tree_is_in_the_picture_nothing_is_drawn(models: list[Model]) -> None:
+    behind = a_wood(models)
+    behind["root"][:, 2] = np.abs(behind["root"][:, 2]) + 50.0
+    behind["root"][:, 0] = 0.0
+    for rows in (behind, behind[:0]):
+        found = chosen(rows, models)
+        assert (found.lots, found.told, len(found.placed)) == ([], [], 0)
