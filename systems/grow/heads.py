@@ -31,8 +31,9 @@ _OVERLAP, _OVERLAP_OF_MANY = 1.7, 1.35
 _WIDEST = 1.25
 """Largest width of a petal, as a part of its length."""
 
-_OPENS = 0.45, 1.04
-"""How far the petals of an opening flower, and of one about to drop them, reach out, of what its whorl says."""
+_OPENS, _OPENS_OF_MANY = (0.45, 1.04), (0.8, 0.97)
+"""How far the petals of an opening flower, and of one about to drop them, reach out, of what its whorl says. Those of
+many petals open in a morning and are flat for days."""
 
 _YOUNG = 0.85
 """Length of petals that have just opened, of full-grown ones."""
@@ -101,14 +102,14 @@ def _cup(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.ran
     count = layout.petals
     whorls = BELL if head.form == "bell" else DISC_OF_MANY if count >= MANY else DISC_OF_FEW
     few, ages = len(whorls) == 1, _ages(head, len(size), random)
-    own = np.arange(count) % len(whorls)
+    own, beside, around = _shared_out(count, whorls)
     spread, length = np.array(whorls)[own].T
-    beside = np.bincount(own)[own]
     longest = (size / (2.0 * _REACH * max(spread)))[:, None]
     petal = _petals(longest * length, ages, random, drops=few)
     wide = np.minimum((_OVERLAP if few else _OVERLAP_OF_MANY) * np.pi * spread * petal / beside, _WIDEST * petal)
-    turned = random.uniform(-np.pi, np.pi, (len(size), 1)) + 2.0 * np.pi * np.arange(count) / count
-    opens = np.interp(np.sqrt(ages.of_open), (0.0, 1.0), _OPENS) * random.uniform(0.85, 1.1, turned.shape)
+    turned = random.uniform(-np.pi, np.pi, (len(size), 1)) + around
+    opens = np.interp(np.sqrt(ages.of_open), (0.0, 1.0), _OPENS if few else _OPENS_OF_MANY)
+    opens = opens * random.uniform(0.85, 1.1, turned.shape)
     askew = _askew(len(size), random, nods=ages.shut & ~ages.seeds if few else None)
     bud = longest * np.where(ages.seeds, 0.5, random.uniform(0.5, 0.74, ages.shut.shape))
     organ = np.where(ages.shut, BUD, PETAL if few else STRAP)
@@ -122,6 +123,19 @@ def _cup(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.ran
         width=0.22 * longest, toward=turned[:, :1], spread=0.05, tilt=askew,
     )  # fmt: skip
     return _both(petals, middle)
+
+
+def _shared_out(count: int, whorls: tuple[Whorl, ...], /) -> tuple[NDArray[np.intp], NDArray[np.intp], Doubles]:
+    """Return which whorl each of so many petals is of, how many are in that, and its azimuth (petals,).
+
+    There are more of them the longer a whorl's circle is, so that all are about as wide.
+    """
+    circle = np.array(whorls).prod(axis=1)
+    ends = np.rint(count * circle.cumsum() / circle.sum()).astype(np.intp)
+    each = np.diff(ends, prepend=0)
+    own = np.repeat(np.arange(len(whorls)), each)
+    beside = each[own]
+    return own, beside, 2.0 * np.pi * (np.arange(count) - (ends - each)[own] + 0.5 * own) / beside
 
 
 def _petals(longest: Doubles, ages: _Ages, random: np.random.Generator, /, *, drops: bool) -> Doubles:

@@ -31,6 +31,9 @@ class Organ:
     """How many small things stand along either side of it, as florets do, or the leaves of a twig: teeth of its
     outline, which are drawn where they are seen. Far off and wherever it is painted it has their mean width."""
 
+    ligules: int = 0
+    """How many narrow petals it really is, side by side and of many lengths, as in a dandelion: likewise."""
+
 
 BLADE, STEM, LEAF, FROND, PETAL, EYE, BUD, RAY, TUFT, WITHERED, FLORETS, SPRIG, STRAP = range(13)
 
@@ -47,13 +50,13 @@ ORGANS: Final = (
     Organ((0.5, 0.75, 0.65, 0.4, 0.05), (0.75, 1.0), 0.7),
     Organ((0.5, 0.9, 1.0, 0.8, 0.2), (0.7, 1.0), teeth=6),
     Organ((0.35, 0.8, 1.0, 0.85, 0.3), (0.0, 0.1), teeth=6),
-    Organ((0.4, 0.8, 1.0, 0.8, 0.2), (0.7, 1.0), 0.35),
+    Organ((0.3, 0.7, 0.95, 1.0, 0.6), (0.7, 1.0), 0.35, ligules=10),
 )
 """By number. `LEAF` belongs to a plant with a head, whose colour is the tip's, and `FROND` to one without. `EYE` is the
 middle of an open head, `RAY` one of an umbel's, whose florets are its end; plumes are made of `TUFT`. `WITHERED` grass
 is as pale as tips are, thinner, and stiffer. `FLORETS` are some of a spike's, one above another, and a `SPRIG`
 a shrub's short twig with its leaves. Both give way as what they stand on does, and so stay close to it. `STRAP` is
-what a disc of many petals is made of: narrow and pointed, as in dandelions and daisies."""
+what a disc of many petals is made of: some narrow ones beside one another, as in dandelions and daisies."""
 
 HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT, FLORETS, STRAP)
 """Those that heads are made of."""
@@ -66,6 +69,9 @@ TONES: Final = np.array([organ.tones for organ in ORGANS])
 
 TEETH: Final = np.array([organ.teeth for organ in ORGANS])
 """By organ: how many teeth either side of it has, shape (organs,)."""
+
+LIGULES: Final = np.array([organ.ligules for organ in ORGANS])
+"""By organ: how many narrow petals it is, shape (organs,)."""
 
 GIVES: Final = np.array([organ.gives for organ in ORGANS])
 """By organ: how far the wind bends it by itself, shape (organs,)."""

@@ -246,6 +246,35 @@ def test_f3_florets_and_leaves_of_twigs_stand_out_near_by_and_leave_the_colour_o
     np.testing.assert_allclose(toothed.mean(axis=(0, 1)), plain.mean(axis=(0, 1)), rtol=0.02)
 
 
+DANDELIONS = (
+    FIELD.replace('"#dd2a12", head: { petals: 5,', '"#ffd21c", head: { petals: 12, open: 1,')
+    .replace("plants: 50", "plants: 400")
+    .replace("blades: 160", "blades: 500")
+)
+
+
+def test_f3_a_dandelions_petals_are_parted_near_by_and_leave_the_colour_of_all_as_it_is(
+    stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    aim, pictures = camera(0.0, 1.0, 50.0, pitch=-35, view=12), []
+    for _ in range(2):
+        pictures.append(stage.shot(load(DANDELIONS, lod="blades"), aim).astype(float))
+        monkeypatch.setattr(representation, "any_teeth", lambda _: False)
+    parted, whole = pictures
+    assert np.abs(parted - whole).mean() > 1.0
+    np.testing.assert_allclose(parted.mean(axis=(0, 1)), whole.mean(axis=(0, 1)), rtol=0.03)
+
+
+def test_f3_broad_petals_seen_aslant_have_the_outline_of_the_references(stage: Stage, load: Load, camera: Aim) -> None:
+    prairie, aim = load(FIELD), camera(0.0, 1.0, 50.0, pitch=-35, view=30)
+    picture = stage.shot(prairie, aim).astype(float)
+    stage.target.use()
+    truth = draw_truth(prairie, *stage.matrices(aim), stage.size, samples=4).picture.astype(float)
+    red, of_truth = (each[..., 0] > 1.3 * each[..., 1] for each in (picture, truth))
+    assert of_truth.sum() > 300
+    assert (red & of_truth).sum() > 0.85 * (red | of_truth).sum()
+
+
 def test_f3_florets_far_off_are_drawn_without_their_teeth(
     stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
 ) -> None:

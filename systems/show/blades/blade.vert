@@ -209,7 +209,7 @@ void main() {
     high.w = clamp((hidden_to(blade.root, OF(crown, k), lodged(blown)) - up.y) / blade.height, 0.0, 1.0);
 #endif
 #ifdef TOOTHED
-    joints.w = teeth_seen(blade.height, TEETH_OF[int(blade.organ)], foot.xyz);
+    joints.w = outline_seen(int(blade.organ), blade.height, blade.width, foot.xyz);
 #endif
 #ifdef MORPH
     paint(patch_of_it, int(number) % each, k, form_of(blade.variant));

@@ -4,16 +4,7 @@ flat in float shown;
 centroid in vec3 keel;  // how much brighter the face to the right of a fold is than both
 #endif
 #ifdef TOOTHED
-#include "systems/show/blades/teeth.glsl"
-
-in vec3 tooth;  // which of them, from the root on; from left, -1, to right, 1; how much is seen
-
-// How wide a ribbon with teeth is here, of how wide it is drawn; how bright, of its colour. Those of its sides take turns.
-vec2 toothed(float to_side) {
-    float up = fract(tooth.x + (to_side > 0.0 ? 0.5 : 0.0)), end = min(up / ENDS_AT, (1.0 - up) / (1.0 - ENDS_AT));
-    float wide = mix(1.0, TOOTHED_WIDER * mix(BETWEEN, 1.0, end), tooth.z);
-    return vec2(wide / mix(1.0, TOOTHED_WIDER, tooth.z), 1.0 + tooth.z * OUTER * (end - MEAN_END));
-}
+#include "systems/show/blades/toothed.glsl"
 #endif
 #ifdef DEEP
 #include "systems/show/deep.glsl"
@@ -25,6 +16,7 @@ uniform int part;     // 1: where it hides what is behind it; 2: the rest
 flat in float hides;  // coverage from which on it does
 #endif
 #ifdef SOFT
+const float THINNEST = 0.01;  // half a ribbon's width that counts at least [pixel]
 const float FAINT = 0.004;  // coverage that is left out: in bytes, it would but be rounded up
 noperspective in float aside;
 noperspective in float half_width;
@@ -38,16 +30,17 @@ out vec4 pixel;
 
 void main() {
 #ifdef SOFT
-    float wide = half_width;
+    float wide = half_width, left = 1.0;
     vec3 seen = color;
 #ifdef TOOTHED
-    if (tooth.z > 0.0) {
-        vec2 of_tooth = toothed(aside);
-        wide *= of_tooth.x;
-        seen *= of_tooth.y;
+    if (tooth.z != 0.0) {
+        Outline outline = outline_at(aside, 1.0 + 0.5 / max(half_width, THINNEST));
+        wide *= outline.wide;
+        seen *= outline.bright;
+        left = outline.covers;
     }
 #endif
-    float covered = shown * clamp(wide + 0.5 - abs(aside), 0.0, min(1.0, 2.0 * wide));
+    float covered = shown * left * clamp(wide + 0.5 - abs(aside), 0.0, min(1.0, 2.0 * wide));
 #ifdef ORGANS
     covered *= clamp(half_length + 0.5 - abs(onward), 0.0, min(1.0, 2.0 * half_length));
 #endif
@@ -71,11 +64,11 @@ void main() {
 #else
     vec3 seen = color;
 #ifdef TOOTHED
-    if (tooth.z > 0.0) {
-        vec2 of_tooth = toothed(tooth.y);
-        if (abs(tooth.y) > of_tooth.x)
+    if (tooth.z != 0.0) {
+        Outline outline = outline_at(tooth.y, 1.0);
+        if (outline.covers < 0.5 || abs(tooth.y) > outline.wide && tooth.z > 0.0)
             discard;
-        seen *= of_tooth.y;
+        seen *= outline.bright;
     }
 #endif
     pixel = vec4(seen * shown, shown);

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...grow.organs import AT_TIPS, BLADE, GIVES, KNOTS, ORGANS, TEETH, TONES, WIDTHS
+from ...grow.organs import AT_TIPS, BLADE, GIVES, KNOTS, LIGULES, ORGANS, TEETH, TONES, WIDTHS
 from ...grow.record import Growth
 from .pool import ORGAN
 
@@ -23,12 +23,13 @@ def organ_defines(record: np.dtype[np.void], /) -> Mapping[str, str | int]:
         "GIVES": _literal("float", [_listed(GIVES)]),
         "WIDTHS": _literal("float", [_listed(WIDTHS.reshape(-1))]),
         "TEETH": _literal("float", [_listed(TEETH)]),
+        "LIGULES": _literal("float", [_listed(LIGULES)]),
     }
 
 
 def any_teeth(growths: Sequence[Growth], /) -> bool:
-    """Return whether any kind has organs with teeth along their sides."""
-    return any(TEETH[model.blades.organ].any() for growth in growths for model in growth.models)
+    """Return whether any kind has organs with teeth along their sides, or slits between narrow petals."""
+    return any((TEETH + LIGULES)[model.blades.organ].any() for growth in growths for model in growth.models)
 
 
 def _literal(kind: str, values: list[str]) -> str:

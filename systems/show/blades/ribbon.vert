@@ -29,7 +29,8 @@ centroid out vec3 keel;  // how much brighter the face to the right of a fold is
 #ifdef TOOTHED
 #include "systems/show/blades/teeth.glsl"
 
-out vec3 tooth;  // which of them, from the root on; from left, -1, to right, 1; how much is seen
+out vec4 tooth;  // which of them, from the root on; from left, -1, to right, 1; how much is seen. Or, of ligules, how far along them;
+                 // which of them, from the middle on, times the fourth; how much is seen, below 0; how wide all are there
 #endif
 #ifdef SOFT
 noperspective out float aside;  // from the middle line [pixel]
@@ -138,9 +139,12 @@ vec4 widened(Point point, float t, float to) {
     vec2 run = (ahead.xy * middle.w - middle.xy * ahead.w) * half_screen;
     vec2 wide = (edge.xy * middle.w - middle.xy * edge.w) * half_screen / (middle.w * middle.w);
     vec2 normal = vec2(-run.y, run.x) / max(length(run), LEAST_SQUARE);
-    half_width = abs(dot(wide, normal));
+    float out_by = dot(wide, normal);
+    half_width = abs(out_by);
     aside = (half_width + 0.5) * to;
-    middle.xy += normal * aside / half_screen * middle.w;
+    // Seen aslant, its two edges are not level with one another along it: that shows in petals and leaves, which are broad.
+    vec2 level = (wide - normal * out_by) * (out_by < 0.0 ? -to : to);
+    middle.xy += (normal * aside + level) / half_screen * middle.w;
 #ifdef ORGANS
     if (is_small) {
         half_length = 0.5 * length(run) / (middle.w * middle.w);
@@ -191,16 +195,17 @@ void bring(inout Point point, inout vec3 light, float t, int k) {
 #endif
 
 #ifdef TOOTHED
-// How much wider a ribbon is for its teeth, and what fragments must know of them.
+// How much wider a ribbon is for its teeth or ligules, and what fragments must know of them.
 float widened_by_teeth(float t, float side) {
-    float teeth = TEETH_OF[int(stands.z)];
+    int organ = int(stands.z);
 #ifdef MORPH
-    float seen = teeth_seen(foot.w, teeth, foot.xyz) * (1.0 - painted.w);
+    float seen = outline_seen(organ, foot.w, 2.0 * length(lie_of.zw), foot.xyz) * (1.0 - painted.w);
 #else
     float seen = joints.w;
 #endif
-    tooth = vec3(t * teeth, side, seen);
-    return mix(1.0, TOOTHED_WIDER, seen);
+    float wide = width_of(organ, t);
+    tooth = seen < 0.0 ? vec4(t, 0.5 * side * LIGULES_OF[organ] * wide, seen, wide) : vec4(t * TEETH_OF[organ], side, seen, 1.0);
+    return seen < 0.0 ? mix(1.0, LIGULES_WIDER, -seen) : mix(1.0, TOOTHED_WIDER, seen);
 }
 #endif
 
@@ -214,7 +219,7 @@ void leave_out() {
     onward = half_length = 0.0;
 #endif
 #ifdef TOOTHED
-    tooth = vec3(0.0);
+    tooth = vec4(0.0, 0.0, 0.0, 1.0);
 #endif
 #ifdef FOLDS
     keel = vec3(0.0);
