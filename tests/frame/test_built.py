@@ -180,6 +180,32 @@ def test_edges_are_found_where_density_or_cuts_end_and_nowhere_else(load: Load) 
         assert Edges().at(Ground(ground.terrain, density, ground.patch), None, 1.0, where)[0] == found
 
 
+def carpet_of(prairie: Prairie) -> CarpetPainter:
+    painter = prairie.painter
+    assert painter is not None
+    carpet = painter.painters["carpet"]
+    assert isinstance(carpet, CarpetPainter)
+    return carpet
+
+
+def test_edges_without_lamps_shades_and_people_take_no_program_that_knows_of_those(
+    room: Stage, load: Load, camera: Aim
+) -> None:
+    prairie, aim = load(FLAT), camera(0.0, 3.0, 20.0, pitch=-10)
+    prairie.clear(Footprint(radius=3.0), pose=Pose(4.0, -20.0))
+    made = []
+    for cuts in (False, True):
+        if cuts:
+            prairie.cut(Footprint(radius=3.0), 0.05, pose=Pose(-4.0, -20.0))
+        room.shot(prairie, aim)
+        ground = carpet_of(prairie).ground
+        layers = ground.edged_bare, ground.edged_under, ground.edged
+        made.append([[layer.made is not None for layer in some] for some in layers])
+    assert made[0] == [[True, False], [True, False], [True, False, False, False]]
+    assert made[1] == [[True, False], [True, False], [True, True, False, False]]
+    prairie.release()
+
+
 def test_only_pieces_of_the_ground_at_edges_are_drawn_as_those_and_a_stroke_moves_them(
     room: Stage, load: Load, camera: Aim
 ) -> None:
@@ -188,11 +214,7 @@ def test_only_pieces_of_the_ground_at_edges_are_drawn_as_those_and_a_stroke_move
     def dear() -> list[tuple[float, ...]]:
         """Return where such pieces lie (x, z) [m]."""
         room.shot(prairie, aim)
-        painter = prairie.painter
-        assert painter is not None
-        carpet = painter.painters["carpet"]
-        assert isinstance(carpet, CarpetPainter)
-        shelf = carpet.ground.shelves.now
+        shelf = carpet_of(prairie).ground.shelves.now
         stream = shelf.streams[EDGED]
         rows = (
             np.frombuffer(stream.buffer.read(stream.count * TILE.itemsize), TILE) if stream.count else np.zeros(0, TILE)

@@ -131,6 +131,12 @@ def test_t5_patches_that_follow_one_another_are_one_draw_and_all_are_where_that_
     assert (ways >= np.repeat(np.array(ranked, np.int64), amount)).all()
 
 
+def test_where_draws_are_too_many_the_longest_stretches_are_drawn_in_their_own_way() -> None:
+    ranked = np.array([1] * 30 + [2, 0] * 10 + [0] * 20 + [2, 0] * 10 + [0] * 5, np.int8)
+    draws = runs(ranked, np.full(len(ranked), 3, np.int64))
+    assert draws == [(0, 90, 1), (90, 57, 2), (147, 63, 0), (210, 57, 2), (267, 18, 0)]
+
+
 patches = st.tuples(st.integers(0, 1), st.booleans(), st.booleans(), st.booleans())
 
 

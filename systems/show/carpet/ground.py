@@ -93,9 +93,11 @@ class GroundPainter:
         self.carpet: list[Layer] = []
         """For what is usual, uncut and cut, or where it is coarse for what is usual and for all that this can show; for
         lamps beside what is usual; and for all that there may be."""
+        self.edged_bare: list[Layer] = []
+        self.edged_under: list[Layer] = []
         self.edged: list[Layer] = []
-        """What is drawn where grass ends or is cut: ground, what lies under the carpet, and the carpet where nobody
-        treads it and where somebody may."""
+        """The same where grass ends or is cut: for what is usual, which the carpet has uncut and cut without lamps, and
+        for all that there may be; of the carpet besides for all but people who tread it."""
         self.casting: list[Layer] = []
         """The carpet in shadow maps."""
         self.is_trodden = False
@@ -117,15 +119,16 @@ class GroundPainter:
         plain: Defines = usual | {"LAMPLESS": 1}
         cuts: list[Defines] = [{"CUT": 0}, {"CUT": 1}]
         trodden: Defines = {"TRODDEN": 1}
+        ends: Defines = {"EDGED": 1}
         known = heads | stacked | litter
         firsts = (plain | cuts[0], trodden) if self._is_coarse else tuple(plain | cut for cut in cuts)
         wanted: list[tuple[list[Layer], str, Defines]] = [
             *((self.bare, "ground", litter | each) for each in (*(usual | cut for cut in cuts), trodden)),
             *((self.under, "under", heads | each) for each in ({}, trodden)),
             *((self.carpet, "carpet", known | each) for each in (*firsts, usual, trodden)),
-            (self.edged, "ground", litter | trodden | {"EDGED": 1}),
-            (self.edged, "under", heads | trodden | {"EDGED": 1}),
-            *((self.edged, "carpet", known | each | {"EDGED": 1}) for each in ({}, trodden)),
+            *((self.edged_bare, "ground", litter | each | ends) for each in (usual, trodden)),
+            *((self.edged_under, "under", heads | each | ends) for each in ({}, trodden)),
+            *((self.edged, "carpet", known | each | ends) for each in (*(plain | cut for cut in cuts), {}, trodden)),
             (self.casting, "cast", {}),
         ]
         for among, name, defines in wanted:
@@ -134,7 +137,7 @@ class GroundPainter:
             told = defines | {"COARSE": 1} if simple else defines
             make = partial(joined, ctx, self._block, self.units, *files, told)
             texts = partial(self._block.texts, *files, told)
-            hangs = among is self.edged and name == "carpet"
+            hangs = among is self.edged
             among.append(Layer(make, texts, self.shelves, self.hanging if hangs else self.grids))
         self.restock(stock)
 
@@ -153,7 +156,8 @@ class GroundPainter:
 
     @property
     def _layers(self) -> tuple[Layer, ...]:
-        return *self.bare, *self.under, *self.carpet, *self.edged, *self.casting
+        even = *self.bare, *self.under, *self.carpet
+        return *even, *self.edged_bare, *self.edged_under, *self.edged, *self.casting
 
     def _tell(self, name: str, value: object) -> None:
         for layer in self._layers:
@@ -271,8 +275,11 @@ class GroundPainter:
     def draw_bare(self, *, alone: bool) -> int:
         """Draw the bare ground, where it comes `alone` that of the carpet too; return the number of draw calls."""
         self.use()
-        bare = self.bare[2 if self._is_rare or self.is_trodden else self._is_cut]
-        calls = bare.draw(BARE, BARE_PIECES, pushed=0.0) + self.edged[0].draw(EDGED)
+        rare = self._is_rare or self.is_trodden
+        bare = self.bare[2 if rare else self._is_cut]
+        calls = bare.draw(BARE, BARE_PIECES, pushed=0.0)
+        for layer in self.edged_bare if self._rehearses else [self.edged_bare[rare]]:
+            calls += layer.draw(EDGED)
         if alone:
             calls += bare.draw(EVEN, EVEN_PIECES, pushed=PUSHED)
         return calls
@@ -280,18 +287,25 @@ class GroundPainter:
     def draw_under(self) -> int:
         """Draw what lies under the carpet; return the number of draw calls."""
         self.use()
-        return self.under[self.is_trodden].draw(UNDER, UNDER_PIECES) + self.edged[1].draw(EDGED_CARPET)
+        calls = self.under[self.is_trodden].draw(UNDER, UNDER_PIECES)
+        for layer in self.edged_under if self._rehearses else [self.edged_under[self.is_trodden]]:
+            calls += layer.draw(EDGED_CARPET)
+        return calls
 
     def draw_carpet(self, part: int = WHOLE) -> int:
         """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""
         self.use()
-        rare, whole = self._is_rare or self.is_trodden, any(self._came) or self._is_lamplit or self._is_odd
-        if self._is_coarse and not whole:
+        rare, changes = self._is_rare or self.is_trodden, any(self._came)
+        special = changes or self._is_lamplit
+        if self._is_coarse and not special and not self._is_odd:
             even = self.carpet[rare or self._is_cut]
         else:
-            even = self.carpet[3 if rare or any(self._came) else 2 if whole else self._is_cut]
-        edged = self.edged[2:] if self._rehearses else [self.edged[2 + self.is_trodden]]
-        return even.draw(EVEN, EVEN_PIECES, part=part) + sum(layer.draw(EDGED_CARPET, part=part) for layer in edged)
+            even = self.carpet[3 if rare or changes else 2 if special or self._is_coarse else self._is_cut]
+        edged = self.edged[3 if self.is_trodden else 2 if rare or special else self._is_cut]
+        calls = even.draw(EVEN, EVEN_PIECES, part=part)
+        for layer in self.edged if self._rehearses else [edged]:
+            calls += layer.draw(EDGED_CARPET, part=part)
+        return calls
 
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Write the depth at which grass of the carpet stops light from a place [m]; return the draw calls."""

@@ -37,21 +37,21 @@ GLSL = looked_up("Stood", STOOD, "stood", STOOD_ROW) + emitted(
 Sort = dict[str, str | int]
 """What a program is told."""
 
-EDGED: Sort = {"SHADED": 1, "CUT": 1, "THIN": 1, "EDGED": 1}
-"""What the program is told that draws grass whose density has edges, whatever else there is: it is the last."""
-
 
 def _sorts(*special: Sort) -> list[Sort]:
-    """Return what programs of some sorts are told, each with all blades and by rank."""
+    """Return what programs of some sorts are told, each with all blades, by rank, and where density has edges."""
     thin: Sort = {"THIN": 1}
-    return [{**each, **more} for each in special for more in ({}, thin)]
+    return [{**each, **more} for each in special for more in ({}, thin, thin | {"EDGED": 1})]
 
 
-SORTS = [*_sorts({}, {"SHADED": 1}, {"SHADED": 1, "CUT": 1}), EDGED]
+SORTS = _sorts({}, {"SHADED": 1}, {"SHADED": 1, "CUT": 1})
 """The programs that draw strips: of the usual, where shadows fall on it, and where any grass is cut besides."""
 
-DEEP = [*_sorts({"DEEP": 1, "CUT": 1}), {"DEEP": 1, **EDGED}]
-"""Those that write depth alone: with all blades, by rank, and with edges."""
+DEEP = _sorts({"DEEP": 1, "CUT": 1})
+"""Those that write depth alone."""
+
+WAYS = len(DEEP)
+"""In how many ways strips of each sort are drawn."""
 
 FILES = "systems/show/strips/strips.vert", "systems/show/strips/strips.frag"
 
@@ -228,7 +228,7 @@ class StripPainter:
         casts = frame["maps_shown"] > 0.0 or frame["shades_grid"][3] > 0.0
         is_shaded = bool(frame["bodies"]["radius"].any() or casts)
         rare = 0 if deep else 2 if is_cut else int(is_shaded)
-        array = self.array(2 * rare + thin if thin < 2 else len(DEEP if deep else SORTS) - 1, deep=deep)
+        array = self.array(WAYS * rare + thin, deep=deep)
         tell(array.program, "first", first)
         array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)
         return 1

@@ -113,17 +113,40 @@ def runs(ranked: NDArray[np.int8], amount: NDArray[np.int64], /) -> list[tuple[i
 
     `ranked` says which patches have to be drawn by rank, 1, and which with edges of density, 2; `amount` how many
     strips each has, both in their order, (m,). Patches that follow one another are drawn together; where that would
-    make more draws than `MOST_DRAWS`, all are drawn at once in the one way that does for all, which takes longer for
-    each pixel and shows the same.
+    make more draws than `MOST_DRAWS`, some are drawn in a way that does for more, which takes longer for each pixel and
+    shows the same.
     """
     if not len(ranked):
         return []
-    starts = np.flatnonzero(np.diff(ranked, prepend=np.int8(-1)))
     first = np.concatenate([[0], np.cumsum(amount)])
+    starts = _begins(ranked)
     if len(starts) > MOST_DRAWS:
-        return [(0, int(first[-1]), int(ranked.max()))]
+        ranked = _alike(ranked, starts, first)
+        starts = _begins(ranked)
     ends = [*starts[1:].tolist(), len(ranked)]
     return [
         (int(first[start]), int(first[end] - first[start]), int(ranked[start]))
         for start, end in zip(starts.tolist(), ends, strict=True)
     ]
+
+
+def _begins(ranked: NDArray[np.int8]) -> NDArray[np.intp]:
+    """Return where patches (m,) begin that are drawn otherwise than the one before, shape (n,)."""
+    return np.flatnonzero(np.diff(ranked, prepend=np.int8(-1)))
+
+
+def _alike(ranked: NDArray[np.int8], starts: NDArray[np.intp], first: NDArray[np.int64]) -> NDArray[np.int8]:
+    """Return how patches (m,) are drawn in `MOST_DRAWS` at most: in the dearest way all but for the longest stretches.
+
+    `starts` is where others begin, and `first` the first strip of each patch, and of none, (m + 1,).
+    """
+    dearest = ranked.max()
+    cheaper = np.maximum.reduceat(ranked, starts) < dearest
+    lies_in = np.cumsum(np.diff(cheaper, prepend=~cheaper[:1]))  # by stretch of those that are as dear, or cheaper
+    index = np.repeat(lies_in - 1, np.diff(starts, append=len(ranked)))
+    strips = np.bincount(index, np.diff(first)) * (np.bincount(index, ranked == dearest) == 0.0)
+    kept = np.argsort(strips)[-(MOST_DRAWS // 2 - 1) :]
+    ways = np.where(np.isin(index, kept) & (ranked < dearest), ranked, dearest)
+    if len(_begins(ways)) > MOST_DRAWS:
+        ways[ways < dearest] = ways[ways < dearest].max()
+    return ways

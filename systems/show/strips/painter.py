@@ -212,11 +212,11 @@ def _rings(outlook: Outlook) -> list[tuple[StripPool, StripsOfRing]]:
 def _ranked(rings: list[tuple[StripPool, StripsOfRing]], *, changes: bool) -> NDArray[np.int8]:
     """Return which patches, ring after ring, have to be drawn by rank, 1: some of their blades do not show.
 
-    Where grass is thin anywhere in a ring, all of the ring is, and everywhere while any kind `changes`. Where its
-    density has edges anywhere, that is 2.
+    Where grass is thin anywhere in a ring, all of the ring is, and everywhere while any kind `changes`. Those whose
+    density has edges are drawn with these, 2.
     """
     ranked = []
     for pool, ring in rings:
         is_thin = (pool.least.take(ring.slots) < WHOLE).any() | (ring.most < 1.0) | (ring.least > 0.0) | changes
-        ranked.append(np.full(len(ring.slots), 2) if pool.edged.take(ring.slots).any() else is_thin)
+        ranked.append(np.where(pool.edged.take(ring.slots), 2, is_thin))
     return np.concatenate(ranked).astype(np.int8)

@@ -1,6 +1,6 @@
 // What goes from strips.vert to strips.frag: few whole vectors, as not every driver packs small ones together.
 PASSED vec4 on;             // place on its page; place between the column's edges, 0 to 1; height in the canopy
-PASSED vec4 roots;          // place on the ground (x, z), and how high over it in calm air [m]; kind with CUT, or with THIN what shows by density
+PASSED vec4 roots;          // place on the ground (x, z), and how high over it in calm air [m]; kind with CUT or EDGED, or with THIN alone what shows by density
 flat PASSED vec4 foot;      // pigment at the root; how much of the strip shows
 flat PASSED vec4 rise;      // how that changes up to the tip; with THIN, how sharply ranks end, or with EDGED how softly
 flat PASSED vec4 grain_cos; // change of pigment with the cosine of twice the normal's azimuth; with THIN, what shows by rank: slope

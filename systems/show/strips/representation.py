@@ -48,7 +48,7 @@ class StripRepresentation(Representation):
 
     name: ClassVar[str] = "strips"
     label: ClassVar[str] = "2.5D strips"
-    programs = 7
+    programs = 9
     color: ClassVar[Color] = (0.12, 0.50, 0.98)
     grows_out_of: ClassVar[str | None] = "carpet"
     samplers: ClassVar[tuple[str, ...]] = ("atlas", "ranks", "extents", "strips", "stood")

@@ -295,8 +295,8 @@ void main() {
 #ifdef SHADED
     seen *= past_bodies(rooted, shading(a.rooted, b.rooted));
 #endif
-#ifdef CUT
     roots = vec4(mix(a.rooted.xz, b.rooted.xz, corner.x), corner.y * tall, float(k));
+#ifdef CUT
     cut = cut_about(column, rooted.xz, middle, pixels, 2.0 * distance(a.foot.xz, b.foot.xz));
 #endif
     Light light = light_on(k, bend, rooted, lies, grows, seen);
