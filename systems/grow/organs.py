@@ -64,6 +64,9 @@ HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT, FLORETS, STRAP)
 AT_TIPS: Final = (PETAL, EYE, BUD, RAY, STRAP)
 """Those of them that stand on the tip of a stem, over one another."""
 
+LEAVES: Final = (LEAF, FROND, WITHERED)
+"""Those that have a rib in their middle, as blades have."""
+
 TONES: Final = np.array([organ.tones for organ in ORGANS])
 """By organ: tone at its root and at its tip, shape (organs, 2)."""
 

@@ -26,12 +26,24 @@ flat in float half_length;
 #endif
 #endif
 
+#ifndef DEEP
+#include "systems/show/blades/veins.glsl"
+
+flat in vec2 veined;  // how much is seen of its rib; and of its veins
+#ifndef SOFT
+in vec2 across;  // from left to right, times how wide it is there; and that
+#endif
+#endif
+
 out vec4 pixel;
 
 void main() {
 #ifdef SOFT
     float wide = half_width, left = 1.0;
     vec3 seen = color;
+#ifndef DEEP
+    seen *= across_veins(veined, aside / max(half_width, THINNEST), half_width);
+#endif
 #ifdef TOOTHED
     if (tooth.z != 0.0) {
         Outline outline = outline_at(aside, 1.0 + 0.5 / max(half_width, THINNEST));
@@ -63,6 +75,10 @@ void main() {
 #endif
 #else
     vec3 seen = color;
+#ifndef DEEP
+    float beside = across.x / across.y;
+    seen *= across_veins(veined, beside, 1.0 / fwidth(beside));
+#endif
 #ifdef TOOTHED
     if (tooth.z != 0.0) {
         Outline outline = outline_at(tooth.y, 1.0);

@@ -8,6 +8,10 @@ bool is_at_tip(int organ) {
     return (AT_TIPS >> organ & 1) != 0;
 }
 
+bool is_leaf(int organ) {
+    return (LEAVES >> organ & 1) != 0;
+}
+
 const vec2 tones[ORGANS] = TONES;
 const float gives[ORGANS] = GIVES;
 const float widths[ORGANS * KNOTS] = WIDTHS;
@@ -31,6 +35,10 @@ float width_of(int organ, float t) {
 #else
 bool is_blade(int organ) {
     return true;
+}
+
+bool is_leaf(int organ) {
+    return false;
 }
 
 vec2 tones_of(int organ) {

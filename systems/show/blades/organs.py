@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...grow.organs import AT_TIPS, BLADE, GIVES, KNOTS, LIGULES, ORGANS, TEETH, TONES, WIDTHS
+from ...grow.organs import AT_TIPS, BLADE, GIVES, KNOTS, LEAVES, LIGULES, ORGANS, TEETH, TONES, WIDTHS
 from ...grow.record import Growth
 from .pool import ORGAN
 
@@ -18,7 +18,8 @@ def organ_defines(record: np.dtype[np.void], /) -> Mapping[str, str | int]:
         "ORGANS": len(ORGANS),
         "KNOTS": KNOTS,
         "BLADE_ITSELF": BLADE,
-        "AT_TIPS": sum(1 << organ for organ in AT_TIPS),
+        "AT_TIPS": _bits(AT_TIPS),
+        "LEAVES": _bits(LEAVES),
         "TONES": _literal("vec2", [f"vec2({_listed(row)})" for row in TONES]),
         "GIVES": _literal("float", [_listed(GIVES)]),
         "WIDTHS": _literal("float", [_listed(WIDTHS.reshape(-1))]),
@@ -30,6 +31,10 @@ def organ_defines(record: np.dtype[np.void], /) -> Mapping[str, str | int]:
 def any_teeth(growths: Sequence[Growth], /) -> bool:
     """Return whether any kind has organs with teeth along their sides, or slits between narrow petals."""
     return any((TEETH + LIGULES)[model.blades.organ].any() for growth in growths for model in growth.models)
+
+
+def _bits(organs: Sequence[int]) -> int:
+    return sum(1 << organ for organ in organs)
 
 
 def _literal(kind: str, values: list[str]) -> str:

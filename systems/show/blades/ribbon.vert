@@ -45,6 +45,13 @@ uniform int part;      // 1: where it hides what is behind it; 2: the rest
 #endif
 #endif
 
+#ifndef DEEP
+flat out vec2 veined;  // how much is seen of its rib; and of its veins
+#ifndef SOFT
+out vec2 across;  // from left to right, times how wide it is there; and that
+#endif
+#endif
+
 #ifdef DEEP
 #include "lib/random.glsl"
 
@@ -52,6 +59,7 @@ flat out int number;
 #endif
 
 const float AT_TIP = 0.9999;  // part of a blade from which on it is its tip
+const float LEAST_BREADTH = 1e-3;  // of a blade, at its tip
 const float POINTED = 1e-4;  // half the breadth of an end that is seen as a point, of its distance
 
 // Width of a blade at part `t` of it: as systems/grow/bend.py has it. It ends as bluntly as makes up for what the last segment
@@ -209,6 +217,18 @@ float widened_by_teeth(float t, float side) {
 }
 #endif
 
+#ifndef DEEP
+// What is seen of the veins of what a ribbon is: leaves have a rib, blades that are not round have veins beside it.
+vec2 veins_of(int organ, int k) {
+    float flat_one = float(is_blade(organ) && kinds[k].narrowed >= 0.0), seen = max(flat_one, float(is_leaf(organ)));
+#ifdef MORPH
+    return vec2(seen, flat_one) * (1.0 - painted.w);
+#else
+    return vec2(seen, flat_one);
+#endif
+}
+#endif
+
 #ifdef PARTED
 // Leave a blade out of the pass over what hides what is behind it.
 void leave_out() {
@@ -218,6 +238,7 @@ void leave_out() {
 #ifdef ORGANS
     onward = half_length = 0.0;
 #endif
+    veined = vec2(0.0);
 #ifdef TOOTHED
     tooth = vec4(0.0, 0.0, 0.0, 1.0);
 #endif
@@ -269,6 +290,12 @@ void main() {
     Point point = Point(foot.xyz + spine.place * foot.w, spine.tangent * foot.w, lie_of.zw * (side * along.y));
 #ifdef TOOTHED
     point.across *= widened_by_teeth(t, side);
+#endif
+#ifndef DEEP
+    veined = veins_of(int(stands.z), k);
+#ifndef SOFT
+    across = vec2(side, 1.0) * max(along.y, LEAST_BREADTH);
+#endif
 #endif
     float high_up = stands.x + spine.place.y * stands.y;
     Light reaches = unbundled(lit);
