@@ -38,7 +38,7 @@ class Stream:
         self.ctx = ctx
         self.record = record
         self.buffer = ctx.buffer(reserve=rows * record.itemsize, dynamic=True)
-        self.count = 0
+        self.count, self._most = 0, rows
 
     def write(self, rows: NDArray[Any]) -> None:
         """Replace the contents by `rows`, shape (n,)."""
@@ -53,8 +53,9 @@ class Stream:
         A graphics card that writes them itself does so in its turn: nothing needs to be kept from before.
         """
         self.count = count
-        if count * self.record.itemsize > self.buffer.size:
-            self.buffer.orphan(count * 3 // 2 * self.record.itemsize)  # whole ones: transform feedback asks for that
+        if count > self._most:
+            self._most = count * 3 // 2
+            self.buffer.orphan(self._most * self.record.itemsize)  # whole ones: transform feedback asks for that
 
     def binding(self, program: moderngl.Program, *, each: str = "/i") -> tuple[moderngl.Buffer | str, ...]:
         """Return the stream as a vertex array's content; fields the program drops are skipped over.

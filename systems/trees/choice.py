@@ -146,7 +146,7 @@ class Choice:
         """Return the numbers of those that are within the sides of a picture."""
         middle, radius = self._balls
         some = np.flatnonzero(np.repeat(beyond(middle, sides) <= radius, TOGETHER)[: len(self._model)])
-        inside = self._middle[some] @ sides[:, :3].T + sides[:, 3]
+        inside = self._middle.take(some, axis=0) @ sides[:, :3].T + sides[:, 3]
         reach = np.outer(self._high[some], np.abs(sides[:, 1])) + np.outer(
             self._aside[some], np.hypot(*sides[:, :3:2].T)
         )
@@ -155,30 +155,33 @@ class Choice:
     def of(self, look: Look, /) -> Chosen:
         """Return what is drawn of those in a picture."""
         number = self.in_picture(look.sides)
-        off = np.linalg.norm(self._middle[number] - look.eye, axis=1)
-        order = np.lexsort((off, self._model[number]))
+        off = np.linalg.norm(self._middle.take(number, axis=0) - look.eye, axis=1)
+        order = np.argsort(off)
+        order = order[_in_order(self._model[number[order]])]
         number, off = number[order], off[order]
         seen = self._seen(look, number, off)
         tree, twig = self._leaves(look, seen, off)
         stream, who = _dealt(seen, shells_of(seen.along, look.reach), tree)
-        to = self._crown[number] - look.eye
+        to = self._crown.take(number, axis=0) - look.eye
         lots = _lots(stream, who, seen, np.linalg.norm(to, axis=1))
-        rows, twigs = seen.told[who], leaf_by_leaf(seen.told[tree], twig)
-        return Chosen(lots, _parted(lots, rows, twigs), self._placed[number[who]])
+        # Of records, `take` is thirty times as fast as indices in brackets.
+        rows, twigs = seen.told.take(who), leaf_by_leaf(seen.told.take(tree), twig)
+        return Chosen(lots, _parted(lots, rows, twigs), self._placed.take(number[who]))
 
     def _seen(self, look: Look, number: Numbers, off: Doubles) -> _Seen:
         """Return what is to be seen of trees that are so far off, shape (n,) [m]."""
-        middle, scale, ring = self._middle[number], self._scale[number], self._ring[number]
+        middle, scale, ring = self._middle.take(number, axis=0), self._scale[number], self._ring[number]
         if look.seen_at:
             off = np.min([np.linalg.norm(middle - eye, axis=1) for eye in look.seen_at], axis=0)
         pixels = look.focal * self._height[number] / np.maximum(off, NEAREST)
         if look.leaves_from is not None:
             pixels = np.where(pixels <= look.leaves_from, 0.0, ANY_HEIGHT)
         pixels[ring > 1] = 0.0
-        told, along = self._told[number], np.hypot(middle[:, 0] - look.eye[0], middle[:, 2] - look.eye[2])
+        told, along = self._told.take(number), np.hypot(middle[:, 0] - look.eye[0], middle[:, 2] - look.eye[2])
         come_near(told, pixels)
         told["shows"] = shows(ring, along)
-        ahead = nearest_ahead(look.clip, middle, look.eye, (1.0 + SWAYS) * scale[:, None] * self._ball[number])
+        reach = (1.0 + SWAYS) * scale[:, None] * self._ball.take(number, axis=0)
+        ahead = nearest_ahead(look.clip, middle, look.eye, reach)
         wide = THINNEST * np.maximum(ahead, AWAY) / (look.focal * scale)
         return _Seen(number, self._model[number], told, along, wide)
 
@@ -200,6 +203,11 @@ def _numbers(model: Model, variety: float) -> tuple[float, ...]:
     return (
         model.height, model.middle, model.half, model.radius, model.hertz, model.habit.leaf.length, variety,
     )  # fmt: skip
+
+
+def _in_order(number: Numbers) -> Numbers:
+    """Return what brings models or streams in the order of their numbers; what is of the same one stays in order."""
+    return np.argsort(number.astype(np.int16), kind="stable")  # such small numbers are put in order much faster
 
 
 def _placed(told: NDArray[np.void], middle: Floats, hertz: Floats) -> NDArray[np.void]:
@@ -235,7 +243,7 @@ def _dealt(seen: _Seen, shell: Numbers, tree: Numbers) -> tuple[Numbers, Numbers
     first = [FIRST_OF[names] for names in (LEAVES, CARDS[0], WOODS[0], FAR, BACKS[0])]
     own = np.concatenate([number + each for number, each in zip(first, within, strict=True)])
     stream = seen.model[who] * len(STREAMS) + own
-    order = np.argsort(stream, kind="stable")
+    order = _in_order(stream)
     return stream[order], who[order]
 
 

@@ -200,9 +200,9 @@ class TreePart(Part):
 
     def _send(self, chosen: Chosen) -> None:
         """Send trees to be drawn, and where they stand."""
-        for lot in self._lots:
-            self._models[lot.model][1].empty(lot.name)
-        self._lots, told, placed = chosen
+        before, (self._lots, told, placed) = self._lots, chosen
+        for number, name in {(lot.model, lot.name) for lot in before} - {(lot.model, lot.name) for lot in self._lots}:
+            self._models[number][1].empty(name)
         for lot, rows in zip(self._lots, told, strict=True):
             _, model = self._models[lot.model]
             model.write(lot.name, rows)

@@ -103,7 +103,7 @@ class Standing:
         if not self._sorted:
             number = (self.rows["kind"] * MODELS + self.rows["model"]).astype(np.intp)
             order = np.argsort(number, kind="stable")
-            self._sorted.append(self.rows[order])
+            self._sorted.append(self.rows.take(order))
             self._models.append(number[order])
         return self._sorted[0], self._models[0]
 

@@ -109,6 +109,9 @@ def by_layer(tiles: NDArray[np.void], laid: Mask, parted: Parted, eye: tuple[flo
 
     Even pieces that adjoin edged ones have bare ground as well: what lies under their carpet ends above that.
     """
+    if not parted.beside.any():
+        none = tiles[:0]
+        return ByLayer(tiles[~laid], none, tiles[laid], none, none, none)
     edged = parted.edged
     is_parted: Mask = np.asarray(edged.any(axis=1))
     of_laid, even = laid[:, None], ~edged
