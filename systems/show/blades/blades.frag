@@ -45,8 +45,9 @@ void main() {
     seen *= across_veins(veined, aside / max(half_width, THINNEST), half_width);
 #endif
 #ifdef TOOTHED
+    vec2 place = among_ligules(1.0 + 0.5 / max(half_width, THINNEST)), finely = fwidth(place);
     if (tooth.z != 0.0) {
-        Outline outline = outline_at(aside, 1.0 + 0.5 / max(half_width, THINNEST));
+        Outline outline = outline_at(aside, place, finely);
         wide *= outline.wide;
         seen *= outline.bright;
         left = outline.covers;
@@ -80,8 +81,9 @@ void main() {
     seen *= across_veins(veined, beside, 1.0 / fwidth(beside));
 #endif
 #ifdef TOOTHED
+    vec2 place = among_ligules(1.0), finely = fwidth(place);
     if (tooth.z != 0.0) {
-        Outline outline = outline_at(tooth.y, 1.0);
+        Outline outline = outline_at(tooth.y, place, finely);
         if (outline.covers < 0.5 || abs(tooth.y) > outline.wide && tooth.z > 0.0)
             discard;
         seen *= outline.bright;

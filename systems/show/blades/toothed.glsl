@@ -30,8 +30,12 @@ Outline of_ligules(vec2 place, vec2 finely) {
     return Outline(1.0, mix(1.0, inside.x * inside.y, seen), 1.0 + seen * LIGULE_EDGES * (0.5 - 2.0 * off));
 }
 
-// What there is of a ribbon whose sides are `drawn` times as far apart as they are, at a pixel to one of its sides.
-Outline outline_at(float to_side, float drawn) {
-    vec2 place = vec2(tooth.x, tooth.y / tooth.w * drawn), finely = fwidth(place);
+// Where a pixel is in the ligules of a ribbon whose sides are drawn so many times as far apart as they are.
+vec2 among_ligules(float drawn) {
+    return vec2(tooth.x, tooth.y / tooth.w * drawn);
+}
+
+// What there is of a ribbon at a pixel to one of its sides, and at a place among ligules.
+Outline outline_at(float to_side, vec2 place, vec2 finely) {
     return tooth.z < 0.0 ? of_ligules(place, finely) : of_teeth(to_side);
 }
