@@ -37,7 +37,22 @@ in vec2 across;  // from left to right, times how wide it is there; and that
 
 out vec4 pixel;
 
+// How much wider a ribbon is drawn than it is, for its edges to be soft.
+float drawn_wider() {
+#ifdef SOFT
+    return 1.0 + 0.5 / max(half_width, THINNEST);
+#else
+    return 1.0;
+#endif
+}
+
 void main() {
+#ifdef TOOTHED
+    vec2 place = among_ligules(drawn_wider()), finely = fwidth(place);
+#endif
+#if !defined(SOFT) && !defined(DEEP)
+    float beside = across.x / across.y, half_wide = 1.0 / fwidth(beside);
+#endif
 #ifdef SOFT
     float wide = half_width, left = 1.0;
     vec3 seen = color;
@@ -45,7 +60,6 @@ void main() {
     seen *= across_veins(veined, aside / max(half_width, THINNEST), half_width);
 #endif
 #ifdef TOOTHED
-    vec2 place = among_ligules(1.0 + 0.5 / max(half_width, THINNEST)), finely = fwidth(place);
     if (tooth.z != 0.0) {
         Outline outline = outline_at(aside, place, finely);
         wide *= outline.wide;
@@ -77,11 +91,9 @@ void main() {
 #else
     vec3 seen = color;
 #ifndef DEEP
-    float beside = across.x / across.y;
-    seen *= across_veins(veined, beside, 1.0 / fwidth(beside));
+    seen *= across_veins(veined, beside, half_wide);
 #endif
 #ifdef TOOTHED
-    vec2 place = among_ligules(1.0), finely = fwidth(place);
     if (tooth.z != 0.0) {
         Outline outline = outline_at(tooth.y, place, finely);
         if (outline.covers < 0.5 || abs(tooth.y) > outline.wide && tooth.z > 0.0)
