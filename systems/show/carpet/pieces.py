@@ -114,32 +114,30 @@ def by_layer(tiles: NDArray[np.void], laid: Mask, parted: Parted, eye: tuple[flo
         return ByLayer(tiles[~laid], none, tiles[laid], none, none, none)
     edged = parted.edged
     is_parted: Mask = np.asarray(edged.any(axis=1))
-    of_laid, even = laid[:, None], ~edged
-    masks = (
-        even & np.where(of_laid, parted.beside, is_parted[:, None]),
-        even & (laid & is_parted)[:, None],
-        edged,
-        edged & of_laid,
-    )
-    bare, carpet, *rest = (in_pieces(tiles, mask, edged, eye) for mask in masks)
+    of_laid, of_parted, even = laid[:, None], is_parted[:, None], ~edged
+    pieces, number = in_pieces(tiles, of_parted | of_laid & parted.beside, edged, eye)
+    masks = even & np.where(of_laid, parted.beside, of_parted), even & of_laid & of_parted, edged, edged & of_laid
+    bare, carpet, *rest = (pieces[mask.reshape(-1).take(number)] for mask in masks)
     return ByLayer(tiles[~(laid | is_parted)], bare, tiles[laid & ~is_parted], carpet, *rest)
 
 
 def in_pieces(
     tiles: NDArray[np.void], chosen: Mask, edged: Mask, eye: tuple[float, float, float], /
-) -> NDArray[np.void]:
-    """Return the chosen pieces (n, PIECES) of tiles, records of `TILE`, far to near.
+) -> tuple[NDArray[np.void], NDArray[np.intp]]:
+    """Return the chosen pieces (n, PIECES) of tiles, records of `TILE`, far to near, and their numbers among all (m,).
 
     Their borders hang down but for those towards edged pieces of the same tile.
     """
-    which, number = np.nonzero(chosen)
+    number = np.flatnonzero(chosen)
+    which, own = np.divmod(number, PIECES)
     found = tiles.take(which)
     if len(found):
-        begins, tile = BEGINS.take(np.column_stack([number % ALONG, number // ALONG])), found["tile"]
-        found["piece"][:, :2], found["piece"][:, 2] = begins, _hanging(edged)[which, number]
+        begins, tile = BEGINS.take(np.column_stack([own % ALONG, own // ALONG])), found["tile"]
+        found["piece"][:, :2], found["piece"][:, 2] = begins, _hanging(edged).take(number)
         away = tile[:, :2] + tile[:, 2:3] * (begins + 0.5 * PIECE) - (eye[0], eye[2])
-        found = found.take(np.argsort(-(away * away).sum(axis=1), kind="stable"))
-    return found
+        queue = np.argsort(-(away * away).sum(axis=1), kind="stable")
+        found, number = found.take(queue), number.take(queue)
+    return found, number
 
 
 def _hanging(edged: Mask) -> Floats:
