@@ -94,7 +94,7 @@ def test_f4_beyond_the_terrain_lies_what_the_scene_declares_whatever_a_game_does
     prairie.clear(Road(((-30.0, -24.0), (30.0, -24.0)), 6.0))
     change = np.abs(stage.shot(prairie, aim) - before).max(axis=-1)
     assert np.median(change[(z > -25.5) & (z < -22.5)]) > 15.0
-    assert change[(z > -38.0) & (z < -34.0)].max() <= 3.0, "a mirror image of it would be seen"
+    assert change[(z > -38.0) & (z < -34.0)].max() <= 8.0, "a mirror image of it would be seen"
 
 
 def test_f4_only_plots_that_were_touched_are_sent(

@@ -1,8 +1,11 @@
 """Where grass does not stand evenly: where it ends, or has been cut, more sharply than the mesh of the ground shows."""
 
-import numpy as np
+from typing import Any
 
-from ....components.arrays import Floats, Ints, Mask
+import numpy as np
+from numpy.typing import NDArray
+
+from ....components.arrays import Floats, Mask
 from ....engine.handed import FARTHEST
 from ....engine.terrain.plots import CELLS, SIDE, Plots, Values
 from ...mow.mown import Mown
@@ -18,6 +21,13 @@ STEP_OF_DENSITY = 0.35
 
 STEP_OF_HEIGHT = 0.05
 """By how much the height changes at least that grass is cut to where there is an edge [m]."""
+
+
+PARTS = 4
+"""Parts along a side of a plot in which edges are told apart."""
+
+PART = CELLS // PARTS
+"""Cells along a side of one."""
 
 
 class Edges:
@@ -81,17 +91,17 @@ def _reduced(reach: np.ufunc, values: Floats, axis: int, each: int) -> Floats:
 
 
 class _OnPlots:
-    """The edges of a map that is kept by plots: a plot is uneven that has one, or one towards the plot beside it."""
+    """The edges of a map that is kept by plots: a part of one is uneven that has one, or one towards another part."""
 
     def __init__(self, step: float) -> None:
         self._step = step
         self._of: tuple[Plots | None, int, float] = None, -1, 0.0
-        self._uneven, self._seen = np.zeros(0, np.bool_), np.zeros(0, np.int64)
-        self._level: Floats = np.zeros((0, 1), np.float32)
+        self._uneven, self._seen = np.zeros((0, PARTS, PARTS), np.bool_), np.zeros(0, np.int64)
+        self._level: Floats = np.zeros((0, PARTS, PARTS, 1), np.float32)
         self._blocks: Blocks | None = None
 
     def touch(self, plots: Plots, stretches: Stretches, *, most: float = np.inf) -> Mask:
-        """Return which stretches touch an uneven plot, of the shape that they have together.
+        """Return which stretches touch an uneven part of a plot, of the shape that they have together.
 
         Values are told apart up to `most`, and where there is no plot it is as if they were all that.
         """
@@ -107,18 +117,16 @@ class _OnPlots:
         if not plots.any:
             return
         known, count = len(self._seen), len(plots.written)
-        self._uneven = np.append(self._uneven[:known], np.zeros(count - known, np.bool_))
         stale = np.flatnonzero(plots.written != np.append(self._seen, np.full(count - known, -1)))
-        pages, channels = plots.pages[stale], int(np.prod(plots.pages.shape[3:]))
-        level = np.empty((count, channels), np.float32)
-        level[:known] = self._level[:known]
-        lines, highest = pages.reshape(len(stale), CELLS, CELLS * channels), np.float32(min(most, FARTHEST))
-        low, high = (each.reshape(len(stale), CELLS, channels) for each in (lines.min(axis=1), lines.max(axis=1)))
-        ends = np.stack([low.min(axis=1), high.max(axis=1), lines[:, 0, :channels]])
+        cells, highest = plots.pages[stale].reshape(len(stale), CELLS, CELLS, -1), np.float32(min(most, FARTHEST))
+        uneven = np.zeros((count, PARTS, PARTS), np.bool_)
+        level = np.empty((*uneven.shape, cells.shape[-1]), np.float32)
+        if known:
+            uneven[:known], level[:known] = self._uneven, self._level
+        ends = np.stack([_reaching(np.minimum, cells), _reaching(np.maximum, cells), cells[:, ::PART, ::PART]])
         low, high, level[stale] = np.minimum(ends.astype(np.float32), highest)
-        uneven = (high - low > self._step).any(axis=1)
-        self._uneven[stale] = uneven
-        self._level = level
+        uneven[stale] = (high - low > self._step).any(axis=-1)
+        self._uneven, self._level = uneven, level
         self._seen = plots.written.copy()
         top, left, bottom, right = plots.ends
         if bottom < top:
@@ -126,23 +134,47 @@ class _OnPlots:
         first = np.array([top, left]) - 1
         page = np.full((bottom - top + 3, right - left + 3), -1, np.int32)
         page[1:-1, 1:-1] = plots.index[top : bottom + 1, left : right + 1]
-        none = np.full((1, level.shape[1]), most if most < np.inf else np.nan, np.float32)
-        levels = np.append(level, none, axis=0)[page]  # -1 finds the last one
+        none = np.full((1, *level.shape[1:]), most if most < np.inf else np.nan, np.float32)
+        levels = _laid_out(np.append(level, none, axis=0)[page])  # -1 finds the last one
         corner = (first[::-1] - plots.half) * SIDE
-        self._blocks = Blocks(_uneven_plots(page, self._uneven, levels, self._step), corner, np.array([SIDE, SIDE]))
+        own = np.append(self._uneven, np.zeros((1, PARTS, PARTS), np.bool_), axis=0)
+        there = np.repeat(np.repeat(page >= 0, PARTS, axis=0), PARTS, axis=1)
+        uneven = _uneven_parts(_laid_out(own[page]), there, levels, self._step)
+        self._blocks = Blocks(uneven, corner, np.full(2, SIDE / PARTS))
 
 
-def _uneven_plots(page: Ints, uneven: Mask, levels: Floats, step: float) -> Mask:
-    """Return which plots (rows, columns) have an edge, in them or towards the plot beside them.
+def _reaching(reach: np.ufunc, cells: Values) -> Values:
+    """Return the greatest or the least of the cells of pages (n, CELLS, CELLS, m) by part, (n, PARTS, PARTS, m).
 
-    Told are the page of each, -1 for none, which pages have an edge (n,), and what even plots have (rows, columns, m).
+    Those of a page beside it count with it: what lies between is read of both.
     """
-    own = (page >= 0) & uneven[np.maximum(page, 0)]
+    for axis in (1, 2):
+        before = (slice(None),) * axis
+        parts = cells.reshape(*cells.shape[:axis], PARTS, PART, *cells.shape[axis + 1 :])
+        found = reach.reduce(parts, axis=axis + 1)
+        for own, beside in ((np.s_[1:], np.s_[PART - 1 : -1 : PART]), (np.s_[:-1], np.s_[PART::PART])):
+            found[(*before, own)] = reach(found[(*before, own)], cells[(*before, beside)])
+        cells = found
+    return cells
+
+
+def _laid_out(parts: NDArray[Any]) -> NDArray[Any]:
+    """Return parts of plots (rows, columns, PARTS, PARTS, ...) as they lie, (PARTS * rows, PARTS * columns, ...)."""
+    rows, columns = parts.shape[:2]
+    return parts.swapaxes(1, 2).reshape(PARTS * rows, PARTS * columns, *parts.shape[4:])
+
+
+def _uneven_parts(own: Mask, there: Mask, levels: Floats, step: float) -> Mask:
+    """Return which parts of plots (rows, columns) have an edge, in them or towards the part beside them.
+
+    Told are which have an edge of their `own`, which are on plots that are there, and what even ones have, (rows,
+    columns, m).
+    """
     found = own.copy()
     for axis in (0, 1):
         one, other = (np.s_[:-1], np.s_[1:]) if axis == 0 else (np.s_[:, :-1], np.s_[:, 1:])
         steps = ~(np.abs(levels[one] - levels[other]) <= step).all(axis=-1)
-        differs = steps & (page[one] != page[other]) & ~own[one] & ~own[other]
+        differs = steps & (there[one] | there[other]) & ~own[one] & ~own[other]
         found[one] |= differs
         found[other] |= differs
     return found
