@@ -165,7 +165,7 @@ def told_of_call(
     told = due(program, {"solid_from": (solid_from,)}) + (due(program, {"behind": (0.0,)}) if casts else [])
     if corners:
         told += due_all(program, "corners", corners)
-    if around is not None:
+    if around is not None and around.high:  # else its pictures show nothing so opaque, and nothing is drawn
         told += due(program, {"high": around.high}) + due_all(program, "reaches", around.reaches)
     return told
 
