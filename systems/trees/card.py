@@ -149,7 +149,8 @@ class ModelOnCard:
         for name in empty:
             self.write(name, self._alone if name == LEAVES else self._alone[[*(SHOWN.names or ())]].astype(SHOWN))
             self.most[name] = 1
-            self.wood[name] = Parts(1, 1)
+            if name in self.wood:
+                self.wood[name] = Parts(1, 1)
         return empty
 
     def release(self) -> None:

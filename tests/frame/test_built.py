@@ -175,6 +175,9 @@ def test_edges_are_found_where_density_or_cuts_end_and_nowhere_else(load: Load) 
     np.testing.assert_array_equal(edges.at(ground, mown, 1.0, where), [False, True, False])
     mown.cut(Footprint(radius=4.0), 0.1, Pose(-20.0, -24.0))
     np.testing.assert_array_equal(edges.at(ground, mown, 1.0, where), [False, True, True])
+    whole = Mown(ground.terrain)
+    whole.cut(Footprint(radius=7.0), np.inf, Pose())  # which cuts nothing
+    assert not Edges().at(ground, whole, 1.0, where).any()
     soft = np.linspace(0.0, 1.0, 60, dtype=np.float32)
     for line, found in ((soft, False), ((soft > 0.5).astype(np.float32), True)):
         density = type(ground.density)(np.broadcast_to(line, (1, 60, 60)).copy(), ground.terrain.size)

@@ -112,6 +112,16 @@ def test_it_is_in_a_games_own_shadow_map(stage: Stage, prairie: Prairie, plant: 
     assert (over < beside.min()).mean() > 0.1  # its crown, whose leaves hardly cover a texel wholly
 
 
+def test_streams_that_are_rehearsed_have_wood_only_where_it_is_drawn(ctx: moderngl.Context, stage: Stage) -> None:
+    with private_world(), little_prairie(scene=SCENE, ctx=ctx) as own:
+        esper.create_entity(Tree("ash", height=9.0), Pose(0.0, 0.0))
+        stage.shot(own, AHEAD)
+        assert own.painter is not None
+        for _, model in vars(own.painter.part(TreePart))["_models"]:
+            model.rehearse()
+            assert set(model.wood) == set(model.run) == set(card.WOODS)
+
+
 @pytest.mark.slow
 def test_nothing_is_made_on_a_frame_once_a_game_has_prepared(ctx: moderngl.Context, stage: Stage) -> None:
     with private_world(), little_prairie(scene=SCENE, ctx=ctx) as prepared:

@@ -118,7 +118,8 @@ class _OnPlots:
             return
         known, count = len(self._seen), len(plots.written)
         stale = np.flatnonzero(plots.written != np.append(self._seen, np.full(count - known, -1)))
-        cells, highest = plots.pages[stale].reshape(len(stale), CELLS, CELLS, -1), np.float32(min(most, FARTHEST))
+        pages, highest = plots.pages[stale], np.float32(min(most, FARTHEST))
+        cells = pages if pages.ndim > 3 else pages[..., None]
         uneven = np.zeros((count, PARTS, PARTS), np.bool_)
         level = np.empty((*uneven.shape, cells.shape[-1]), np.float32)
         if known:
