@@ -113,11 +113,13 @@ ivec4 choose(vec3 from) {
 
 #ifndef CAST
 // Where a corner is in the picture that lies so far under the ground. Its crown is nearer to the eye than the square, whose lower part
-// the ground would hide from above: so is the depth of that corner, as far as over the ground, or the crown's front.
+// the ground would hide from above: so is the depth of that corner, as far as over the ground, or the crown's front. The flatter it is
+// seen, the less: level, what is lowest in it is the trunk's foot, which grass in front of it hides.
 vec4 over_ground(vec3 seen_at, float under, float front) {
     vec4 at = clip * vec4(seen_at, 1.0);
     vec3 ray = normalize(eye - seen_at);
-    vec4 nearer = clip * vec4(seen_at + ray * clamp(under / max(ray.y, LEAST_PART), 0.0, front), 1.0);
+    float steep = max(ray.y, LEAST_PART);
+    vec4 nearer = clip * vec4(seen_at + ray * clamp(under / steep, 0.0, front * steep), 1.0);
     return vec4(at.xy, nearer.z / nearer.w * at.w, at.w);
 }
 
