@@ -419,3 +419,17 @@ def test_f3_a_tree_whose_far_pictures_are_nowhere_opaque_is_drawn_without_its_so
         shown = stage.shot(made, looking(0.0, 1.7, 12.0, view=20.0))
         assert np.isfinite(shown).all()
         assert made.statistics.draw_calls > 0
+
+
+def test_f3_the_foot_of_a_tree_far_off_is_no_nearer_than_its_trunk(
+    stage: Stage, prairie: Prairie, plant: Plant
+) -> None:
+    plant(0.0, -28.0)
+    aim = looking(0.0, 1.7, 12.0, pitch=2.0, view=14.0)
+    stage.shot(prairie, aim)
+    _, projection = stage.matrices(aim)
+    away = projection[2, 3] / (2.0 * stage.depth() - 1.0 + projection[2, 2])
+    over_ground = away[:, 70:90].min(axis=1) < away[:, :10].min(axis=1) - 0.3  # where the tree is before what is beside it
+    trunk = away[:, 70:90].min(axis=1)[over_ground]
+    assert len(trunk) > 30
+    assert trunk.min() > 38.5
