@@ -429,7 +429,9 @@ def test_f3_the_foot_of_a_tree_far_off_is_no_nearer_than_its_trunk(
     stage.shot(prairie, aim)
     _, projection = stage.matrices(aim)
     away = projection[2, 3] / (2.0 * stage.depth() - 1.0 + projection[2, 2])
-    over_ground = away[:, 70:90].min(axis=1) < away[:, :10].min(axis=1) - 0.3  # where the tree is before what is beside it
+    over_ground = (
+        away[:, 70:90].min(axis=1) < away[:, :10].min(axis=1) - 0.3
+    )  # where the tree is before what is beside it
     trunk = away[:, 70:90].min(axis=1)[over_ground]
     assert len(trunk) > 30
     assert trunk.min() > 38.5
