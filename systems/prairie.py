@@ -330,9 +330,7 @@ class Prairie(Tending):
         Raises ValueError, and changes nothing, for a state that does not fit the scene, or is damaged.
         """
         self._must_be_there("restore a state")
-        there = {} if entities is None else entities
-        must_be_a(Mapping, there, "entities are a mapping, of those in the state to yours")
-        self._clock, became, kinds = self._saving.restore(state, self.site, self.loaded, there)
+        self._clock, became, kinds = self._saving.restore(state, self.site, self.loaded, entities)
         self.viewers.begin_anew()
         self._move_to(self._ripening.resume(self.site, kinds))  # after it, as winds of entities stay what they are
         self._turn()

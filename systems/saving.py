@@ -16,7 +16,7 @@ from ..components.tree import Tree
 from ..components.wind import WindPrimitive, WindSource, with_course
 from ..components.words import told
 from ..engine.declared.scene import Reading
-from ..engine.handed import is_somewhere
+from ..engine.handed import is_somewhere, must_be_a
 from ..engine.plugins import wind_kinds
 from ..engine.scene import LoadedScene
 from ..engine.terrain.change import Squares, changed_squares, restore_squares
@@ -100,14 +100,17 @@ class Saving:
         return packed(Saved(state, {**lie, "cleared": cleared, **plots, **ground, **marks}))
 
     def restore(
-        self, data: object, site: Site, loaded: LoadedScene, there: Mapping[int, int], /
+        self, data: object, site: Site, loaded: LoadedScene, there: Mapping[int, int] | None, /
     ) -> tuple[float, dict[int, int], Recalled]:
         """Bring a state back but for its kinds of grass; return these, its time [s], and entities.
 
         The entities are those that each one of a game's that it holds is now; some are `there` already.
 
-        Raises what `unpacked` raises, and ValueError for a state of another scene: then nothing has changed.
+        Raises what `unpacked` raises, TypeError for what is no mapping of them, and ValueError for a state of another
+        scene: then nothing has changed.
         """
+        known = {} if there is None else there
+        must_be_a(Mapping, known, "entities are a mapping, of those in the state to yours")
         saved = unpacked(data)
         state = saved.state
         must_fit(saved, site, self._lies(site.ground))
@@ -131,7 +134,7 @@ class Saving:
         self.mown.plots.resume(*made.mown)
         site.ground.density.sown.resume(*made.sown)
         last, became = self._became or (None, {})
-        entities = self._bring(state, made, {**(became if last == data else {}), **there})
+        entities = self._bring(state, made, {**(became if last == data else {}), **known})
         self._became = data, entities
         return state.time, dict(entities), made.kinds
 

@@ -136,8 +136,9 @@ class Trees(Feature):
     def _look(self, time: float) -> None:
         """Take over which entities stand where."""
         posed = self._world.both(Tree, Pose)
-        nowhere = {entity for entity, _ in self._world.all(Tree)}.difference(entity for entity, _, _ in posed)
-        self._world.standing([(entity, None) for entity in sorted(nowhere)], "the tree")
+        if len(self._seen[0]) > len(posed):  # some have no pose, or are another prairie's
+            placed = {who for who, _, _ in posed}
+            self._world.standing([(who, None) for who, _ in self._world.all(Tree) if who not in placed], "the tree")
         found = [each for each in posed if self._knows(each[1])]
         there = [*compress(found, self._world.standing([(who, pose) for who, _, pose in found], "the tree"))]
         self._let_go({entity for entity, _, _ in found}, time)

@@ -12,7 +12,7 @@ from tallgrass import Pose, Prairie, Tree
 from tallgrass.app.bench.trees import Behind, trees_told
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_truth, without_trees
-from tallgrass.systems.trees import standing
+from tallgrass.systems.trees import kept, kind, standing
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.far import COLUMNS, FINER_BY, LINES, ROWS
 from tallgrass.systems.trees.habit import HABITS
@@ -127,3 +127,36 @@ def test_a_bush_has_an_outline_and_grain_as_with_every_leaf(
     assert told is not None
     assert float(str(told["contrast"])) > 0.91
     assert float(str(told["roughness_ratio"])) > 0.87
+
+
+BIRCHES = SCENE.replace(
+    "thorn: { habit: hawthorn, height: [3.8, 3.8], positions: [[0, 0]] }",
+    "ash: { habit: birch, height: [9, 9], positions: [[0, -28], [9, -40]] }",
+)
+
+
+def test_f3_a_tree_whose_pictures_are_nowhere_opaque_is_drawn_as_they_are(
+    stage: Stage, ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def faint(_: str, sides: list[tuple[int, int]]) -> list[kept.Picture]:
+        return [[np.full(size, 60, np.uint8) for size in each] for each in kept.sizes_of(sides)]
+
+    monkeypatch.setattr(kind, "kept_pictures", faint)
+    aim = looking(0.0, 1.7, 30.0, pitch=4.0, view=14.0)
+    with private_world(), little_prairie(scene=BIRCHES, ctx=ctx) as made:
+        shown = stage.shot(made, aim).astype(int)
+        for entity, _ in esper.get_component(Tree):
+            esper.delete_entity(entity, immediate=True)
+        assert np.abs(stage.shot(made, aim) - shown).max() > 5
+
+
+def test_f3_the_foot_of_a_tree_far_off_is_no_nearer_than_its_trunk(stage: Stage, ctx: moderngl.Context) -> None:
+    aim = looking(0.0, 1.7, 12.0, pitch=2.0, view=14.0)
+    with private_world(), little_prairie(scene=BIRCHES, ctx=ctx) as made:
+        stage.shot(made, aim)
+    _, projection = stage.matrices(aim)
+    away = projection[2, 3] / (2.0 * stage.depth() - 1.0 + projection[2, 2])
+    tree, beside = away[:, 40:56].min(axis=1), away[:, :6].min(axis=1)
+    trunk = tree[tree < beside - 0.3]  # where it is before what is beside it
+    assert len(trunk) > 30
+    assert trunk.min() > 38.5

@@ -15,7 +15,7 @@ from tallgrass import Lamp, Pose, Prairie, Shade, Tree
 from tallgrass.app.bench.steps import held
 from tallgrass.components.arrays import Floats
 from tallgrass.systems.reference import draw_truth
-from tallgrass.systems.trees import bake, card, going, kept, kind, standing
+from tallgrass.systems.trees import bake, card, going, kind, standing
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.outline import CORNERS, Around
 from tallgrass.systems.trees.shade import ShadeMap
@@ -405,33 +405,3 @@ def test_a_later_run_draws_no_pictures_and_looks_the_same_to_the_bit(
             seen.append(stage.shot(run, AHEAD))
     assert made == [5]  # of a twig with ever more leaves, and of two models
     assert np.array_equal(seen[0], seen[1])
-
-
-def test_f3_a_tree_whose_far_pictures_are_nowhere_opaque_is_drawn_without_its_solid_part(
-    stage: Stage, ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def faint(_: str, sides: list[tuple[int, int]]) -> list[kept.Picture]:
-        return [[np.full(size, 60, np.uint8) for size in each] for each in kept.sizes_of(sides)]
-
-    monkeypatch.setattr(kind, "kept_pictures", faint)
-    far = SCENE.replace("[80, 80]", "[400, 400]").replace("[9, 9]", "[9, 9], positions: [[0, -120], [9, -150]]")
-    with private_world(), little_prairie(scene=far, ctx=ctx) as made:
-        shown = stage.shot(made, looking(0.0, 1.7, 12.0, view=20.0))
-        assert np.isfinite(shown).all()
-        assert made.statistics.draw_calls > 0
-
-
-def test_f3_the_foot_of_a_tree_far_off_is_no_nearer_than_its_trunk(
-    stage: Stage, prairie: Prairie, plant: Plant
-) -> None:
-    plant(0.0, -28.0)
-    aim = looking(0.0, 1.7, 12.0, pitch=2.0, view=14.0)
-    stage.shot(prairie, aim)
-    _, projection = stage.matrices(aim)
-    away = projection[2, 3] / (2.0 * stage.depth() - 1.0 + projection[2, 2])
-    over_ground = (
-        away[:, 70:90].min(axis=1) < away[:, :10].min(axis=1) - 0.3
-    )  # where the tree is before what is beside it
-    trunk = away[:, 70:90].min(axis=1)[over_ground]
-    assert len(trunk) > 30
-    assert trunk.min() > 38.5
