@@ -7,7 +7,7 @@ from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from ...components.declaration import Color, Declaration, DeclarationError, Pair, rising
 from .array import MapArray, PictureOrArray
-from .plant import ON_GRASS, SIZES, USUAL, Head, Plant
+from .plant import ON_GRASS, SIZES, USUAL, WITH_EYES, Head, Plant
 
 MOST_KINDS = 16
 """Kinds of grass in a scene at most.
@@ -175,6 +175,8 @@ class GrassKind(Declaration):
             return self
         if self.plant == "grass" and head.form not in ON_GRASS:
             raise DeclarationError(f"grass bears no {head.form}: its heads are spikes and plumes", "head", "form")
+        if head.eye is not None and head.form not in WITH_EYES:
+            raise DeclarationError(f"a {head.form} has no eye: discs and bells have one", "head", "eye")
         longest = (head.size or SIZES[head.form])[1]
         if head.form in ON_GRASS and longest > self.height[0]:
             raise DeclarationError(f"a {head.form} of {longest} m is longer than the shortest stem", "head", "size")

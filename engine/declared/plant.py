@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from ...components.declaration import Declaration, Pair, rising
+from ...components.declaration import Color, Declaration, Pair, rising
 
 Plant = Literal["grass", "flower", "forb", "shrub"]
 """The kinds of plant that there are."""
@@ -14,6 +14,9 @@ HeadForm = Literal["disc", "bell", "spike", "umbel", "plume"]
 
 ON_GRASS: tuple[HeadForm, ...] = ("spike", "plume")
 """The forms of heads that grasses have."""
+
+WITH_EYES: tuple[HeadForm, ...] = ("disc", "bell")
+"""The forms of heads that may have an eye."""
 
 SIZES: Mapping[HeadForm, tuple[float, float]] = {
     "disc": (0.035, 0.05),
@@ -61,6 +64,10 @@ class Head(Declaration):
     open: float = Field(default=0.85, ge=0.0, le=1.0)
     """Share of the heads that are open; of the others, some are in bud and some have set seed.
     Spikes open from below."""
+
+    eye: Color | None = None
+    """Colour of its eye, the middle third of a disc or bell: of stamens and the foot of the petals, as of a poppy, or
+    with nine petals or more of a disc of florets, as of a daisy. Without it, it is of the plant's own colours."""
 
     share: float = Field(default=1.0, gt=0.0, le=1.0)
     """Share of the plants that bear a head."""

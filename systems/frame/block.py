@@ -43,11 +43,13 @@ KIND = np.dtype(
         ("through", "3f4"), ("bloom", "f4"),  # light that leaves let through, of what they send back
         ("grain_c", "3f4"), ("apart", "f4"),  # change of pigment with the cosine of twice the face normal's azimuth
         ("grain_s", "3f4"), ("narrowed", "f4"),  # the same with the sine
-        ("head", "3f4"), ("pad_head", "V4"),  # what a head is like: `Headed`
+        ("head", "3f4"), ("eyed", "f4"),  # what a head is like: `Headed`; whether it has an eye of its own
+        ("eye_pigment", "3f4"), ("pad_eye", "V4"),  # that of a head's eye
     ]
 )  # fmt: skip
 """A kind of grass. `apart` is how far a face's sides are lit apart, and `narrowed` how much narrower a blade is at its
-root, below 0 where it is round; `bloom` is how much of it has the pigment of tips."""
+root, below 0 where it is round; `bloom` is how much of it has the pigment of tips. `eyed` is 1 where what has grown has
+eyes, and 2 more where what it is to be has."""
 
 FRAME = np.dtype(
     [

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 from ...engine.declared.plant import SIZES, Head, HeadForm
-from .layout import Layout
-from .organs import BUD, EYE, FLORETS, PETAL, RAY, STRAP, TUFT
+from .layout import Layout, has_few_petals
+from .organs import BLOTCHED, BUD, CAPSULE, DISC, EYE, FLORETS, PETAL, RAY, STAMENS, STRAP, TUFT
 from .rows import GOLDEN, Rows, Stems, stood
 
 Whorl = tuple[float, float]
@@ -17,10 +17,8 @@ Whorl = tuple[float, float]
 DISC_OF_FEW: tuple[Whorl, ...] = ((0.8, 1.0),)
 DISC_OF_MANY: tuple[Whorl, ...] = ((0.97, 1.0), (0.8, 0.88), (0.5, 0.62))
 BELL: tuple[Whorl, ...] = ((0.42, 1.0),)
+ROUND_A_DISC: tuple[Whorl, ...] = ((0.97, 1.0), (0.9, 0.94))
 """Whorls of petals from the outermost: the posture index at which petals stand, and their length, of the longest."""
-
-MANY = 9
-"""Petals from which on a disc has several whorls, as a dandelion."""
 
 _REACH = 0.8
 """How far a petal of posture index 1 reaches out from its root, as a part of its length."""
@@ -53,6 +51,21 @@ _DROPS, _DROPPED = 0.8, 0.4
 _STUB = 0.12
 """What is left where a petal was, of its length."""
 
+_EYE = 0.36
+"""Width of a head's eye, of the head's."""
+
+_DOME = 0.9, 1.3
+"""A disc of florets: how far they reach out as a posture index, and their width, of what closes the circle."""
+
+_BELOW_DISC = 0.32
+"""How far below its disc the petals of a head begin, of their length: they rise before they lie, and would hide it."""
+
+_STAMENS = 0.6, 1.2
+"""The posture index at which stamens stand about a capsule; their width, of what closes the circle half-way along."""
+
+_CAPSULE = 0.3, 0.2
+"""Length and width of a capsule, of the longest petal's length."""
+
 _UMBEL_OPENS = 0.6
 """How far the rays of an opening umbel reach out, of those of an old one."""
 
@@ -63,11 +76,18 @@ _TOP_LEANS = 1.25
 """How much more the top of a stem leans than all of it: it bends towards its tip."""
 
 
-def grow_heads(head: Head, layout: Layout, stems: Stems, random: np.random.Generator, /) -> Rows:
-    """Return the heads of stems: `layout.petals` rows and `layout.middles` for each, whether open or not."""
+def grow_heads(
+    head: Head, layout: Layout, stems: Stems, random: np.random.Generator, /, *, arched: int = 0
+) -> tuple[Rows, ...]:
+    """Return the heads of stems: `layout.petals` rows and `layout.middles` for each, whether open or not.
+
+    `arched` is the variant of postures that arch over.
+    """
     low, high = head.size or SIZES[head.form]
     size = random.uniform(low, high, len(stems.plant))
-    return _FORMS[head.form](head, layout, stems, size, random)
+    if head.eye is not None:
+        return _eyed(head, layout, stems, size, random, arched)
+    return (_FORMS[head.form](head, layout, stems, size, random),)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,32 +117,108 @@ def _askew(count: int, random: np.random.Generator, /, *, nods: NDArray[np.bool_
     return np.asarray(tilt[:, None] * np.stack([np.cos(twist), np.sin(twist)], axis=1))
 
 
+@dataclass(frozen=True, slots=True)
+class _Cup:
+    """The petals of discs and bells, and what stands among them."""
+
+    petals: Rows
+    ages: _Ages
+    longest: Doubles
+    """Length of the longest petal of each head [m], shape (m, 1)."""
+
+    turned: Doubles
+    """Azimuth of the first petal of each [rad], shape (m, 1)."""
+
+    askew: Doubles
+    """How each leans aside, shape (m, 2)."""
+
+
 def _cup(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.random.Generator, /) -> Rows:
     """Return discs and bells: whorls of petals round a middle, a little askew; in bud they are closed and green."""
-    count = layout.petals
-    whorls = BELL if head.form == "bell" else DISC_OF_MANY if count >= MANY else DISC_OF_FEW
-    few, ages = len(whorls) == 1, _ages(head, len(size), random)
+    few = has_few_petals(head.form, layout.petals)
+    whorls = BELL if head.form == "bell" else DISC_OF_FEW if few else DISC_OF_MANY
+    cup = _cupped(head, layout, stems, size, random, whorls=whorls, petal=PETAL if few else STRAP)
+    middle = stood(
+        stems, np.where(cup.ages.shut, BUD, EYE if few else STRAP), part=1.0, height=0.36 * cup.longest,
+        width=0.22 * cup.longest, toward=cup.turned, spread=0.05, tilt=cup.askew,
+    )  # fmt: skip
+    return _both(cup.petals, middle)
+
+
+def _eyed(
+    head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.random.Generator, arched: int, /
+) -> tuple[Rows, ...]:
+    """Return discs and bells with an eye, in the order in which they are drawn where nothing else tells.
+
+    Few petals stand about stamens and a capsule, and are seen before these; many lie about a disc.
+    """
+    few = has_few_petals(head.form, layout.petals)
+    whorls = BELL if head.form == "bell" else DISC_OF_FEW if few else ROUND_A_DISC
+    below = 0.0 if few else _BELOW_DISC
+    cup = _cupped(
+        head, layout, stems, size, random, whorls=whorls, petal=BLOTCHED if few else STRAP, below=below
+    )  # fmt: skip
+    if few:
+        return *_stamens(cup, layout.middles, stems, size), cup.petals
+    return cup.petals, _disc(cup, layout.middles, stems, size, arched)
+
+
+def _disc(cup: _Cup, count: int, stems: Stems, size: Doubles, arched: int, /) -> Rows:
+    """Return domes of florets, of which buds have a part, with a capsule in place of the first."""
+    spread, wide = _DOME
+    length = np.repeat(_EYE * size[:, None] / (2.0 * _REACH * spread), count, axis=1)
+    shut = np.broadcast_to(cup.ages.shut, length.shape)
+    organ = np.where(shut, np.where(np.arange(count) == 0, CAPSULE, BUD), DISC)
+    return stood(
+        stems, organ, part=1.0, height=np.where(shut, 0.6, 1.0) * length,
+        width=np.where(shut, 0.3, 2.0 * wide * _REACH * spread * np.tan(np.pi / count)) * length,
+        toward=cup.turned + 2.0 * np.pi / count * np.arange(count), spread=np.where(shut, 0.05, spread),
+        tilt=cup.askew, variant=np.where(shut, 0, arched),
+    )  # fmt: skip
+
+
+def _stamens(cup: _Cup, count: int, stems: Stems, size: Doubles, /) -> tuple[Rows, Rows]:
+    """Return stamens and, among them, capsules; in bud they are hidden."""
+    (spread, wide), count = _STAMENS, count - 1
+    length = np.repeat(_EYE * size[:, None] / (2.0 * _REACH * spread), count, axis=1)
+    stamens = stood(
+        stems, np.where(cup.ages.shut, BUD, STAMENS), part=1.0, height=np.where(cup.ages.shut, 0.6, 1.0) * length,
+        width=np.where(cup.ages.shut, 0.2, wide * np.pi * spread / count) * length,
+        toward=cup.turned + 2.0 * np.pi / count * np.arange(count), spread=np.where(cup.ages.shut, 0.05, spread),
+        tilt=cup.askew,
+    )  # fmt: skip
+    high, across = _CAPSULE
+    capsule = stood(
+        stems, CAPSULE, part=1.0, height=high * cup.longest, width=across * cup.longest, toward=cup.turned,
+        spread=0.05, tilt=cup.askew,
+    )  # fmt: skip
+    return stamens, capsule
+
+
+def _cupped(
+    head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.random.Generator, /, *,
+    whorls: tuple[Whorl, ...], petal: int, below: float = 0.0,
+) -> _Cup:  # fmt: skip
+    """Return heads of whorls, whose petals begin so far below the tips of their stems, of their length."""
+    count, few = layout.petals, len(whorls) == 1
+    ages = _ages(head, len(size), random)
     own, beside, around = _shared_out(count, whorls)
     spread, length = np.array(whorls)[own].T
     longest = (size / (2.0 * _REACH * max(spread)))[:, None]
-    petal = _petals(longest * length, ages, random, drops=few)
-    wide = np.minimum((_OVERLAP if few else _OVERLAP_OF_MANY) * np.pi * spread * petal / beside, _WIDEST * petal)
+    long = _petals(longest * length, ages, random, drops=few)
+    wide = np.minimum((_OVERLAP if few else _OVERLAP_OF_MANY) * np.pi * spread * long / beside, _WIDEST * long)
     turned = random.uniform(-np.pi, np.pi, (len(size), 1)) + around
     opens = np.interp(np.sqrt(ages.of_open), (0.0, 1.0), _OPENS if few else _OPENS_OF_MANY)
     opens = opens * random.uniform(0.85, 1.1, turned.shape)
     askew = _askew(len(size), random, nods=ages.shut & ~ages.seeds if few else None)
     bud = longest * np.where(ages.seeds, 0.5, random.uniform(0.5, 0.74, ages.shut.shape))
-    organ = np.where(ages.shut, BUD, PETAL if few else STRAP)
+    part = 1.0 - below * longest / stems.height[:, None] if below else 1.0
     petals = stood(
-        stems, organ, part=1.0, height=np.where(ages.shut, bud, petal),
+        stems, np.where(ages.shut, BUD, petal), part=part, height=np.where(ages.shut, bud, long),
         width=np.where(ages.shut, 0.34 * longest, wide), toward=turned + random.normal(0.0, 0.15, turned.shape),
         spread=np.where(ages.shut, 0.12, spread * opens), tilt=askew,
     )  # fmt: skip
-    middle = stood(
-        stems, np.where(ages.shut, BUD, EYE if few else STRAP), part=1.0, height=0.36 * longest,
-        width=0.22 * longest, toward=turned[:, :1], spread=0.05, tilt=askew,
-    )  # fmt: skip
-    return _both(petals, middle)
+    return _Cup(petals, ages, longest, turned[:, :1], askew)
 
 
 def _shared_out(count: int, whorls: tuple[Whorl, ...], /) -> tuple[NDArray[np.intp], NDArray[np.intp], Doubles]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import sqrt
 
 from ...engine.declared.grass import GrassKind
-from ...engine.declared.plant import PETALS, HeadForm, Plant
+from ...engine.declared.plant import PETALS, Head, HeadForm, Plant
 from ...engine.declared.quality import Quality
 
 FULL = 500
@@ -46,6 +46,12 @@ HABITS: Mapping[Plant, Habit] = {
 MIDDLES: Mapping[HeadForm, int] = {"disc": 1, "bell": 1, "spike": 0, "umbel": 0, "plume": 0}
 """Rows of a head beside its petals."""
 
+MANY = 9
+"""Petals from which on a disc has several whorls, as a dandelion."""
+
+_STAMENS, _DISC = (3, 2), (5, 3)
+"""The same of one with an eye of a colour of its own: at full quality and at least, with few petals and with many."""
+
 
 @dataclass(frozen=True, slots=True)
 class Layout:
@@ -85,8 +91,20 @@ def layout_of(kind: GrassKind, quality: Quality, /) -> Layout:
     layout = Layout(plants, 0, habit.branches, round(leaves * part), 0, 0)
     if kind.head is None:
         return layout
-    petals = kind.head.petals or max(PETALS[kind.head.form] // habit.heads, 3)
+    petals = max(round((kind.head.petals or max(PETALS[kind.head.form] // habit.heads, 3)) * part), 3)
     return Layout(
-        plants, max(int(plants * kind.head.share), 1), habit.branches, layout.leaves, max(round(petals * part), 3),
-        MIDDLES[kind.head.form],
+        plants, max(int(plants * kind.head.share), 1), habit.branches, layout.leaves, petals,
+        _middles(kind.head, petals, part),
     )  # fmt: skip
+
+
+def has_few_petals(form: HeadForm, petals: int, /) -> bool:
+    """Return whether petals stand as those of a poppy do, and not as a dandelion's."""
+    return form == "bell" or petals < MANY
+
+
+def _middles(head: Head, petals: int, part: float) -> int:
+    if head.eye is None:
+        return MIDDLES[head.form]
+    most, least = _STAMENS if has_few_petals(head.form, petals) else _DISC
+    return max(round(most * part), least)

@@ -56,7 +56,8 @@ def _parts(
         parts = [_stems(kind, every), _leaves(kind, layout, every, variants - hanging_of(variants), random)]
         culms = every.of(np.flatnonzero(bears[every.plant]))
     if kind.head is not None:
-        parts.append(grow_heads(kind.head, layout, culms, random))
+        arched = min(variants - hanging_of(variants), variants - 1)
+        parts += grow_heads(kind.head, layout, culms, random, arched=arched)
     return parts
 
 

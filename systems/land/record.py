@@ -12,6 +12,7 @@ from ...engine.memo import while_it_lives
 from ...engine.terrain.sample import bareness
 from ..frame.block import GROUPS
 from ..grow.headed import Headed, headed
+from ..grow.organs import any_eyes
 from ..grow.record import GIVES, Growth
 from ..grow.section import SECTIONS
 from ..light.materials import Leaves, bloom, leaves_of, let_through, pigment, understorey, undertone
@@ -21,7 +22,7 @@ from ..space.grown import Grown
 BY_KIND = "came", "crown", "leaf", "lying", "understorey", "undertone", "steepest", "thins", "bears", "give"
 """The fields of the frame's record that have a figure for each kind."""
 
-OF_KIND = "root", "gloss", "tip", "taper", "through", "bloom", "narrowed", "head"
+OF_KIND = "root", "gloss", "tip", "taper", "through", "bloom", "narrowed", "head", "eyed", "eye_pigment"
 """What is written here of each of its kinds."""
 
 
@@ -100,6 +101,9 @@ def write_land(record: NDArray[np.void], grown: Grown, /) -> None:
     give = row["give"].reshape(GROUPS, GIVES, 4)
     for index, (kind, own) in enumerate(zip(grown.scene.grass.values(), figures_on(grown), strict=True)):
         _write_kind(row["kinds"][index], kind, own)
+        row["kinds"][index]["eyed"] = any_eyes([growths[index]]) + 2 * any_eyes(
+            [grown.coming[index]] if index in grown.coming else []
+        )
         crown[index], leaf[index] = own.crown, own.leaves.side
         lying[index] = own.leaves.above / own.leaves.side
         bears[index] = own.head is not None
@@ -114,4 +118,5 @@ def _write_kind(row: np.void, kind: GrassKind, own: Figures) -> None:
     row["through"], row["bloom"] = let_through(kind), own.bloom
     section = SECTIONS[kind.profile]
     row["head"] = own.head or 0.0
+    row["eye_pigment"] = pigment(kind.tip if kind.head is None else kind.head.eye or kind.tip)
     row["narrowed"] = -1.0 if section.is_round else 1.0 - section.waist

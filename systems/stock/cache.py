@@ -77,28 +77,24 @@ def growth_key(kind: GrassKind, quality: Quality, /, *, seed: int) -> str:
     depends = {
         "version": _version(),
         "seed": seed,
-        "kind": kind.model_dump(
-            include={
-                "plant",
-                "height",
-                "width",
-                "stiffness",
-                "damping",
-                "lean",
-                "taper",
-                "profile",
-                "clumping",
-                "withered",
-                "leaf",
-                "head",
-            },
-            mode="json",
-        ),
+        "kind": _grown_by(kind),
         "layout": asdict(layout_of(kind, quality)),
         "quality": quality.model_dump(include={"patch", "models"}, mode="json"),
         "pictures": {each.name: each.depends(kind, quality) for each in REPRESENTATIONS},
     }
     return blake2b(json.dumps(depends, sort_keys=True).encode(), digest_size=20).hexdigest()
+
+
+def _grown_by(kind: GrassKind) -> dict[str, object]:
+    """Return what of a kind something else grows by; of an eye, whether there is one."""
+    keys = {
+        "plant", "height", "width", "stiffness", "damping", "lean", "taper", "profile", "clumping", "withered", "leaf",
+        "head",
+    }  # fmt: skip
+    kept: dict[str, object] = kind.model_dump(include=keys, mode="json")
+    if kind.head is not None:
+        kept["head"] = kind.head.model_dump(exclude={"eye"}, mode="json") | {"eye": kind.head.eye is not None}
+    return kept
 
 
 @cache

@@ -14,6 +14,21 @@ vec3 pigment_at(int kind, float part) {
     return mix(kinds[kind].root, kinds[kind].tip, part);
 }
 
+// The same where so much of it is of the colour of a head's eye.
+vec3 pigment_at(int kind, float part, float eyed) {
+#ifdef EYED
+    return pigment_at(kind, part) + eyed * (kinds[kind].eye_pigment - kinds[kind].tip);
+#else
+    return pigment_at(kind, part);
+#endif
+}
+
+// Whether heads of a kind have an eye, or will have once it has become what it is to be.
+bool has_eyes(int kind, bool comes) {
+    float eyed = kinds[kind].eyed;
+    return comes ? eyed > 1.5 : mod(eyed, 2.0) > 0.5;
+}
+
 // What that changes by where a face has its normal, whose azimuth twice has this cosine and sine.
 vec3 grain_at(int kind, vec2 twice) {
     return 1.0 + kinds[kind].grain_c * twice.x + kinds[kind].grain_s * twice.y;

@@ -131,8 +131,12 @@ vec3 dye(Blade blade, vec2 across, bool has_section, bool is_round, vec2 slow) {
     int k = int(blade.kind);
     vec2 twice = doubled(blade.facing), grade = tones_of(int(blade.organ));
     vec3 grain = grain_at(k, twice), dry = stretch(slow) * grain;
-    low = vec4(pigment_at(k, grade.x) * dry, blade.variant);
-    high = vec4(pigment_at(k, grade.y) * dry, 0.0);
+    vec2 eyed = vec2(0.0);
+#ifdef EYED
+    eyed = vec2(eyed_at(int(blade.organ), 0.0), eyed_at(int(blade.organ), 1.0));
+#endif
+    low = vec4(pigment_at(k, grade.x, eyed.x) * dry, blade.variant);
+    high = vec4(pigment_at(k, grade.y, eyed.y) * dry, 0.0);
     if (has_section) {
         vec2 round_to = doubled(toward_sun);
         float fold = twice.x * round_to.y - twice.y * round_to.x;

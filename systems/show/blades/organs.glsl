@@ -21,6 +21,21 @@ vec2 tones_of(int organ) {
     return tones[organ];
 }
 
+#ifdef EYED
+const vec2 dyed[ORGANS] = DYED;
+
+// How far it has the colour of its head's eye at part `t` of its length.
+float eyed_at(int organ, float t) {
+    vec2 ends = dyed[organ];
+    return clamp((ends.y - t) / (ends.y - ends.x), 0.0, 1.0);
+}
+
+// Whether it has that colour within alone: from outside, nothing of it is seen.
+bool is_blotched(int organ) {
+    return dyed[organ].x > 0.0 && dyed[organ].y < 1.0;
+}
+#endif
+
 // How far it gives way to wind, of how far a blade does.
 float give_of(int organ) {
     return gives[organ];
@@ -44,6 +59,7 @@ bool is_leaf(int organ) {
 vec2 tones_of(int organ) {
     return vec2(0.0, 1.0);
 }
+
 
 float give_of(int organ) {
     return 1.0;

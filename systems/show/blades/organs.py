@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...grow.organs import AT_TIPS, BLADE, GIVES, KNOTS, LEAVES, LIGULES, ORGANS, TEETH, TONES, WIDTHS
+from ...grow.organs import AT_TIPS, BLADE, DYED, GIVES, KNOTS, LEAVES, LIGULES, ORGANS, TEETH, TONES, WIDTHS
 from ...grow.record import Growth
 from .pool import ORGAN
 
@@ -21,6 +21,7 @@ def organ_defines(record: np.dtype[np.void], /) -> Mapping[str, str | int]:
         "AT_TIPS": _bits(AT_TIPS),
         "LEAVES": _bits(LEAVES),
         "TONES": _literal("vec2", [f"vec2({_listed(row)})" for row in TONES]),
+        "DYED": _literal("vec2", [f"vec2({_listed(row)})" for row in DYED]),
         "GIVES": _literal("float", [_listed(GIVES)]),
         "WIDTHS": _literal("float", [_listed(WIDTHS.reshape(-1))]),
         "TEETH": _literal("float", [_listed(TEETH)]),

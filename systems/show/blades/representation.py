@@ -12,6 +12,7 @@ from ....engine.declared.quality import Quality
 from ...around.kept import Kept
 from ...around.outlook import Outlook
 from ...around.patches import NOWHERE, PatchTable
+from ...grow.organs import any_eyes
 from ...grow.record import NOTHING, Growth
 from ...space.ground import Ground
 from ...space.grown import Grown
@@ -58,9 +59,10 @@ class BladeRepresentation(Representation):
         return replace(self, ground=ground)
 
     def defines(self, grown: Grown, /) -> Mapping[str, str | int]:
-        """Return which kinds have numbers of segments of their own, and whether any has leaves with teeth."""
-        toothed = any_teeth([*grown.growths, *grown.coming.values()])
-        return {**own_segment_defines(grown.own_segments), **({"TOOTHED": 1} if toothed else {})}
+        """Return which kinds have numbers of segments of their own, and whether any has leaves with teeth, or eyes."""
+        growths = [*grown.growths, *grown.coming.values()]
+        special = {"TOOTHED": any_teeth(growths), "EYED": any_eyes(growths)}
+        return {**own_segment_defines(grown.own_segments), **{name: 1 for name, is_so in special.items() if is_so}}
 
     def rings(self) -> int:
         """Return how many rings it has."""

@@ -164,13 +164,36 @@ vec4 widened(Point point, float t, float to) {
 }
 #endif
 
+#ifdef EYED
+const float ASLANT = 0.2;  // cosine between a petal's face and the line of sight from which on it is seen from within, or outside
+#ifdef SOFT
+const float UNHIDDEN = 0.55;  // of the feet of a cup's petals, how much is seen past others: measured on poppies at slopes from 0.1 to 1
+const vec2 BY_ORDER = vec2(0.5, 2.0);  // coverages from which on a ribbon hides what is behind it, where depth says so, and where order alone does
+#endif
+
+// How far a point at part `t` of a blade is seen in the colour of its head's eye. A petal leans outwards to where it faces. Where order
+// alone says what is before it, petals before it do not hide its foot.
+float eyed_seen(Point point, float t) {
+    int organ = int(stands.z);
+    if (!is_blotched(organ))
+        return eyed_at(organ, t);
+    vec2 out_to = normalize(vec2(lie_of.w, -lie_of.z));
+    vec3 along = normalize(point.tangent), within = vec3(-out_to * along.y, dot(out_to, along.xz)).xzy;
+    float seen = clamp(0.5 - 0.5 / ASLANT * dot(within, normalize(point.place - eye)), 0.0, 1.0);
+#ifdef SOFT
+    seen *= mix(1.0, UNHIDDEN, smoothstep(BY_ORDER.x, BY_ORDER.y, joints.y));
+#endif
+    return eyed_at(organ, t) * seen;
+}
+#endif
+
 #ifdef MORPH
-// The radiance at part `t` of a blade of kind `k` with this face normal, where it is painted.
-vec3 painted_light(int k, float t, vec2 face, Painted target) {
+// The radiance of a blade of kind `k` with this face normal, where it is painted: its tone is `t`, and so much of it is its eye's.
+vec3 painted_light(int k, float t, float eyed, vec2 face, Painted target) {
     Lie lies = lie_at(target.middle.xz);
     ByKind grows = grows_at(target.middle.xz);
     float deep = less_deep(target.run.xz, target.middle, stacks[int(joints.w)].z, grows, OF(crown, k) * lodged(target.bend));
-    vec3 pigment = pigment_at(k, mix(1.0, t, deep)) * stretch(lies.slow) * grain_at(k, doubled(face));
+    vec3 pigment = pigment_at(k, mix(1.0, t, deep), eyed) * stretch(lies.slow) * grain_at(k, doubled(face));
     pigment *= faced(k, normalize(target.run.xz), target.middle, target.top);
     Light light = light_on(k, target.bend, target.middle, lies, grows);
     if (any_casters())
@@ -198,7 +221,11 @@ void bring(inout Point point, inout vec3 light, float t, int k) {
     if (OF(bears, k) > 0.5)
         boost = mix(boost, heads_boosted(k, run, target.middle, target.top, target.back), of_heads(mix(tones.x, tones.y, t)));
     point.across = mix(point.across, run * wide * boost, painted.w);
-    light = mix(light, painted_light(k, mix(tones.x, tones.y, t), face, target), painted.w);
+    float eyed = 0.0;
+#ifdef EYED
+    eyed = eyed_seen(point, t);
+#endif
+    light = mix(light, painted_light(k, mix(tones.x, tones.y, t), eyed, face, target), painted.w);
 }
 #endif
 
@@ -310,7 +337,12 @@ void main() {
         to = is_near ? -side : side;
     }
 #endif
-    vec3 pigment = mix(low.rgb, high.rgb, t), light = shade(leaf_at(pigment * (1.0 + face * told_beside(lit)), high_up), reaches);
+    float way = t;
+#ifdef EYED
+    if (is_blotched(int(stands.z)))
+        way = 1.0 - eyed_seen(point, t);
+#endif
+    vec3 pigment = mix(low.rgb, high.rgb, way), light = shade(leaf_at(pigment * (1.0 + face * told_beside(lit)), high_up), reaches);
 #ifdef FOLDS
     bool is_folded = is_blade(int(stands.z)) && kinds[k].apart > 0.0 && kinds[k].narrowed > 0.0;
     keel = is_folded ? to * (shown_of(light) - shown_of(shade(leaf_at(pigment, high_up), reaches))) : vec3(0.0);

@@ -94,7 +94,14 @@ void add_kind(inout Grass sum, int kind, Look look, vec2 facing, float high) {
     covers = OF(bears, kind) > 0.0 ? min(image.a / max(mean.a, LEAST_MEAN), 1.0) : covers;
 #endif
     covers *= part;
-    sum.pigment += covers * pigment_at(kind, at.x) * grain_at(kind, facing * (2.0 * shown.b - 1.0));
+    float twice = 2.0 * shown.b - 1.0, eyed = 0.0;
+#ifdef EYED
+    if (has_eyes(kind, false)) {
+        eyed = eyed_of(shown);
+        twice = FACING;
+    }
+#endif
+    sum.pigment += covers * pigment_at(kind, at.x, at.x * eyed) * grain_at(kind, facing * twice);
     sum.height += covers * at.y * OF(tops, kind);
     sum.covers += covers;
     sum.taller += part * (shown.g * mean.a / max(mean.g, LEAST_TEXEL) - 1.0);

@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Doubles, Floats
 from ...grow.bend import highest_tip, ribbon, segment_normals, spine, tone
+from ...grow.dye import eyed
 from ...grow.met import first_met
+from ...grow.organs import has_eyes
 from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
 from ...grow.record import LENGTHS, Blades, PatchModel, Postures
 from ...grow.section import FLAT, Section
@@ -27,8 +29,9 @@ class Carpet:
 
     texels: Bytes
     """Coverage-premultiplied meaning of each texel, shape (slopes, 4, r, r, 4): place along the blade, height
-    as a fraction of `height`, cosine c of twice the face normal's azimuth from the view (0.5 + 0.5 c), coverage. The
-    four viewing directions are -z, +x, +z, -x in this order; rows go along z, columns along x."""
+    as a fraction of `height`, cosine c of twice the face normal's azimuth from the view (0.5 + 0.5 c), coverage. Of
+    kinds whose heads have eyes, in place of that cosine, how much of the eye's colour it has. The four viewing
+    directions are -z, +x, +z, -x in this order; rows go along z, columns along x."""
 
     height: float
     """Height of the canopy [m]."""
@@ -100,7 +103,7 @@ def grow_carpet(
     width = float(blades.width.mean())
     tones = tone(blades, np.linspace(0.0, 1.0, _SEGMENTS + 1))
     normals = segment_normals(blades, centre)
-    field = _Field(seen_along, normals, tones, width, patch, height, texels)
+    field = _Field(seen_along, normals, tones, width, patch, height, texels, blades if has_eyes(blades) else None)
     images = [[field.draw(heading, slope) for heading in _HEADINGS] for slope in slopes]
     return Carpet(
         slope=np.asarray(slopes, np.float32),
@@ -146,8 +149,10 @@ class _Field:
         patch: float,
         height: float,
         texels: int,
+        eyed: Blades | None,
         /,
     ) -> None:
+        self._eyed = eyed
         self._fine = int(np.clip(np.ceil(_SAMPLES_PER_WIDTH * patch / texels / width), 6, 64))
         self._seen_along, self._patch, self._height, self._texels = seen_along, patch, height, texels
         self._normals = np.repeat(normals.reshape(-1, 3), 2, axis=0)
@@ -167,7 +172,12 @@ class _Field:
         seen = rasterise(corners, ribbons[:, :, 1], shape=(rows, columns), wrap=True, shift=shift)
         where = seen.sample // (columns * self._fine) * columns + seen.sample % columns
         count = self._texels * columns
-        sums = [np.bincount(where, values, count) for values in self._meaning(corners, ribbons, seen, heading)]
+        meaning = self._meaning(corners, ribbons, seen, heading)
+        if self._eyed is not None:
+            toward = -float(heading[0]), slope, -float(heading[1])
+            dye = eyed(self._eyed, ribbons, points=_SEGMENTS + 1, toward=toward)
+            meaning[2] = interpolate(corners, dye, seen)
+        sums = [np.bincount(where, values, count) for values in meaning]
         means = np.stack(sums).reshape(4, self._texels, columns) / self._fine
         image = _spread(means, self._texels)
         image = image.transpose(2, 1, 0) if turned else image.transpose(1, 2, 0)
@@ -181,13 +191,13 @@ class _Field:
 
     def _meaning(
         self, corners: Doubles, ribbons: Doubles, seen: Fragments, heading: NDArray[np.float64], /
-    ) -> tuple[Doubles | None, ...]:
+    ) -> list[Doubles | None]:
         """Return place along the blade, height and doubled azimuth from the view, each (f,), and none for 1."""
         level = np.maximum(np.hypot(self._normals[:, 0], self._normals[:, 2]), 1e-6)
         twice = 2.0 * (self._normals[:, ::2] @ heading / level) ** 2 - 1.0
         place = interpolate(corners, self._place, seen)
         height = interpolate(corners, ribbons[:, :, 1], seen) / self._height
-        return place, np.clip(height, 0.0, 1.0), (0.5 + 0.5 * twice).take(seen.triangle), None
+        return [place, np.clip(height, 0.0, 1.0), (0.5 + 0.5 * twice).take(seen.triangle), None]
 
 
 def _spread(means: Doubles, texels: int, /) -> Doubles:

@@ -3,7 +3,7 @@
 #include "lib/random.glsl"
 #include "systems/show/carpet/lit.glsl"
 
-uniform sampler2DArray images;  // place along the blade, height, twice the azimuth, coverage; premultiplied
+uniform sampler2DArray images;  // place along the blade, height, twice the azimuth (or what is an eye's), coverage; premultiplied
 uniform float slopes[SLOPES];   // their viewing slopes
 uniform ByKind first;           // by kind: first layer of the images
 uniform ByKind coming;          // the same of what it is to be

@@ -93,7 +93,7 @@ vec4 kind_seen(int kind, Patch own, Reading read, Sight sight, float grain, View
 #endif
     if (anything_is_cut() && is_mown(view.left))
         cut_down(kind, texel, light, view, usual_height);
-    vec3 pigment = pigment_at(kind, texel.place) * view.fresh * grain_at(kind, doubled(sight.heading) * texel.twice);
+    vec3 pigment = pigment_at(kind, texel.place, texel.place * texel.eyed) * view.fresh * grain_at(kind, doubled(sight.heading) * texel.twice);
     return texel.covers * vec4(shown_of(shade(leaf_at(pigment, texel.height), light)), 1.0);
 }
 

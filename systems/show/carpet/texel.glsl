@@ -15,6 +15,7 @@ struct Texel {
     float covers;  // coverage
     float usual;   // mean coverage
     float taller;  // how much higher it is than the mean, of that
+    float eyed;    // of what has the tip's pigment, how much has an eye's instead
 };
 
 // How much more grass hides, seen at a slope between those of two images, than the mean of both. Both show which optical depth it has
@@ -39,8 +40,15 @@ float coarser_heads(float across, float slope) {
 }
 #endif
 
+#ifdef EYED
+// Of what an image shows in the tip's pigment, how much has that of an eye.
+float eyed_of(vec3 shown) {
+    return min(shown.b / max(shown.r, LEAST_TEXEL), 1.0);
+}
+#endif
+
 // The texel of images from a layer on, whose grain is so far from the mean, of how far it is in images.
-Texel texel_from(float layer, int kind, Patch own, Reading read, float on_level, float grain) {
+Texel texel_from(float layer, int kind, bool comes, Patch own, Reading read, float on_level, float grain) {
     layer += float((own.model * SLOPES + read.elevation) * HEADINGS + own.side);
     float next = layer + float(HEADINGS);
     vec4 mean_low = layer_mean(images, int(layer), stock.z), mean_high = layer_mean(images, int(next), stock.z);
@@ -57,25 +65,32 @@ Texel texel_from(float layer, int kind, Patch own, Reading read, float on_level,
     image.rgb = clamp(image.rgb, 0.0, image.a);
     vec3 shown = image.rgb / max(image.a, LEAST_TEXEL);
     float taller = shown.g * mean.a / max(mean.g, LEAST_TEXEL) - 1.0;
-    return Texel(shown.r, shown.g, 2.0 * shown.b - 1.0, image.a, mean.a * fill, taller);
+    float twice = 2.0 * shown.b - 1.0, eyed = 0.0;
+#ifdef EYED
+    if (has_eyes(kind, comes)) {
+        eyed = eyed_of(shown);
+        twice = FACING;
+    }
+#endif
+    return Texel(shown.r, shown.g, twice, image.a, mean.a * fill, taller, eyed);
 }
 
 // What a part of one texel's grass and the rest of another's show together.
 Texel together(Texel one, Texel other, float part) {
     float covers = mix(one.covers, other.covers, part), of_other = part * other.covers / max(covers, LEAST_TEXEL);
     return Texel(mix(one.place, other.place, of_other), mix(one.height, other.height, of_other), mix(one.twice, other.twice, of_other),
-                 covers, mix(one.usual, other.usual, part), mix(one.taller, other.taller, of_other));
+                 covers, mix(one.usual, other.usual, part), mix(one.taller, other.taller, of_other), mix(one.eyed, other.eyed, of_other));
 }
 
 // The texel of a kind, and of what it is to be as far as it has become that. Programs that are made for none are told so by PLAIN.
 Texel texel_of(int kind, Patch own, Reading read, float on_level, float grain) {
 #ifdef PLAIN
-    return texel_from(OF(first, kind), kind, own, read, on_level, grain);
+    return texel_from(OF(first, kind), kind, false, own, read, on_level, grain);
 #else
     float part = OF(came, kind);
-    Texel texel = texel_from(part < 1.0 ? OF(first, kind) : OF(coming, kind), kind, own, read, on_level, grain);
+    Texel texel = texel_from(part < 1.0 ? OF(first, kind) : OF(coming, kind), kind, part >= 1.0, own, read, on_level, grain);
     if (part > 0.0 && part < 1.0)
-        texel = together(texel, texel_from(OF(coming, kind), kind, own, read, on_level, grain), part);
+        texel = together(texel, texel_from(OF(coming, kind), kind, true, own, read, on_level, grain), part);
     return texel;
 #endif
 }

@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Doubles, Floats
 from ...grow.bend import highest_tip, ribbon, spine, tone
-from ...grow.organs import HEADS
+from ...grow.dye import eyed
+from ...grow.organs import HEADS, has_eyes
 from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
 from ...grow.record import Blades, PatchModel, Postures
 from ...grow.section import FLAT, Section
@@ -25,7 +26,8 @@ class Strips:
 
     texels: Bytes
     """Coverage-premultiplied meaning of each texel, bottom row first, shape (2, strips, h, w, 4): place along
-    the blade, cosine c and sine s of twice the face normal's azimuth (0.5 + 0.5 c, 0.5 + 0.5 s), coverage."""
+    the blade, cosine c and sine s of twice the face normal's azimuth (0.5 + 0.5 c, 0.5 + 0.5 s), coverage. Of kinds
+    whose heads have eyes, in place of the sine, how much of the eye's colour it has."""
 
     ranks: Bytes
     """Coverage-premultiplied rank of what each texel shows, shape (2, strips, h, w)."""
@@ -179,12 +181,17 @@ class _Sheet:
         corners = np.empty((*ribbons.shape[:2], 2))
         corners[:, :, 0] = (ribbons[:, :, along] + self._margin) * (w * fine / (self._patch + 2.0 * self._margin))
         up = ribbons[:, :, 1] + self._lifted(ribbons, 1 - orientation)
+        front = np.repeat(-self._blades.rank.astype(np.float64), span)[:, None].repeat(3, axis=1)
+        if has_eyes(self._blades):
+            front -= self._behind(ribbons, 1 - orientation)
         corners[:, :, 1] = np.minimum(up / self._height, 1.0) * (h * fine)
         corners[:, :, 1] += np.repeat(self.slice(orientation), span)[:, None] * float(h * fine)
         shape = self._strips * h * fine, w * fine
-        front = np.repeat(-self._blades.rank.astype(np.float64), span)[:, None].repeat(3, axis=1)
         seen = rasterise(corners, front, shape=shape)
         values = self._meaning(corners, seen)
+        if has_eyes(self._blades):
+            toward = (0.0, SLANT, -1.0) if along == 0 else (-1.0, SLANT, 0.0)
+            values[2] = interpolate(corners, eyed(self._blades, ribbons, points=_SEGMENTS + 1, toward=toward), seen)
         texel = (seen.sample // shape[1] // fine) * w + seen.sample % shape[1] // fine
         sums = [np.bincount(texel, weights=value, minlength=self._strips * h * w) for value in values]
         texels: Bytes = np.rint(np.stack(sums, axis=1) * (255.0 / fine**2)).astype(np.uint8)
@@ -198,6 +205,15 @@ class _Sheet:
         away = ribbons[:, :, 2 * depth]
         foot = away.reshape(-1, 2 * _SEGMENTS * 3)[:, :1].repeat(2 * _SEGMENTS, axis=0)
         return np.asarray(np.where(heads[:, None], SLANT * (away - foot), 0.0))
+
+    def _behind(self, ribbons: Doubles, depth: int, /) -> Doubles:
+        """Return how far corners are behind the root of their plant, in ranks: petals before an eye hide it.
+
+        None comes to stand behind what is of the next rank. Shape (triangles, 3).
+        """
+        root, ranks = self._blades.root[:, depth].astype(np.float64), np.unique(self._blades.rank)
+        away = ribbons[:, :, 2 * depth] - np.repeat(root, 2 * _SEGMENTS)[:, None]
+        return np.asarray(away * (0.5 / len(ranks) / max(np.abs(away).max(), 1e-6)))
 
     def _meaning(self, corners: Doubles, seen: Fragments, /) -> list[Doubles]:
         """Return at each sample: place along the blade, twice the normal's azimuth in two parts, 1, and the rank."""

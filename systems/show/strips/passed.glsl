@@ -20,6 +20,9 @@ flat PASSED float heads;    // factor on the coverage of heads
 #ifdef THIN
 flat PASSED vec2 aged;      // what shows by rank where a kind becomes another: slope, start
 #endif
+#ifdef EYED
+flat PASSED float eyed;     // above 0 where in place of that sine is how much of an eye's colour there is, and in place of its change, the eye's
+#endif
 #ifdef DEEP
 flat PASSED int number;     // of the column
 #endif

@@ -9,7 +9,7 @@
 #include "lib/stack.glsl"
 #endif
 
-uniform sampler2DArray atlas;  // place along the blade, cosine and sine of twice the normal's azimuth, coverage; premultiplied
+uniform sampler2DArray atlas;  // place along the blade, cosine and sine (or the eye's colour) of twice the normal's azimuth, coverage; premultiplied
 #ifdef THIN
 uniform sampler2DArray ranks;  // rank; premultiplied
 #endif
@@ -66,7 +66,12 @@ void main() {
     }
     vec3 mean = texel.rgb / max(texel.a, LEAST_PAINT);
     vec2 twice = 2.0 * mean.gb - 1.0;
+#ifdef EYED
+    vec3 base = foot.rgb + rise.rgb * mean.r, grain = 1.0 + grain_cos.rgb * twice.x;
+    vec3 pigment = eyed > 0.0 ? (base + grain_sin.rgb * mean.b) * grain : base * (grain + grain_sin.rgb * twice.y);
+#else
     vec3 pigment = (foot.rgb + rise.rgb * mean.r) * (1.0 + grain_cos.rgb * twice.x + grain_sin.rgb * twice.y);
+#endif
     Light light = unbundled(lit);
 #ifdef SHADED
     float seen = past_body(sqrt(max(shadow.x + on.z * (shadow.y + on.z * shadow.z), 0.0)), shadow.w);

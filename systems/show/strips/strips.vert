@@ -179,6 +179,11 @@ void dye(Column column, vec2 run, vec3 middle, vec3 top, float lying, vec2 slow,
     rise.rgb *= deep;
     grain_cos.rgb = turned * kinds[column.kind].grain_c / mean_face;
     grain_sin.rgb = turned * kinds[column.kind].grain_s / mean_face;
+#ifdef EYED
+    eyed = has_eyes(column.kind, column.form != column.kind) ? 1.0 : 0.0;
+    if (eyed > 0.0)
+        grain_sin.rgb = (kinds[column.kind].eye_pigment - kinds[column.kind].tip) * dry;
+#endif
 }
 
 #ifdef SHADED
