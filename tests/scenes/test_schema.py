@@ -27,8 +27,8 @@ BEYOND = {
     "wind-stops-before-it-starts", "wind-path-goes-back-in-time", "gust-intervals-fall", "blast-outline-twice",
     "blast-ellipse-flat", "blast-outline-empty", "presser-corners-in-a-line",
     "presser-goes-back-in-time", "trees-among-nothing", "trees-off-the-terrain",
-    "head-on-grass", "head-of-no-form-on-grass", "head-longer-than-its-stem", "head-sizes-fall", "leaves-fall",
-    "plants-of-grass", "blades-of-a-flower", "several-keys-of-another-plant",
+    "head-on-grass", "head-of-no-form-on-grass", "head-of-no-eye", "head-longer-than-its-stem", "head-sizes-fall",
+    "leaves-fall", "plants-of-grass", "blades-of-a-flower", "several-keys-of-another-plant",
 }  # fmt: skip
 """What is wrong with the files that a scene names, or with several values together: `check` tells of these."""
 
