@@ -60,7 +60,7 @@ _DOME = 0.9, 1.3
 _BELOW_DISC = 0.32
 """How far below its disc the petals of a head begin, of their length: they rise before they lie, and would hide it."""
 
-_STAMENS = 0.6, 1.2
+_STAMENS = 0.6, 0.8
 """The posture index at which stamens stand about a capsule; their width, of what closes the circle half-way along."""
 
 _CAPSULE = 0.3, 0.2
