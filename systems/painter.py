@@ -236,16 +236,27 @@ class Painter(Holding):
         """Draw what lies on the land, and soft edges before it: all of them, or those beyond grass that stands."""
         target.depth_mask = False
         self._blend()
-        mirrored = is_mirrored(view)
-        if mirrored is not None:  # hillsides that face away are hidden by the hill
-            self.ctx.cull_face = "front" if mirrored else "back"
-            self.ctx.enable(moderngl.CULL_FACE)
-        self.draw_calls += self.coarsest.draw(target)
-        self.ctx.disable(moderngl.CULL_FACE)
+        is_parted = any(part.soft_left() is not None for part in self._doing["soft_left"])
+        carpet = self.coarsest
+        self.draw_calls += self._culled(view, partial(carpet.draw_dense if is_parted else carpet.draw, target))
         target.depth_mask = True
         for part in self._doing["draw_soft"]:
             among_grass = not all_soft and part.soft_left() is not None
             self.draw_calls += part.draw_soft(self._reach() if among_grass else 0.0)
+        if is_parted:  # thin grass over a crest lets trees behind it through
+            target.depth_mask = False
+            self.draw_calls += self._culled(view, partial(carpet.draw_thin, target))
+            target.depth_mask = True
+
+    def _culled(self, view: View, draw: Callable[[], int]) -> int:
+        """Draw without hillsides that face away, which the hill hides; return the number of draw calls."""
+        mirrored = is_mirrored(view)
+        if mirrored is not None:
+            self.ctx.cull_face = "front" if mirrored else "back"
+            self.ctx.enable(moderngl.CULL_FACE)
+        calls = draw()
+        self.ctx.disable(moderngl.CULL_FACE)
+        return calls
 
     def _reach(self) -> float:
         """Return how far off grass stands that is drawn from far to near [m]."""

@@ -128,6 +128,15 @@ class RepresentationPainter(Part, ABC):
         Depth is tested and blending is on; `target.depth_mask` is False before, and has to be so afterwards.
         """
 
+    def draw_dense(self, target: moderngl.Framebuffer, /) -> int:
+        """Draw that of it which hides most of what is behind; return the number of draw calls."""
+        return self.draw(target)
+
+    def draw_thin(self, target: moderngl.Framebuffer, /) -> int:
+        """Draw the rest, over soft edges of what stands behind; return the number of draw calls."""
+        del target
+        return 0
+
     @property
     def reach(self) -> float:
         """How far off that stands which it draws from far to near, along the ground [m]; 0 where nothing does."""

@@ -205,6 +205,28 @@ def test_x5_no_dark_dashes_lie_along_a_crest_before_the_same_tile(ctx: moderngl.
     assert (rows[2:-2] / np.minimum(rows[:-4], rows[4:])).min() > 0.88
 
 
+def partly_covered(picture: Doubles) -> float:
+    """In how many columns a pixel between sky and grass shows some of both, of all."""
+    grass = picture[..., 1] - picture[..., 2]
+    top = (grass > -5.0).argmax(axis=0)
+    rows = np.take_along_axis(grass, top + np.arange(-6, 6)[:, None], axis=0)
+    sky, below = rows[:3].mean(axis=0), rows[8:].mean(axis=0)
+    part = (rows[3:9] - sky) / (below - sky)
+    return float(((part > 0.2) & (part < 0.8)).any(axis=0).mean())
+
+
+@pytest.mark.parametrize("preset", [None, "low"])
+def test_g4_an_outline_far_off_has_no_stairs(ctx: moderngl.Context, hills: Prairie, preset: str | None) -> None:
+    """Hills some 300 m away, where all grass is as high as a pixel."""
+    seen = hills if preset is None else Prairie.load(SCENES / "hills.yaml", ctx=ctx, preset=preset, live=False)
+    at = camera_at(hills.scene.camera, None, hills.height_at).position
+    with testing.stage(ctx, (280, 60)) as stage:
+        picture = stage.shot(seen, Camera(at, *np.radians([-67.2, 1.2, 5.27]).tolist()))
+    if preset is not None:
+        seen.release()
+    assert partly_covered(picture) > 0.4
+
+
 def test_x5_no_light_line_parts_strips_from_the_crest_they_stand_behind(ctx: moderngl.Context) -> None:
     """At preset low, strips that give way to the carpet stand out against the dusk."""
     size = (200, 540)

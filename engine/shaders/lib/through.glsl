@@ -11,3 +11,7 @@ vec2 comes_through(vec2 depth) {
 vec3 comes_through(vec3 depth) {
     return exp(-depth);
 }
+
+vec4 comes_through(vec4 depth) {
+    return exp(-depth);
+}

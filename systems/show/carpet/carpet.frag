@@ -152,11 +152,13 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     return vec4(sum.rgb + below * (1.0 - cover), standing_out(taller, sight.share));
 }
 
-// How much of what is behind an outline the grass hides, that of a crest or of a rim.
-float hides_behind(float slope, float stands_out) {
-    if (past < NO_RIM)
-        return 1.0 - comes_through(RIM * dense * sqrt(stands_out) * past * past);
-    return outline_cover(slope, crest, tall, stands, dense, stands_out);
+// How many leaves lines of sight meet over an outline, that of a crest or of a rim, where taller plants stand out so.
+vec4 met_behind(float slope) {
+    return past < NO_RIM ? vec4(RIM * dense * past * past) : met_over(slope, crest, tall, stands, dense, pixel_at(place));
+}
+
+float stands_out(float taller) {
+    return past < NO_RIM ? sqrt(taller) : taller;
 }
 
 // Where the ground ends with the terrain, so does the grass: how much of what a line of sight would meet it does.
@@ -210,21 +212,23 @@ bool show(float slope, float ahead, float left, float share, float hidden, vec2 
     if (over_hosts > 0.0)
         color = vec3(0.0);  // the game's ground is seen there
     float top = slope + carpet * ahead, hides = min(share / SHOWN_FROM, 1.0);
-    float covered = mix(1.0, hides_behind(top, standing_out(TALLER, 1.0)), hides);
+    vec4 met_there = met_behind(top);
+    float covered = 1.0 - hides * comes_through(met_there.w * stands_out(standing_out(TALLER, 1.0)));  // at most
     // It writes its depth: where strips still stand on the patch, the thin edge of an outline would hide them.
-    if (covered < max(NOTHING, STANDING * (1.0 - share)))
+    if (covered < max(part == 1 ? HALF : NOTHING, STANDING * (1.0 - share)))
         return false;
 #ifdef EDGED
     vec3 before = over_hosts > 0.0 ? before_hosts(place, carpet * tall, slope) : place;
     gl_FragDepth = gl_FragCoord.z + deeper(before, over);
 #endif
     if (share > 0.0) {
+        slope = past < NO_RIM ? slope : slope_below(slope, crest, pixel_at(place));
         float on_level = level_slope(slope, crest, share, tall, stands);
         Sight sight = Sight(heading_to(place.xz), slope, on_level, smoothstep(ABOVE.x, ABOVE.y, slope), share, dx, dy);
         vec4 seen = carpet_seen(sight, left, color, cover);
         color = seen.rgb;
-        if (covered < WHOLE)
-            covered = mix(1.0, hides_behind(top, seen.a), hides);
+        if (met_there.x < ENOUGH)
+            covered = mix(1.0, outline_cover(met_there * stands_out(seen.a)), hides);
     }
     covered *= hidden;
     if (mesh_high.x < EVERYWHERE)

@@ -79,6 +79,16 @@ float uneven(vec2 at) {
     return UNEVENNESS * sin(UNEVEN_WAVES.x * at.x + UNEVEN_WAVES.w) * sin(UNEVEN_WAVES.y * at.y + UNEVEN_WAVES.z * at.x);
 }
 
+// How much higher it lies along an outline, where the tallest kinds are seen alone, and over half a pixel of which it shows less [m].
+float stands_out(Laid laid, vec3 place) {
+#ifdef EDGED
+    return 0.0;
+#else
+    float tops = (laid.tops - 1.0) * laid.tall * max(outline, 1.0);
+    return laid.past < NO_RIM ? 0.0 : laid.share * laid.along * (tops + 0.5 * pixel_at(place));
+#endif
+}
+
 void hand_on(Laid laid) {
     carpet = laid.share;
     rise = laid.rise;
@@ -171,7 +181,7 @@ void main() {
 #endif
     Laid laid = laid_on(place);
     float moved = laid.share * (1.0 - laid.share) * laid.tall * uneven(place.xz);
-    place.y += moved;
+    place.y += moved + stands_out(laid, place);
     laid.lowered -= moved;
 #ifdef EDGED
     over = place;

@@ -117,10 +117,12 @@ Grass grass_seen(vec2 heading, float high) {
     return Grass(sum.pigment * all, sum.height * all, min(sum.covers, 1.0), sum.taller);
 }
 
-// How much of what is behind an outline the grass hides, that of a crest or of a rim, where lines of sight come so deep.
-float hides_behind(float slope, float deep, float stands_out) {
-    float leaves = past < NO_RIM ? RIM * sqrt(stands_out) * past * past : CREST * stands_out * deep * deep / max(slope, TINY);
-    return mix(1.0, 1.0 - comes_through(dense * leaves), min(tall / (2.0 * LOWEST_GRASS), 1.0));
+// How much of what is behind an outline the grass hides, that of a crest or of a rim. What one image shows is twice as uneven as two
+// do, which are mixed.
+float hides_behind(float slope, float stands_out) {
+    if (past < NO_RIM)
+        return 1.0 - comes_through(RIM * dense * sqrt(stands_out) * past * past);
+    return outline_cover(met_over(slope, crest, tall, stands, dense, pixel_at(place)) * sqrt(stands_out));
 }
 
 void main() {
@@ -130,7 +132,8 @@ void main() {
     vec3 color = soil * lying_seen(place.xz, dFdx(place.xz), dFdy(place.xz), share > 0.0 ? 0.0 : 1.0).x;
     if (share > 0.0) {
         vec3 ray = place - eye;
-        float nearness = inversesqrt(max(dot(ray.xz, ray.xz), TINY * TINY)), slope = max((dot(rise, ray.xz) - ray.y) * nearness, 0.0);
+        float nearness = inversesqrt(max(dot(ray.xz, ray.xz), TINY * TINY)), facing = (dot(rise, ray.xz) - ray.y) * nearness;
+        float slope = max(past < NO_RIM ? facing : slope_below(facing, crest, pixel_at(place)), 0.0);
         vec2 among = on_strips > 0.0 ? among_strips(on_strips * on_strips, on_level, carpet, stands, dense) : vec2(1.0);
         Grass grass = grass_seen(ray.xz * nearness, among.y);
         Light light = unbundled(lit);
@@ -140,7 +143,7 @@ void main() {
         float deep = deepest(slope, crest, tall * stands);
         float covers = among.x * mix(min(grass.covers / LEAST_COVER, 1.0), grass.covers, smoothstep(ENDS.x * share, ENDS.y * share, deep));
         color = color * (1.0 - covers) + leaves * covers;
-        covered = mix(1.0, hides_behind(slope, deep, standing_out(grass.taller, share)), min(share / SHOWN_FROM, 1.0));
+        covered = mix(1.0, hides_behind(facing, standing_out(grass.taller, share)), min(share / SHOWN_FROM, 1.0));
     }
     if (covered < max(NOTHING, STANDING * (1.0 - share)))
         discard;

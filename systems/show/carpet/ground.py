@@ -22,6 +22,7 @@ from .layer import (
     EDGED_CARPET,
     EVEN,
     EVEN_PIECES,
+    OUTLINED,
     UNDER,
     UNDER_PIECES,
     Grids,
@@ -54,6 +55,9 @@ COARSER = 2
 
 PUSHED = 2.0 * APART
 """The same of ground that is drawn before any grass."""
+
+THIN_UP_TO = 10.0
+"""Distance between grid points of tiles up to which thin carpet is drawn by itself: half a kilometre off [m]."""
 
 WHOLE, DENSE, THIN = 0, 1, 2
 """What is drawn of the carpet: all, where it covers at least half a pixel, or the rest."""
@@ -197,9 +201,17 @@ class GroundPainter:
         shelf = self.shelves.now
         bare, bare_pieces, even, even_pieces, edged, carpet = tiles
         sent = bare[::-1], bare_pieces[::-1], even, even_pieces, edged[::-1], carpet, even[::-1], even_pieces[::-1]
-        for stream, some in zip(shelf.streams, sent, strict=True):
+        for stream, some in zip(shelf.streams, sent, strict=False):
             stream.write(some)
         shelf.tiles = tiles
+
+    def write_outlined(self) -> None:
+        """Send those of the tiles that were sent whose outlines are drawn where they are thin."""
+        shelf = self.shelves.now
+        if shelf.outlined is shelf.tiles or shelf.tiles is None:
+            return
+        shelf.outlined, even = shelf.tiles, shelf.tiles.even
+        shelf.streams[OUTLINED].write(even[even["tile"][:, 2] <= THIN_UP_TO])
 
     def write_rims(self, far: Floats) -> None:
         """Send how far the ground is from the next rim of a cliff (rows, columns) [m]."""
@@ -217,8 +229,8 @@ class GroundPainter:
         """Have something to draw for each program."""
         self.is_trodden = self._rehearses = True
         shelf = self.shelves.now
-        shelf.tiles = None
-        for stream in shelf.streams[EDGED : EDGED_CARPET + 1]:
+        shelf.tiles = shelf.outlined = None
+        for stream in (*shelf.streams[EDGED : EDGED_CARPET + 1], shelf.streams[OUTLINED]):
             if not stream.count:
                 stream.write(np.zeros(1, TILE))
 
@@ -302,7 +314,7 @@ class GroundPainter:
         else:
             even = self.carpet[3 if rare or changes else 2 if special or self._is_coarse else self._is_cut]
         edged = self.edged[3 if self.is_trodden else 2 if rare or special else self._is_cut]
-        calls = even.draw(EVEN, EVEN_PIECES, part=part)
+        calls = even.draw(OUTLINED if part == THIN else EVEN, EVEN_PIECES, part=part)
         for layer in self.edged if self._rehearses else [edged]:
             calls += layer.draw(EDGED_CARPET, part=part)
         return calls

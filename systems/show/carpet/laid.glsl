@@ -24,6 +24,7 @@ struct Laid {
     ByKind grows;  // how densely each kind grows
     float left;    // up to which height it is left to stand [m]
     float tall;    // height of the carpet [m]
+    float tops;    // height of the tops that stand out against what is behind a crest, of that
     float lies;    // what is left of that where grass is trodden
     float lowered; // how much lower it lies than where no strips stand [m]
     float dense;   // leaf area seen from the side, of the ground's area
@@ -32,6 +33,7 @@ struct Laid {
     float stands;  // how high the grass stands, of its height at rest
     vec2 message;  // the wind's
     float slope;   // of the line of sight, to the ground
+    float along;   // how far it passes over a crest there
     float past;    // what a line of sight meets that passes over a rim, as past_rim has it
 };
 
@@ -108,6 +110,19 @@ float lies_about(vec2 place, ByKind grows) {
     return lowest;
 }
 
+const float TALLEST = 4.0;  // power by which taller kinds count more, of which a few are enough to hide what is behind a crest
+
+// How high the tops of all kinds are that are seen over a crest, of their mean height.
+float tops_of(ByKind grows, float left) {
+    float sum = 0.0, mean = 0.0, all = max(total(grows), TINY);
+    for (int kind = 0; kind < KINDS; kind++) {
+        float high = min(OF(raised, kind), left);
+        mean += OF(grows, kind) * high;
+        sum += OF(grows, kind) * pow(high, TALLEST);
+    }
+    return mean > TINY ? pow(sum / all, 1.0 / TALLEST) * all / mean : 1.0;
+}
+
 // How grass grows and stands at a corner of the mesh.
 void sow(inout Laid laid, vec2 place) {
 #ifdef EDGED
@@ -124,6 +139,7 @@ void sow(inout Laid laid, vec2 place) {
         laid.tall += dot(laid.grows[group], min(raised[group], laid.left));
     laid.tall /= max(total(laid.grows), 1.0);
 #endif
+    laid.tops = tops_of(laid.grows, laid.left);
     laid.lies = lies_about(place, laid.grows);
     laid.dense = weighed(laid.grows, areas(leaves_left(laid.left)));
 }
@@ -144,6 +160,7 @@ Laid laid_on(inout vec3 place) {
     laid.stands = standing(laid.grows, laid.message);
     float deep = deepest(max(viewing_slope(laid.rise, place), 0.0), laid.crest, laid.tall * laid.stands);
     float lifts = lifted(deep, laid.crest, laid.stands);
+    laid.along = along_outline(deep, laid.crest);
     float at_rim = lifted(0.0, BULGES, laid.stands);
     laid.past = past_rim(place + vec3(0.0, high * (at_rim - 1.0), 0.0), laid.ground, laid.tall * laid.stands / RAISED);
     lifts = laid.past < NO_RIM ? at_rim : lifts;

@@ -7,16 +7,17 @@ import moderngl
 from ....engine.gl.shaders import Texts, tell
 from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import Stream, release_all
+from .pieces import ByLayer
 from .tiles import ORDERS, TILE
 
-BARE, BARE_PIECES, EVEN, EVEN_PIECES, EDGED, EDGED_CARPET, UNDER, UNDER_PIECES = STREAMS = range(8)
+BARE, BARE_PIECES, EVEN, EVEN_PIECES, EDGED, EDGED_CARPET, UNDER, UNDER_PIECES, OUTLINED = STREAMS = range(9)
 """What tiles and pieces of tiles are parted into, as `by_layer` has them, and once more those of the even carpet: near
-to far.
+to far. And those of its whole tiles whose outlines are drawn where they are thin, far to near.
 
 So are those of the ground. They are opaque: what the nearer ones hide costs nothing.
 """
 
-WHOLE = BARE, EVEN, UNDER
+WHOLE = BARE, EVEN, UNDER, OUTLINED
 """Of these, the streams of whole tiles."""
 
 
@@ -37,9 +38,11 @@ class GroundShelf:
         """How many times as far apart points of the mesh are as tiles say."""
         self.order = 0
         """The order in which each tile's triangles are drawn, as `order_toward` has it."""
-        self.tiles: object = None
+        self.tiles: ByLayer | None = None
         self.shown: object = None
         """What was sent last."""
+        self.outlined: ByLayer | None = None
+        """Of which tiles those were whose outlines are drawn where they are thin."""
 
     def release(self) -> None:
         """Give everything back."""

@@ -27,7 +27,7 @@ from ..representation import Canvas, RepresentationPainter
 from .air import Air
 from .edges import Edges
 from .found import Found
-from .ground import DENSE, OUTLINE, RAISED, THIN, GroundPainter
+from .ground import DENSE, OUTLINE, RAISED, THIN, WHOLE, GroundPainter
 from .pieces import ByLayer, Parted, by_layer, part, whole
 from .pool import CarpetKept
 from .stock import CarpetStock
@@ -284,20 +284,29 @@ class CarpetPainter(RepresentationPainter):
 
     def draw(self, target: moderngl.Framebuffer, /) -> int:
         """Draw the carpet; return the number of draw calls."""
-        target.depth_mask = True
+        if self._deep:
+            return self.draw_dense(target) + self.draw_thin(target)
+        return self._draw(target, WHOLE)
+
+    def draw_dense(self, target: moderngl.Framebuffer, /) -> int:
+        """Draw it where it covers at least half a pixel; return the number of draw calls."""
+        return self._draw(target, DENSE)
+
+    def draw_thin(self, target: moderngl.Framebuffer, /) -> int:
+        """Draw the rest, which writes no depth; return the number of draw calls."""
+        self.ground.write_outlined()
+        let_pass(self.images.ctx, "<")  # where it is dense, it is itself in the way
+        calls = self._draw(target, THIN)
+        let_pass(self.images.ctx, "<=")
+        return calls
+
+    def _draw(self, target: moderngl.Framebuffer, part: int) -> int:
+        target.depth_mask = part != THIN
         self.images.use(self._units["images"])
         self.air.use()
         self.bents.use(self._units["bents"])
-        if not self._deep:
-            calls = self.ground.draw_carpet()
-            target.depth_mask = False
-            return calls
-        calls = self.ground.draw_carpet(DENSE)
+        calls = self.ground.draw_carpet(part)
         target.depth_mask = False
-        ctx = self.images.ctx
-        let_pass(ctx, "<")  # where it is dense, it is itself in the way
-        calls += self.ground.draw_carpet(THIN)
-        let_pass(ctx, "<=")
         return calls
 
     def release(self) -> None:

@@ -30,11 +30,25 @@ float deepest(float slope, float crest, float tall) {
     return slope * slope / (2.0 * max(crest, EVEN) * max(tall, LOWEST_GRASS));
 }
 
+// How high a pixel is at a place [m].
+float pixel_at(vec3 place) {
+    return distance(place, eye) / pixels_a_metre();
+}
+
+// How far ground of this curvature counts as a crest, over which lines of sight pass.
+float bulging(float crest) {
+    return clamp(crest / BULGES, 0.0, 1.0);
+}
+
+// How far a line of sight that comes so deep passes over a crest there.
+float along_outline(float deep, float crest) {
+    return bulging(crest) * (1.0 - smoothstep(LEAVES_BEGIN.x, LEAVES_BEGIN.y, deep));
+}
+
 // How high the carpet lies where a line of sight comes so deep, of how high it lies on level ground. Over a crest lines of sight
 // pass through: there it lies where leaves begin. Grass stands so high, of its height at rest.
 float lifted(float deep, float crest, float stands) {
-    float along = clamp(crest / BULGES, 0.0, 1.0) * (1.0 - smoothstep(LEAVES_BEGIN.x, LEAVES_BEGIN.y, deep));
-    return outline > 0.0 ? mix(1.0, outline * sqrt(stands), along) : 1.0;
+    return outline > 0.0 ? mix(1.0, outline * sqrt(stands), along_outline(deep, crest)) : 1.0;
 }
 
 // The slope on level ground of a line of sight that goes as far through the grass as one of this slope does over ground
