@@ -60,7 +60,7 @@ _DOME = 0.9, 1.3
 _BELOW_DISC = 0.32
 """How far below its disc the petals of a head begin, of their length: they rise before they lie, and would hide it."""
 
-_STAMENS = 0.6, 0.8
+_STAMENS = 0.6, 0.7
 """The posture index at which stamens stand about a capsule; their width, of what closes the circle half-way along."""
 
 _CAPSULE = 0.3, 0.2
@@ -148,9 +148,9 @@ def _cup(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.ran
 def _eyed(
     head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.random.Generator, arched: int, /
 ) -> tuple[Rows, ...]:
-    """Return discs and bells with an eye, in the order in which they are drawn where nothing else tells.
+    """Return discs and bells with an eye: few petals stand about stamens and a capsule, many lie about a disc.
 
-    Few petals stand about stamens and a capsule, and are seen before these; many lie about a disc.
+    The eye comes last. Where order alone tells, it is drawn over all of its petals.
     """
     few = has_few_petals(head.form, layout.petals)
     whorls = BELL if head.form == "bell" else DISC_OF_FEW if few else ROUND_A_DISC
@@ -159,7 +159,7 @@ def _eyed(
         head, layout, stems, size, random, whorls=whorls, petal=BLOTCHED if few else STRAP, below=below
     )  # fmt: skip
     if few:
-        return *_stamens(cup, layout.middles, stems, size), cup.petals
+        return cup.petals, *_stamens(cup, layout.middles, stems, size)
     return cup.petals, _disc(cup, layout.middles, stems, size, arched)
 
 

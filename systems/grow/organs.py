@@ -57,7 +57,7 @@ ORGANS: Final = (
     Organ((0.3, 0.7, 0.95, 1.0, 0.6), (0.7, 1.0), 0.35, ligules=10),
     Organ((0.3, 0.75, 1.0, 0.95, 0.4), (0.9, 1.0), 0.35, dyed=(0.2, 0.48)),
     Organ((0.5, 0.85, 1.0, 1.0, 0.7), (1.0, 1.0), 0.35, dyed=(1.0, 2.0)),
-    Organ((0.25, 0.45, 0.7, 0.9, 1.0), (1.0, 1.0), 0.35, dyed=(1.0, 2.0)),
+    Organ((0.3, 0.65, 0.95, 1.0, 0.5), (1.0, 1.0), 0.35, dyed=(1.0, 2.0)),
     Organ((0.45, 0.8, 1.0, 1.0, 0.8), (0.02, 0.12), 0.35),
 )
 """By number. `LEAF` belongs to a plant with a head, whose colour is the tip's, and `FROND` to one without. `EYE` is the

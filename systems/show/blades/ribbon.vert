@@ -167,12 +167,12 @@ vec4 widened(Point point, float t, float to) {
 #ifdef EYED
 const float ASLANT = 0.2;  // cosine between a petal's face and the line of sight from which on it is seen from within, or outside
 #ifdef SOFT
-const float UNHIDDEN = 0.55;  // of the feet of a cup's petals, how much is seen past others: measured on poppies at slopes from 0.1 to 1
+const float UNHIDDEN = 0.2;  // of the feet of a cup's petals, how much is seen past others and past stamens: measured on poppies
 const vec2 BY_ORDER = vec2(0.5, 2.0);  // coverages from which on a ribbon hides what is behind it, where depth says so, and where order alone does
 #endif
 
 // How far a point at part `t` of a blade is seen in the colour of its head's eye. A petal leans outwards to where it faces. Where order
-// alone says what is before it, petals before it do not hide its foot.
+// alone says what is before it, neither other petals nor the eye itself hide its foot.
 float eyed_seen(Point point, float t) {
     int organ = int(stands.z);
     if (!is_blotched(organ))
