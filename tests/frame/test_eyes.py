@@ -87,3 +87,23 @@ def test_heads_without_an_eye_are_the_same_picture_to_the_byte_where_others_have
     alone = stage.shot(load(plain, lod=lod), aim)
     monkeypatch.setattr(representation, "any_eyes", lambda _: True)
     np.testing.assert_array_equal(stage.shot(load(plain, lod=lod), aim), alone)
+
+
+@pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
+def test_heads_come_to_have_an_eye_and_another(stage: Stage, load: Load, camera: Aim, lod: str) -> None:
+    """While they come, what stands without one has no eye, and what comes has none of another colour yet."""
+    aim, plain = camera(0.0, 1.6, 20.0, pitch=-20), BED.replace('eye: "#d02020", ', "")
+    prairie = load(plain, lod=lod, live=False)
+    pictures = [stage.shot(prairie, aim)]
+    prairie.change_kind("bed", head={"eye": "#d02020"}, over=2.0)
+    for _ in range(2):
+        prairie.advance(1.0)
+        pictures.append(stage.shot(prairie, aim))
+    for scene, eye in ((RED, "#d02020"), (BLUE, "#2020d0")):
+        prairie.change_kind("bed", head={"eye": eye})
+        prairie.advance(1.0)
+        due = load(scene, lod=lod, live=False)
+        due.advance(prairie.time)
+        np.testing.assert_array_equal(stage.shot(prairie, aim), stage.shot(due, aim))
+    blue = [int(each[20:, :, 2].max()) for each in pictures]
+    assert max(blue) < 1.3 * blue[0]
