@@ -29,7 +29,8 @@ AHEAD = True
 """Whether a live prairie has all programs before they are needed, so that none keeps a player waiting later."""
 
 IN_A_FRAME = (
-    "settle", "defines", "send", "use", "prepare", "breathe", "draw_solid", "draw_behind", "draw_soft", "soft_left"
+    "settle", "defines", "send", "use", "prepare", "breathe", "draw_solid", "look_up", "draw_behind", "draw_soft",
+    "soft_left",
 )  # fmt: skip
 """Methods of parts that a frame calls."""
 

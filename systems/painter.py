@@ -166,6 +166,9 @@ class Painter(Holding):
     ) -> None:
         self._tell(view, target, asked)
         self.draw_calls = self._hear(target, asked) if blades is None else 0
+        if "sky" in asked.parts:
+            with aside(self.ctx, target):
+                self.draw_calls += sum(part.look_up() for part in self._doing["look_up"])
         self._draw_land(target, asked)
         if "grass" in asked.parts:
             self._draw_carpet(target, view, all_soft=blades is not None)

@@ -17,7 +17,10 @@ moderngl loads textures on most cards: what it leaves there would be read, and d
 SCRATCH_UNIT = 15
 """Where textures are loaded that no host's own moderngl context loads: every OpenGL has it, and it is kept."""
 
-LOADED = {"TEXTURE_2D": "TEXTURE_BINDING_2D", "TEXTURE_2D_ARRAY": "TEXTURE_BINDING_2D_ARRAY"}
+LOADED = {
+    "TEXTURE_2D": "TEXTURE_BINDING_2D", "TEXTURE_3D": "TEXTURE_BINDING_3D",
+    "TEXTURE_2D_ARRAY": "TEXTURE_BINDING_2D_ARRAY",
+}  # fmt: skip
 """The sorts of texture that are loaded, and what says which one is bound."""
 
 

@@ -84,6 +84,10 @@ class Part:
         """Draw what is opaque and writes depth; return the number of draw calls."""
         return 0
 
+    def look_up(self) -> int:
+        """Draw what is drawn behind all from, into framebuffers of its own; return the number of draw calls."""
+        return 0
+
     def draw_behind(self) -> int:
         """Draw behind all that is opaque; return the number of draw calls."""
         return 0

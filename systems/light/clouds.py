@@ -1,8 +1,8 @@
 """Clouds: a layer of them that drifts, higher the denser its map is; how they look, and what they leave of light.
 
-A cloud reaches from a level base up to where a parabola of its density ends. A line of sight asks the map at a few
-heights, takes it to change evenly from one to the next, and finds where it enters a cloud and how much of it lies
-before the sky: so bases are flat and grey, and the sun lights round tops. `sky.frag` draws what this module means.
+A cloud reaches from a level base up to where a parabola of its density ends, and billows stand out from its sides. A
+line of sight steps on through the layer until it enters one: so bases are flat and grey, and tops are heaped, which the
+sun lights where they face it. `cloudscape.frag` draws what this module means.
 """
 
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...components.arrays import Doubles
-from .repeating import BILLOWS, CLOUDS_SIDE
+from .repeating import CLOUDS_SIDE
 
 CLOUDS_AT = 450.0
 """How high above the eye their undersides are [m]."""
@@ -19,46 +19,52 @@ CLOUDS_AT = 450.0
 BENT = 0.12
 """How they bend down: at this sine of elevation a level layer of them would be half as far off as without."""
 
-RISE = 0.7 * 2.0 * CLOUDS_SIDE / BILLOWS * (0.17 + BENT)
-"""How far the highest tops are above the bases [m]: a line of sight ten degrees up goes aside below them by 0.7 of the
-distance from heap to heap. With more, what is asked at two heights is of different heaps."""
+FADE = (-0.02, 0.14)
+"""Sines of elevations between which clouds come out of the haze at the horizon."""
 
-HEIGHTS = (0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0)
-"""The heights at which a line of sight asks the map, of that."""
+RISE = 150.0
+"""How far the highest tops are above the bases [m]: a third of how wide heaps are, as of cumulus in fair weather."""
+
+FARTHEST = 450.0
+"""How far aside a line of sight goes from the bases to the highest tops at most [m]: lower down, tops are flatter. With
+more, what is asked at two heights is of different heaps."""
 
 ROUND = 0.3
 """How much denser than at its edge a cloud is on the map that reaches to the highest tops; one of an x-th part of that
 reaches to the root of x of the height, as a dome."""
 
-LEVEL = 1.5
-"""Level of the map's mip-maps that heaps are read from: with finer ones, heights differ by more than a heap's edge."""
+BOW = 250.0
+"""How far the map falls below what its slope says, for the square of the way in sides of its own: in clouds rarely
+more."""
 
-ABOVE = 3.0
-"""The same of heights above the base: half of the way aside from one height to the next is some two texels wide there.
-Heaps narrower than that would be seen once at each height, as a stack of slices."""
+BILLOWED = 0.36
+"""How much denser than in the deepest creases clouds are on the highest billows, on the map: so far these stand out.
+Half of it is more, and half of it less than the map says, so that clouds hide as much of the sky as without."""
 
-THICK = 160.0
-"""Optical depth of all heights where the map is denser by 1 than at a cloud's edge: only wisps are soft."""
+COLUMN = 45.0
+"""Optical depth of a cloud is this times how much denser it is than at its edge, where it is densest on the way."""
 
-COLUMN = THICK * 2.0 / 3.0 / ROUND**0.5
-"""Optical depth of a cloud seen from below is this times its density above that at the edge, to the power of 1.5."""
+SOFT = 1.0 / COLUMN
+"""How much denser than at its edge a cloud is until it hides as much as its edges let through."""
 
-SOFT = 0.023
-"""How much denser than at its edge a cloud is that hides half of what is behind it, seen from below."""
+ASIDE, NEAR = 40.0, 55.0
+"""How far off it, towards the sun, is what shades a cloud's side, by how the map rises and by how billows do [m]."""
 
-LIT, HIGHER_UP, DEEPER = 0.7, 0.45, 0.7
-"""How much of the sun's light comes to a base is the square of the first; that grows with the height, from bases to
-the highest tops, by the second, and falls by the third for each 1 that the map is denser than at the edge."""
+DEEPER, WITHIN = 9.0, 0.06
+"""By how much the odds fall that the sun's light comes to a place, in powers of e, for each 1 that clouds are denser on
+the map towards the sun; and the part that is scattered on to all places."""
 
-ASIDE, SHADES, MOTTLED = 34.0, 0.9, 0.6
-"""How far from it, towards the sun, is what shades a cloud's side [m]; how much less of the sun's light comes to it
-for each 1 that the map is denser there; and how much denser undersides look for that."""
+UNDERSIDE, BASE, SIDES = 0.08, 0.35, 4.5
+"""How much denser that is for a base; how much of a side's billows it shows; and how much more higher places do,
+for all of the height."""
 
-MOST_SHADED = (-0.3, 0.4)
-"""How much thinner and denser that counts at most."""
+OPEN, HEAPED = 0.6, 1.0
+"""How much less the highest billows are shaded than the deepest creases, as if clouds were so much denser there; and
+how much more of a base's light in full shade they send."""
 
-SUNLIT, SILVER = 0.95, 1.6
-"""What a cloud sends of the sun's light that comes to it; and its edges of what goes through, ahead of the sun."""
+SUNLIT, SILVER = 1.25, 1.0
+"""What a cloud sends of the sun's light on a leaf, which gets 0.8 of it: all; and its edges of what goes through, ahead
+of the sun."""
 
 STRAYS = 0.28
 """The optical depth that such light meets, of a cloud's: what droplets scatter almost straight on goes on as before.
@@ -69,11 +75,12 @@ Approximation for Radiative Flux Transfer, 1976)."""
 UNDER = 0.27, 0.3
 """What clouds send in full shade, before that: of the sun's light on level ground above, and of the sky's."""
 
-HIGHER = 0.6
+HIGHER = 0.8
 """How much more of that the highest tops send than bases."""
 
-PALE, DARK = 1.3, 0.6
-"""How much of that it sends where the map is 0, and how much less where it is 1: thick clouds are darker beneath."""
+PALE, DARK = 0.72, 0.22
+"""How much of that it sends at its edge, and how much less where the map is denser by 1: thick clouds are darker
+beneath."""
 
 AIR = 0.12
 """The part of a clear sky's light that comes from air below the clouds: it is seen before them where the sun shines in.
@@ -84,16 +91,17 @@ come from the first in usual air (Preetham, Shirley and Smits, 1999, turbidity 3
 SENDS = 0.35
 """What a lone cloud that hides the sun sends on of its light; where there are more, it is in the sky's."""
 
-OVERCAST, SOON = 0.6, 8.0
+OVERCAST, SOON = 0.6, 9.0
 """How dense the thinnest place of an overcast is, and by which power of the cover that comes."""
 
 GLSL = {
-    "CLOUDS_AT": CLOUDS_AT, "CLOUDS_BENT": BENT, "CLOUD_RISE": RISE / CLOUDS_AT, "CLOUD_HEIGHTS": HEIGHTS,
-    "CLOUD_ROUND": ROUND, "CLOUD_LEVEL": LEVEL, "CLOUD_ABOVE": ABOVE, "CLOUD_THICK": THICK, "CLOUD_COLUMN": COLUMN,
-    "CLOUD_LIT": LIT, "CLOUD_HIGHER_UP": HIGHER_UP, "CLOUD_DEEPER": DEEPER, "CLOUD_ASIDE": ASIDE,
-    "CLOUD_SHADES": SHADES, "CLOUD_MOTTLED": MOTTLED, "CLOUD_MOST_SHADED": MOST_SHADED, "CLOUD_OVERCAST": OVERCAST,
+    "CLOUDS_AT": CLOUDS_AT, "CLOUDS_BENT": BENT, "CLOUDS_FADE": FADE, "CLOUD_RISE": RISE,
+    "CLOUD_STEP": RISE / CLOUDS_AT, "CLOUD_FARTHEST": FARTHEST / CLOUDS_SIDE, "CLOUD_ROUND": ROUND,
+    "CLOUD_BOW": BOW, "CLOUD_BILLOWED": BILLOWED, "CLOUD_COLUMN": COLUMN,
+    "CLOUD_ASIDE": ASIDE, "CLOUD_NEAR": NEAR, "CLOUD_DEEPER": DEEPER, "CLOUD_WITHIN": WITHIN,
+    "CLOUD_UNDER": UNDERSIDE, "CLOUD_BASE": BASE, "CLOUD_SIDE": SIDES, "CLOUD_OPEN": OPEN, "CLOUD_HEAPED": HEAPED,
     "CLOUD_SUNLIT": SUNLIT, "CLOUD_SILVER": SILVER, "CLOUD_HIGHER": HIGHER, "CLOUD_PALE": PALE, "CLOUD_DARK": DARK,
-    "CLOUD_SENDS": SENDS, "CLOUD_STRAYS": STRAYS, "CLOUD_AIR": AIR,
+    "CLOUD_SENDS": SENDS, "CLOUD_STRAYS": STRAYS, "CLOUD_AIR": AIR, "CLOUD_OVERCAST": OVERCAST,
 }  # fmt: skip
 
 _RANKS = (np.arange(256) + 0.5) / 256.0
@@ -132,9 +140,10 @@ def clouds_of(cover: float, /) -> Clouds:
     edge = 1.0 - cover - min(SOFT, cover) - OVERCAST * cover**SOON
     least = SENDS * max(edge, 0.0)
     above = np.maximum(_RANKS - edge, 0.0)
-    open_ = np.exp(-COLUMN * above**1.5)
+    open_ = np.exp(-COLUMN * above)
     hides = 1.0 - open_
-    sunlit = hides * SUNLIT * np.clip(LIT - DEEPER * above, 0.0, 1.0) ** 2
-    shaded = hides * (PALE - DARK * _RANKS)
+    odds = np.exp(DEEPER * (above + UNDERSIDE * (1.0 - BASE)))
+    sunlit = hides * SUNLIT * (WITHIN + (1.0 - WITHIN) / (1.0 + odds))
+    shaded = hides * (PALE - DARK * above)
     hidden, sun, sky = (float(each.mean()) for each in (hides, sunlit, shaded))
     return Clouds(edge, hidden, sun, sky, least + (1.0 - least) * float(open_.mean()))

@@ -13,6 +13,7 @@ from ..around.outlook import Outlook
 from ..frame.block import FrameBlock, joined
 from ..frame.feature import Part
 from ..space.grown import Grown
+from .cloudscape import Cloudscape
 from .daylight import Daylight
 from .lie import LieMap
 from .repeating import drifted, repeating_texture
@@ -37,9 +38,14 @@ class LightPart(Part):
         program = joined(ctx, block, units, "systems/light/sky.vert", "systems/light/sky.frag", GRID)
         self._array = ctx.vertex_array(program, [])
         self._sky = _sky_texture(ctx)
+        self._clouds = Cloudscape(ctx, block, units)
         self._repeating: moderngl.Texture | None = None
         self.lie = LieMap(ctx, block, units)
         self._toward = 0.0, -1.0
+
+    def rehearse(self, record: NDArray[np.void], /) -> None:
+        """Pretend that there are clouds."""
+        record["cloud_edge"] = 0.5
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Take over another terrain or seed, and the light as it is by now."""
@@ -64,6 +70,7 @@ class LightPart(Part):
         if self._repeating is not None:
             self._repeating.release()
         self._repeating = repeating_texture(self.ctx, seed=seed)
+        self._clouds.lay(seed=seed)
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Write how far the clouds have drifted."""
@@ -80,15 +87,20 @@ class LightPart(Part):
         """Draw what is due of how the terrain lies to the sun; return the number of draw calls."""
         return self.lie.prepare(self._toward)
 
+    def look_up(self) -> int:
+        """Draw the clouds that are seen; return the number of draw calls."""
+        return self._clouds.draw()
+
     def draw_behind(self) -> int:
         """Draw the sky behind all that has been drawn; return the number of draw calls."""
         self._sky.use(self._units["sky"])
+        self._clouds.use()
         self._array.render(moderngl.TRIANGLE_STRIP, vertices=2 * (ACROSS + 1), instances=UP)
         return 1
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(self._array, self._array.program, self._sky, self.lie)
+        release_all(self._array, self._array.program, self._sky, self._clouds, self.lie)
         if self._repeating is not None:
             self._repeating.release()
 

@@ -16,7 +16,7 @@ class Lighting(Feature):
     """What shines, and how the terrain lies to it."""
 
     samplers = ("lie", "repeating")
-    own = ("sky",)
+    own = ("sky", "clouds", "billows", "heaps")
 
     def __init__(self, shining: Shining) -> None:
         self.shining = shining

@@ -58,16 +58,15 @@ _REMEMBERED = 4
 SUFFIX, MOST = ".ground", 24
 """What files are called that these maps are kept in, and of how many seeds."""
 
-CLOUDS_SIDE = 1300.0
+CLOUDS_SIDE = 2600.0
 """Side of the square that repeats [m]."""
 
-BROADEST, FALLS, FINEST = 2.5, 2.0, 120.0
-"""Waves of the broadest part of clouds on that; power of the waves by which finer parts are weaker; and the finest."""
+BROADEST, FALLS, BROAD, FINEST = 5.0, 2.5, 8.0, 14.0
+"""Waves of the broadest part of clouds on that; power of the waves by which finer parts are weaker; the waves from
+which on there are none; and the same of heaps: what is finer, `billows` has."""
 
-BILLOWS, FINER, WEAKER = 8, 4, 0.5
-"""Billows of the broadest sort in a row, and how many sorts there are, each twice as fine and half as high as the one
-before; how high they are together, of what they stand out from (Worley, A Cellular Texture Basis Function, 1996; on
-clouds, Schneider and Vos, The Real-time Volumetric Cloudscapes of Horizon: Zero Dawn, 2015)."""
+HEAPS, WEAKER = 8, 0.9
+"""Heaps in a row; how high they are, of what they stand out from (Worley, A Cellular Texture Basis Function, 1996)."""
 
 GLSL = {"CLOUDS_SIDE": CLOUDS_SIDE, "LITTER_SIDE": LITTER_SIDE, "LITTER_ONE": LITTER_ONE}
 
@@ -92,24 +91,24 @@ def cloud_map(*, seed: int) -> NDArray[np.uint8]:
     random = np.random.default_rng([seed, 0x636C6F75])
     wave = np.fft.fftfreq(SIDE, 1.0 / SIDE)
     size = np.hypot(wave[:, None], wave[None])
-    amplitude = np.where(size > 0.0, np.maximum(size, BROADEST) ** -FALLS, 0.0) * np.exp(-((size / FINEST) ** 2))
+    amplitude = np.where(size > 0.0, np.maximum(size, BROADEST) ** -FALLS, 0.0) * np.exp(-((size / BROAD) ** 2))
     spectrum = amplitude * np.exp(2j * np.pi * random.random((SIDE, SIDE)))
     broad = np.fft.ifft2(spectrum).real
-    billows = sum(2.0**-number * _billows(BILLOWS << number, random) for number in range(FINER))
-    field = broad / broad.std() + WEAKER * billows / np.std(billows)
+    heaps = np.fft.ifft2(np.fft.fft2(_heaps(random)) * np.exp(-((size / FINEST) ** 2))).real
+    field = broad / broad.std() + WEAKER * heaps / heaps.std()
     rank = np.empty(field.size)
     rank[np.argsort(field, axis=None, kind="stable")] = np.arange(field.size) / field.size
     return np.asarray(np.floor(rank * 256.0), np.uint8).reshape(SIDE, SIDE)
 
 
-def _billows(count: int, random: np.random.Generator) -> Floats:
-    """Return how near each texel is to the next of points, one in each of so many squares in a row: rounded heaps.
+def _heaps(random: np.random.Generator) -> Floats:
+    """Return how near each texel is to the next of points, one in each of the squares in a row: rounded heaps.
 
     It is 0 in a point, and falls by 1 for a square's side, shape (SIDE, SIDE); it repeats.
     """
-    own, side = random.random((count, count, 2), np.float32), SIDE // count
+    own, side = random.random((HEAPS, HEAPS, 2), np.float32), SIDE // HEAPS
     at = (np.arange(side, dtype=np.float32) + 0.5) / side
-    nearest = np.full((count, side, count, side), np.inf, np.float32)
+    nearest = np.full((HEAPS, side, HEAPS, side), np.inf, np.float32)
     for down in (-1, 0, 1):
         for right in (-1, 0, 1):
             off = np.roll(own, (-down, -right), (0, 1)) + np.array([down, right], np.float32)

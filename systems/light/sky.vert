@@ -6,15 +6,10 @@ uniform sampler2D sky;  // by azimuth from the sun, from 0 to pi, and by the roo
 
 out vec3 ray;
 out vec3 light;
-// Of clouds, how bright their edges are ahead of the sun; how far they are out of the haze; level of their map.
-out vec3 clouding;
+out vec2 at;  // from 0 to 1 across and up the picture
 
-// How far aside from a cloud lies what shades it, towards the sun, in sides of their square; how much it does: not under an overcast,
-// which has no sides.
-flat out vec3 shaded_from;
-
-const vec2 FADES = vec2(-0.02, 0.14);  // sines of elevations between which clouds come out of the haze at the horizon
-const float FINEST = 0.35;  // sine of the elevation below which their map is read more coarsely
+// How much of the sun clouds hide low down in the haze, where none is seen.
+out float low;
 
 const float PI = 3.14159;
 const vec3 ARC = vec3(1.5707, -0.2121, 0.0742);  // the arc cosine over the root of 1 - c, by powers of c (Hastings, 1955)
@@ -31,12 +26,9 @@ void main() {
     ray = ray_ahead + corner.x * ray_across + corner.y * ray_up;
     vec3 toward = normalize(ray);
     float c = dot(toward.xz, toward_sun) * inversesqrt(dot(toward.xz, toward.xz) + LEAST_LENGTH);
-    vec2 size = vec2(textureSize(sky, 0)), at = vec2(angle_of(clamp(c, -1.0, 1.0)) / PI, sqrt(max(toward.y, 0.0)));
-    light = textureLod(sky, (at * (size - 1.0) + 0.5) / size, 0.0).rgb;
-    float ahead = 0.5 + 0.5 * dot(toward, sun), silver = ahead * ahead * ahead;
-    silver *= silver;
-    shaded_from = vec3(CLOUD_ASIDE / CLOUDS_SIDE * toward_sun, clamp(1.0 + cloud_edge / CLOUD_OVERCAST, 0.0, 1.0));
-    float out_of_haze = smoothstep(FADES.x, FADES.y, toward.y) * (1.0 - CLOUD_AIR * shaded_from.z);
-    clouding = vec3(silver * silver, out_of_haze, log2(FINEST / clamp(toward.y, FADES.x, FINEST)));
+    vec2 size = vec2(textureSize(sky, 0)), place = vec2(angle_of(clamp(c, -1.0, 1.0)) / PI, sqrt(max(toward.y, 0.0)));
+    light = textureLod(sky, (place * (size - 1.0) + 0.5) / size, 0.0).rgb;
+    at = 0.5 * corner + 0.5;
+    low = (1.0 - clamp(cloud_edge, 0.0, 1.0)) * (1.0 - smoothstep(CLOUDS_FADE.x, CLOUDS_FADE.y, toward.y));
     gl_Position = vec4(corner, depth_ends.y, 1.0);
 }

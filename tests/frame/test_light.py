@@ -197,11 +197,10 @@ def test_f5_an_overcast_sky_is_grey_all_over_down_to_the_horizon(room: Stage, lo
 
 def test_f5_clouds_are_brighter_on_the_side_of_the_sun(room: Stage, load: Load) -> None:
     """Where a cloud thins out towards the sun, to the right, it is brighter than with the sun on its left."""
-    right, left = (
-        bright(sky_over(room, load, 0.5, up=1.3, azimuth=side).reshape(*room.size[::-1], 3)) for side in (90.0, -90.0)
-    )
+    skies = [sky_over(room, load, 0.5, up=1.3, azimuth=side).reshape(*room.size[::-1], 3) for side in (90.0, -90.0)]
+    blue, (right, left) = sum(np.ptp(sky, axis=2) for sky in skies), map(bright, skies)
     way = 8  # pixels
-    thins = (right + left)[:, : -2 * way] - (right + left)[:, 2 * way :]
+    thins = blue[:, 2 * way :] - blue[:, : -2 * way]
     brighter = (right - left)[:, way:-way]
     brighter -= brighter.mean(axis=0)  # about the sun all the sky is
     assert np.corrcoef(thins.ravel(), brighter.ravel())[0, 1] > 0.15

@@ -16,6 +16,6 @@ vec2 clouds_over(vec2 place) {
 
 // How much of the sun's light comes past the clouds to a place.
 float past_clouds(vec3 place) {
-    float dense = textureLod(repeating, clouds_over(place.xz) + clouds_toward(sun), CLOUD_LEVEL).r, deep = max(dense - cloud_edge, 0.0);
-    return mix(CLOUD_SENDS * clamp(cloud_edge, 0.0, 1.0), 1.0, comes_through(CLOUD_COLUMN * deep * sqrt(deep)));
+    float dense = textureLod(repeating, clouds_over(place.xz) + clouds_toward(sun), 0.0).r, deep = max(dense - cloud_edge, 0.0);
+    return mix(CLOUD_SENDS * clamp(cloud_edge, 0.0, 1.0), 1.0, comes_through(CLOUD_COLUMN * deep));
 }
