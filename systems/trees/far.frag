@@ -135,7 +135,8 @@ void main() {
     vec3 sky = sky_on(skylit.rgb, below, open, skylit.a * (1.0 - wood));
     Light light = Light((sunlit.rgb + wooden.rgb * wood) * seen, sky, hazy, 0.0, 0.0, vec2(0.0));
     float aged = aged_at(wooden.a * texel.b / max(texel.g, LEAST_COVER));
-    vec3 pigment = pigment_of(texel.r * whole, wood, mix(young_bark, old_bark, aged));
+    float tone = texel.r * whole, worn = mix(1.0, 2.0 * tone, wood);  // of bark too, of which 0.5 is the mean
+    vec3 pigment = pigment_of(tone, wood, worn * mix(young_bark, old_bark, aged));
     pixel = drawn(shade(Surface(pigment, 1.0, AMONG_LEAVES), light), cover);
 }
 #endif

@@ -132,7 +132,7 @@ class KindOnCard:
                 (wood, 3 * len(model.model.wood[0].triangles)),
                 (cards, QUAD * len(model.model.twigs)),
             ):
-                self.tell(array.program, model, {})
+                self.tell(array.program, model, {}, noise=array is wood)
                 _matrix(array.program, matrix)
                 array.render(moderngl.TRIANGLES, vertices=count, instances=1)
 
@@ -152,11 +152,11 @@ class KindOnCard:
             "young_bark": young, "bark": old, "ripens": (begins, 1.0 / (ends - begins)), "rough": (habit.rough,),
         }  # fmt: skip
 
-    def tell(self, program: moderngl.Program, model: ModelOnCard, *numbers: Numbers) -> None:
+    def tell(self, program: moderngl.Program, model: ModelOnCard, *numbers: Numbers, noise: bool = False) -> None:
         """Tell a program of the kind, a model, and what else it is to know; bind what it reads."""
         tell_due(self.due(program, model))
         tell_asked(program, *numbers)
-        for read in self.reads(program, model):
+        for read in self.reads(program, model, noise=noise):
             read.texture.use(read.unit)
 
     def due(self, program: moderngl.Program, model: ModelOnCard) -> Due:

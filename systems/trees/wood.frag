@@ -1,6 +1,7 @@
 #include "lib/light.glsl"
 #include "systems/trees/leaf.glsl"
 #include "systems/trees/shown.glsl"
+#include "systems/trees/far.py"
 #include "systems/trees/noise.py"
 
 uniform sampler2DArray tree_cards;  // in place of twigs' cards: noise that repeats
@@ -42,9 +43,12 @@ const vec2 SPOT = vec2(0.28, 0.5);  // noise between which a spot begins
 const float BAND_TONE = 0.42;  // how bright bands and spots are, of the bark
 const vec2 SOILED = vec2(0.3, 2.8);  // heights between which soil and moss on bark end, of the grass's, and with noise of it
 const float SOIL_TONE = 0.62;  // how bright bark is below them, of what it is
-const vec2 FINEST_BARK = vec2(1.5, 18.0);  // all this is seen where a pixel is under 1/36 m of bark, and none of it over 1/12
+const vec2 FINEST_BARK = vec2(1.5, 18.0);  // furrows are seen where a pixel is under 1/36 m of bark, and none of them over 1/12;
+const float BROADER = 4.0;  // bands, which are larger, up to so many times as much
+const float SHARPER = 1.7;  // how much more contrast pictures of trees get, which are read between their texels
+const float SOFTER = 1.2;  // how much farther apart the noise is between which a band begins, of how broad a pixel of bark is [1/m]
 
-const float SHARPER_BY = -1.5;  // level of noise: bands and furrows are where it is highest, and a mean would have none
+const float SHARPER_BY = -1.5, BANDS_SHARPER = -2.5;  // level of noise: furrows and bands are where it is highest, and a mean would have none
 
 // How much of bark is left of soil and moss where it stands so high.
 float soiled_at(float height) {
@@ -57,13 +61,17 @@ float bark_there() {
     return soiled_at(stands);
 }
 #else
+float noise(vec2 at, float sharper) {
+    return texture(tree_cards, vec3(at * (1.0 / NOISE_CELLS), 0.0), sharper).r;
+}
+
 float noise(vec2 at) {
-    return texture(tree_cards, vec3(at * (1.0 / NOISE_CELLS), 0.0), SHARPER_BY).r;
+    return noise(at, SHARPER_BY);
 }
 
 // How bright bark is with dark bands across its stem, of its ground.
-float banded_at(vec2 on, float broad) {
-    float band = smoothstep(BAND.x, BAND.y, noise(on * BANDS) * (BANDED.x + BANDED.y * broad));
+float banded_at(vec2 on, float broad, float pixel) {
+    float band = smoothstep(BAND.x - SOFTER * pixel, BAND.y + SOFTER * pixel, noise(on * BANDS, BANDS_SHARPER) * (BANDED.x + BANDED.y * broad));
     float foot = (1.0 - smoothstep(FOOT.x, FOOT.y, on.y)) * smoothstep(SPOT.x, SPOT.y, noise(on * SPOTS));
     return mix(1.0, BAND_TONE, max(band, foot));
 }
@@ -74,12 +82,18 @@ float furrowed_at(vec2 on, float broad) {
     return mix(1.0, RIDGES.x + RIDGES.y * (DEEP * furrows + (1.0 - DEEP) * cracks), rough);
 }
 
-// How bright the bark is there, of its ground: furrows along an old stem, or dark bands across it.
-float bark_there() {
-    float fades = clamp(FINEST_BARK.x - FINEST_BARK.y * max(fwidth(on_skin.x), fwidth(on_skin.y)), 0.0, 1.0);
+// How bright old bark is there, of its ground: furrows along it, or dark bands across it; and the broadest of the noise.
+vec2 old_bark_there() {
+    float pixel = max(fwidth(on_skin.x), fwidth(on_skin.y)), finest = FINEST_BARK.y / (rough < 0.0 ? BROADER : 1.0);
     float broad = noise(on_skin * (rough < 0.0 ? BANDED.z : WINDINGS));
-    float old = rough < 0.0 ? banded_at(on_skin, broad) : furrowed_at(on_skin, broad);
-    return soiled_at(stands + broad - 0.5) * mix(1.0, mix(bark_mean(), old, fades), aged);
+    float old = rough < 0.0 ? banded_at(on_skin, broad, pixel) : furrowed_at(on_skin, broad);
+    return vec2(mix(bark_mean(), old, clamp(FINEST_BARK.x - finest * pixel, 0.0, 1.0)), broad);
+}
+
+// How bright the bark is there, of its ground.
+float bark_there() {
+    vec2 old = old_bark_there();
+    return soiled_at(stands + old.y - 0.5) * mix(1.0, old.x, aged);
 }
 #endif
 
@@ -91,7 +105,8 @@ float edge_cover(vec3 ray) {
 
 void main() {
 #ifdef BAKED
-    pixel = vec4(0.5, 1.0, aged, 1.0);
+    float worn = mix(1.0, old_bark_there().x / bark_mean(), aged_at(aged * THICKEST));
+    pixel = vec4(0.5 + 0.5 * SHARPER * (worn - 1.0), 1.0, aged, 1.0);
     second = packed_shading(inside);
 #else
     float worn = bark_there();

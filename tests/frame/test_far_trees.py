@@ -160,3 +160,11 @@ def test_f3_the_foot_of_a_tree_far_off_is_no_nearer_than_its_trunk(stage: Stage,
     trunk = tree[tree < beside - 0.3]  # where it is before what is beside it
     assert len(trunk) > 30
     assert trunk.min() > 38.5
+
+
+def test_f3_a_birch_far_off_has_its_bands(stage: Stage, ctx: moderngl.Context) -> None:
+    """Of a trunk two pixels wide."""
+    with private_world(), little_prairie(scene=BIRCHES, ctx=ctx) as made:
+        trunk = stage.shot(made, looking(0.0, 1.7, 12.0, pitch=2.0, view=14.0))[63:76, 47:49].mean(axis=(1, 2))
+    assert 125.0 < trunk.mean() < 155.0
+    assert 12.0 < trunk.std() < 35.0
