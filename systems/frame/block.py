@@ -163,6 +163,12 @@ class FrameBlock:
         self.earth = 0
         """The texture of a game's own ground, by its number in GL; 0 for none."""
 
+    @property
+    def casts(self) -> bool:
+        """Whether a game has shadow maps or shades: programs that are told PLAIN ask for none."""
+        row = self.record[0]
+        return bool(row["maps_shown"] > 0.0 or row["shades_grid"][3] > 0.0)
+
     def texts(self, vertex: str, fragment: str, defines: Mapping[str, str | int]) -> Texts:
         """Return what a driver is given of a program that knows the block."""
         return texts(vertex, fragment, {**self.defines, **defines})

@@ -29,6 +29,9 @@ ROUND = "0.35"
 
 FILES = "systems/show/blades/ribbon.vert", "systems/show/blades/blades.frag"
 
+USUAL, SHADED, DEEP = SORTS = range(3)
+"""The programs of ribbons: of the usual, where a game has what casts shadows, and one that writes depth alone."""
+
 Defines = Mapping[str, str | int]
 
 
@@ -84,31 +87,35 @@ class Ribbons:
             "SUBLEVELS": room_for(len(counts)), **({"SOFT": 1} if soft else {}), **({"PARTED": 1} if parted else {}),
             **({"FINEST": 1} if finest else {}), **(defines or {}),
         }  # fmt: skip
-        deep = {name: value for name, value in whole.items() if name != "PARTED"} | {"DEEP": 1}
-        self._make, self._defines = partial(joined, ctx, block, units, *FILES), (whole, deep)
+        plain = {**whole, "PLAIN": 1}
+        deep = {name: value for name, value in plain.items() if name != "PARTED"} | {"DEEP": 1}
+        self._make, self._defines = partial(joined, ctx, block, units, *FILES), (plain, whole, deep)
         self._texts, self._tell, self._counts = partial(block.texts, *FILES), tell, counts
-        self.stream = Stream(ctx, record)
-        self._arrays: dict[bool, moderngl.VertexArray] = {}
+        self._block, self.stream = block, Stream(ctx, record)
+        self._arrays: dict[int, moderngl.VertexArray] = {}
 
-    def array(self, *, deep: bool = False) -> moderngl.VertexArray:
-        """Return what draws them, or writes depth where they cover half a pixel at least, made once it is asked for."""
-        if deep not in self._arrays:
-            made = self._make(self._defines[deep])
+    def array(self, sort: int) -> moderngl.VertexArray:
+        """Return what draws them as one of `SORTS`: depth where they cover half a pixel. It is made once asked for."""
+        if sort not in self._arrays:
+            made = self._make(self._defines[sort])
             made["segments"], made["counts"] = self.segments, len(self._counts)
             made["segments_of"] = filled(self._counts, room_for(len(self._counts)))
             self._tell(made)
-            self._arrays[deep] = made.ctx.vertex_array(made, [self.stream.binding(made)])
-        return self._arrays[deep]
-
-    @property
-    def program(self) -> moderngl.Program:
-        """What draws them."""
-        return self.array().program
+            self._arrays[sort] = made.ctx.vertex_array(made, [self.stream.binding(made)])
+        return self._arrays[sort]
 
     def texts(self) -> Iterator[Texts]:
-        """Return what the program is made of, if it is not there yet."""
-        if False not in self._arrays:
-            yield self._texts(self._defines[False])
+        """Return what the programs are made of that draw them and are not there yet."""
+        for sort in (USUAL, SHADED):
+            if sort not in self._arrays:
+                yield self._texts(self._defines[sort])
+
+    def making(self) -> Iterator[None]:
+        """Make these, one at a time."""
+        for sort in (USUAL, SHADED):
+            if sort not in self._arrays:
+                self.array(sort)
+                yield
 
     def tell_again(self) -> None:
         """Tell what is there what it has to know, which is something else now."""
@@ -126,13 +133,14 @@ class Ribbons:
         """Draw what was filled in, of parted blades this part; return the number of draw calls."""
         if not self.stream.count:
             return 0
+        array = self.array(SHADED if self._block.casts else USUAL)
         if part is not None:
-            tell(self.program, "part", part)
-        return self._draw(self.array())
+            tell(array.program, "part", part)
+        return self._draw(array)
 
     def draw_deep(self) -> int:
         """Write the depth of what was filled in; return the number of draw calls."""
-        return self._draw(self.array(deep=True)) if self.stream.count else 0
+        return self._draw(self.array(DEEP)) if self.stream.count else 0
 
     def _draw(self, array: moderngl.VertexArray) -> int:
         array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.segments + 2, instances=self.stream.count)

@@ -27,7 +27,7 @@ from ..strips.draw import tell_sizes, tell_stacks
 from ..strips.pool import StripsKept
 from ..strips.representation import StripRepresentation
 from ..strips.shown import StripsShown
-from .draw import CORES, EDGES, PAINTED, RIBBON, Ribbons, blade_program
+from .draw import CORES, DEEP, EDGES, PAINTED, RIBBON, Ribbons, blade_program
 from .gather import Numbers, distances, gather_blades, may_be_seen
 from .morph import at_home, gather_morph
 from .plant import BladeStock, standing_of
@@ -142,9 +142,7 @@ class BladesPainter(RepresentationPainter):
     def making(self) -> Iterator[None]:
         """Make the programs of ribbons that are not there yet, one at a time."""
         for ribbons in (self.morph, *self.groups):
-            for _ in ribbons.texts():
-                ribbons.array()
-                yield
+            yield from ribbons.making()
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Take over how much of each kind has become what it is to be."""
@@ -183,7 +181,7 @@ class BladesPainter(RepresentationPainter):
         for shelf in self.shelves:
             shelf.reserve(READY_ROWS)
         for ribbons in (self.morph, *self.groups):
-            ribbons.array(deep=True)
+            ribbons.array(DEEP)
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Pretend that some are on their way, and that there are others of each ring."""

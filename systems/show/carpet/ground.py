@@ -128,7 +128,7 @@ class GroundPainter:
         firsts = (plain | cuts[0], trodden) if self._is_coarse else tuple(plain | cut for cut in cuts)
         wanted: list[tuple[list[Layer], str, Defines]] = [
             *((self.bare, "ground", litter | each) for each in (*(usual | cut for cut in cuts), trodden)),
-            *((self.under, "under", heads | each) for each in ({}, trodden)),
+            *((self.under, "under", heads | each) for each in (plain | cuts[0], {}, trodden)),
             *((self.carpet, "carpet", known | each) for each in (*firsts, usual, trodden)),
             *((self.edged_bare, "ground", litter | each | ends) for each in (usual, trodden)),
             *((self.edged_under, "under", heads | each | ends) for each in ({}, trodden)),
@@ -180,8 +180,7 @@ class GroundPainter:
     @property
     def _is_rare(self) -> bool:
         """Whether there are shadow maps, shades or a ground of a game's own: then pixels ask for these."""
-        record = self._block.record[0]
-        return bool(record["maps_shown"] or record["shades_grid"][3] or self._block.earth)
+        return bool(self._block.casts or self._block.earth)
 
     @property
     def _is_odd(self) -> bool:
@@ -299,7 +298,8 @@ class GroundPainter:
     def draw_under(self) -> int:
         """Draw what lies under the carpet; return the number of draw calls."""
         self.use()
-        calls = self.under[self.is_trodden].draw(UNDER, UNDER_PIECES)
+        special = self._is_rare or self._is_lamplit or self._is_cut
+        calls = self.under[2 if self.is_trodden else special].draw(UNDER, UNDER_PIECES)
         for layer in self.edged_under if self._rehearses else [self.edged_under[self.is_trodden]]:
             calls += layer.draw(EDGED_CARPET)
         return calls

@@ -89,8 +89,10 @@ void main() {
     ByKind grows = grown_at(ground.xz, laid);
     float leaves = weighed(areas(grows), leaves_left(laid.left));
     vec3 litter = lying_pigment(textureLod(repeating, vec2(0.5), COARSEST).gb, understorey_of(lies, grows));
+#ifndef PLAIN
     if (earth_side != 0.0)
         litter = earth_pigment(textureLod(earth, on_earth(ground.xz), COARSEST));
+#endif
     color = soil_light(ground, lies, grows, leaves) * litter * litter;
     // Where grass grows thinly or not at all, what lies beneath is the soil.
     color = mix(color, color * (1.0 - total(met)) + grass_seen(laid, met, place, sunk), laid.share);

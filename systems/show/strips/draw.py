@@ -225,8 +225,7 @@ class StripPainter:
         shelf.strips.texture.use(self.units["strips"])
         frame = self._block.record[0]
         is_cut = bool(frame["anything_cut"])
-        casts = frame["maps_shown"] > 0.0 or frame["shades_grid"][3] > 0.0
-        is_shaded = bool(frame["bodies"]["radius"].any() or casts)
+        is_shaded = bool(self._block.casts or frame["bodies"]["radius"].any())
         rare = 0 if deep else 2 if is_cut else int(is_shaded)
         array = self.array(WAYS * rare + thin, deep=deep)
         tell(array.program, "first", first)

@@ -10,7 +10,7 @@ from tallgrass.engine.gl.stream import Stream, release_all
 from tallgrass.systems.features import UNITS
 from tallgrass.systems.frame.block import room_for
 from tallgrass.systems.land.part import LandPart
-from tallgrass.systems.show.blades.draw import PAINTED, Ribbons
+from tallgrass.systems.show.blades.draw import PAINTED, USUAL, Ribbons
 from tallgrass.systems.show.blades.gather import distances, gather_blades
 from tallgrass.systems.show.blades.morph import HOME, at_home, gather_morph
 from tallgrass.systems.show.blades.pool import BladesKept
@@ -41,7 +41,7 @@ def drawn(scene: Any, weight: float) -> Doubles:
     stream.write(moving)
     scene.blades.store.targets.use(UNITS["targets"])
     size = 2 * ribbons.segments + 2, len(moving)
-    data = scene.caught(ribbons.program, RIBBON, stream, size)
+    data = scene.caught(ribbons.array(USUAL).program, RIBBON, stream, size)
     stream.release()
     return middles(data)
 
@@ -51,7 +51,7 @@ def as_drawn(scene: Any) -> tuple[Doubles, Doubles]:
     ribbons = scene.blades.morph
     moving = np.frombuffer(ribbons.stream.buffer.read(), PAINTED)[: ribbons.stream.count]
     scene.blades.store.targets.use(UNITS["targets"])
-    data = scene.caught(ribbons.program, RIBBON, ribbons.stream, (2 * ribbons.segments + 2, len(moving)))
+    data = scene.caught(ribbons.array(USUAL).program, RIBBON, ribbons.stream, (2 * ribbons.segments + 2, len(moving)))
     return middles(data), moving["painted"][:, 3].astype(np.float64)
 
 
@@ -66,7 +66,7 @@ def in_their_own_places(scene: Any) -> Doubles:
         texture.use(UNITS[name])
     ribbons.fill(blades.array, count)
     defines: Defines = {"SUBLEVELS": room_for(1), "SOFT": 1}
-    data = scene.caught(ribbons.program, RIBBON, ribbons.stream, (2 * segments + 2, count), defines=defines)
+    data = scene.caught(ribbons.array(USUAL).program, RIBBON, ribbons.stream, (2 * segments + 2, count), defines=defines)
     release_all(ribbons, blades)
     return middles(data)
 
