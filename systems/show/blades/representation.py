@@ -32,7 +32,7 @@ class BladeRepresentation(Representation):
 
     name: ClassVar[str] = "blades"
     label: ClassVar[str] = "3D blades"
-    programs = 3
+    programs = 6
     color: ClassVar[Color] = (0.98, 0.33, 0.20)
     morphs_into: ClassVar[str | None] = StripRepresentation.name
     samplers: ClassVar[tuple[str, ...]] = ("targets",)

@@ -28,7 +28,7 @@ class CarpetRepresentation(Representation):
 
     name: ClassVar[str] = "carpet"
     label: ClassVar[str] = "2D carpet"
-    programs = 17
+    programs = 18
     color: ClassVar[Color] = (0.72, 0.45, 0.95)
     samplers: ClassVar[tuple[str, ...]] = ("images", "bents", "shares", "mean_air", "earth", "rims")
     asked: ClassVar[tuple[str, ...]] = ("air",)

@@ -66,7 +66,9 @@ def in_their_own_places(scene: Any) -> Doubles:
         texture.use(UNITS[name])
     ribbons.fill(blades.array, count)
     defines: Defines = {"SUBLEVELS": room_for(1), "SOFT": 1}
-    data = scene.caught(ribbons.array(USUAL).program, RIBBON, ribbons.stream, (2 * segments + 2, count), defines=defines)
+    data = scene.caught(
+        ribbons.array(USUAL).program, RIBBON, ribbons.stream, (2 * segments + 2, count), defines=defines
+    )
     release_all(ribbons, blades)
     return middles(data)
 
