@@ -107,6 +107,7 @@ vec2 blown_from(vec2 at) {
     return at + vec2(slim, 1.0) * aside;
 }
 
+const float PLAINER = 2.0;     // how much less is seen of what bark has on it on each coarser level, which is read sharper than pixels are
 const float CLUMP = 7.0;       // a clump of leaves across [texels]
 const mat2 CLUMPS = mat2(0.857, 0.515, -0.515, 0.857) / CLUMP;  // of noise over texels: they lie askew, cells two ways
 const float CLUMPS_FINER = log2(CLUMP / NOISE_FINER);  // levels by which texels of noise are larger than a picture's
@@ -135,7 +136,7 @@ void main() {
     vec3 sky = sky_on(skylit.rgb, below, open, skylit.a * (1.0 - wood));
     Light light = Light((sunlit.rgb + wooden.rgb * wood) * seen, sky, hazy, 0.0, 0.0, vec2(0.0));
     float aged = aged_at(wooden.a * texel.b / max(texel.g, LEAST_COVER));
-    float tone = texel.r * whole, worn = mix(1.0, 2.0 * tone, wood);  // of bark too, of which 0.5 is the mean
+    float tone = texel.r * whole, worn = mix(1.0, 2.0 * tone, wood / (1.0 + PLAINER * told.w));  // of bark too: 0.5 is the mean
     vec3 pigment = pigment_of(tone, wood, worn * mix(young_bark, old_bark, aged));
     pixel = drawn(shade(Surface(pigment, 1.0, AMONG_LEAVES), light), cover);
 }
