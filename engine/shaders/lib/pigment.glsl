@@ -26,7 +26,7 @@ vec3 pigment_at(int kind, float part, float eyed) {
 // Whether heads of a kind have an eye, or will have once it has become what it is to be.
 bool has_eyes(int kind, bool comes) {
     float eyed = kinds[kind].eyed;
-    return comes ? eyed > 1.5 : mod(eyed, 2.0) > 0.5;
+    return comes ? eyed >= 2.0 : mod(eyed, 2.0) >= 1.0;
 }
 
 // What that changes by where a face has its normal, whose azimuth twice has this cosine and sine.

@@ -301,6 +301,16 @@ vec2 along_blade(int k) {
     return vec2(of_fine, broad);
 }
 
+// Which side's light a point has, and to which side of its line it is moved.
+vec2 sides_of(Point point, float side) {
+#ifdef SOFT
+    // Far off, points are moved to both sides by turns, or a ribbon would be twisted where it is seen edge-on.
+    if (is_turned(point, side))
+        return distance(foot.xyz, eye) < foot.w + NEAREST ? vec2(side, -side) : vec2(-side, side);
+#endif
+    return vec2(side);
+}
+
 void main() {
     shown = stands.w;
 #ifdef PARTED
@@ -328,15 +338,8 @@ void main() {
     Light reaches = unbundled(lit);
     if (any_casters())
         reaches = shaded(reaches, past_casters(point.place), 1.0 - fract(joints.z));
-    float face = side, to = side;  // whose light it has, and to which side of its line it is moved
-#ifdef SOFT
-    // Far off, points are moved to both sides by turns, or a ribbon would be twisted where it is seen edge-on.
-    if (is_turned(point, side)) {
-        bool is_near = distance(foot.xyz, eye) < foot.w + NEAREST;
-        face = is_near ? side : -side;
-        to = is_near ? -side : side;
-    }
-#endif
+    vec2 sides = sides_of(point, side);
+    float face = sides.x, to = sides.y;
     float way = t;
 #ifdef EYED
     if (is_blotched(int(stands.z)))

@@ -85,7 +85,7 @@ float stands_out(Laid laid, vec3 place) {
     return 0.0;
 #else
     float tops = (laid.tops - 1.0) * laid.tall * max(outline, 1.0);
-    return laid.past < NO_RIM ? 0.0 : laid.share * laid.along * (tops + 0.5 * pixel_at(place));
+    return laid.past < NO_RIM || over_hosts > 0.0 ? 0.0 : laid.share * laid.along * (tops + 0.5 * pixel_at(place));
 #endif
 }
 

@@ -11,14 +11,20 @@ const float LEAST_COVER = 0.05;  // what is seen of grass over a crest stands fo
 const vec2 ENDS = vec2(0.5, 1.5);  // how deep lines of sight come, of the carpet's share, where grass behind is seen, and ground
 const float HALF = 0.5;
 
-#ifdef EDGED
-const float HIGHER = 0.0;
-#else
 const float HIGHER = 0.4;  // how much higher it counts along an outline, which is thin in the pixels that it ends in: the mesh lies half of one [pixels]
-#endif
 const vec4 IN_PIXEL = vec4(-0.375, -0.125, 0.125, 0.375);  // where lines of sight pass that stand for all of a pixel, of its height
+const float PARTS = 4.0;  // that these are
 const float ENOUGH = 2.8;  // leaves that are met in the mean where taller plants make no difference
 const float OPAQUE = 12.0;  // optical depth of bare ground, which is its own outline
+
+// How much higher that is for a crest of this curvature, in pixels so high [m]: on a game's own ground the edge has none behind it.
+float counts_higher(float crest, float pixel) {
+#ifdef EDGED
+    return 0.0;
+#else
+    return over_hosts > 0.0 ? 0.0 : HIGHER * bulging(crest) * pixel;
+#endif
+}
 
 // How many leaves lines of sight meet over a crest, in the parts of a pixel so high [m]. One that passes `deep` below the top of the
 // grass, whose leaf area falls off linearly with height, meets deep^2 of the whole over a way that goes by the root of how deep it
@@ -26,18 +32,18 @@ const float OPAQUE = 12.0;  // optical depth of bare ground, which is its own ou
 vec4 met_over(float slope, float crest, float tall, float stands, float dense, float pixel) {
     float curved = 2.0 * max(crest, EVEN), high = max(tall * stands, LOWEST_GRASS);
     float leaves = CREST * dense * inversesqrt(curved) / (high * high);
-    vec4 all = max(slope * abs(slope) / curved + (IN_PIXEL - HIGHER * bulging(crest)) * pixel, 0.0);
+    vec4 all = max(slope * abs(slope) / curved + IN_PIXEL * pixel - counts_higher(crest, pixel), 0.0);
     return leaves * all * sqrt(all) + OPAQUE * max(1.0 - tall / (2.0 * LOWEST_GRASS), 0.0);
 }
 
 // How much of what is behind an outline the grass hides that lines of sight meet, in the mean over a pixel.
 float outline_cover(vec4 met) {
-    return 1.0 - dot(comes_through(met), vec4(0.25));
+    return 1.0 - dot(comes_through(met), vec4(1.0)) / PARTS;
 }
 
 // The slope at which a line of sight of some slope would come to the mesh if it were no higher along an outline.
 float slope_below(float slope, float crest, float pixel) {
-    return slope > 0.0 ? sqrt(max(slope * slope - 2.0 * crest * HIGHER * bulging(crest) * pixel, 0.0)) : slope;
+    return slope > 0.0 ? sqrt(max(slope * slope - 2.0 * crest * counts_higher(crest, pixel), 0.0)) : slope;
 }
 
 // How steeply the carpet rises along the line of sight where taller grass begins: there it is seen, though the ground falls
