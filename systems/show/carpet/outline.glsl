@@ -13,7 +13,7 @@ const float HALF = 0.5;
 
 const float HIGHER = 0.4;  // how much higher it counts along an outline, which is thin in the pixels that it ends in: the mesh lies half of one [pixels]
 const vec4 IN_PIXEL = vec4(-0.375, -0.125, 0.125, 0.375);  // where lines of sight pass that stand for all of a pixel, of its height
-const float PARTS = 4.0;  // that these are
+const float LINES_IN_PIXEL = 4.0;  // how many these are
 const float ENOUGH = 2.8;  // leaves that are met in the mean where taller plants make no difference
 const float OPAQUE = 12.0;  // optical depth of bare ground, which is its own outline
 
@@ -38,7 +38,7 @@ vec4 met_over(float slope, float crest, float tall, float stands, float dense, f
 
 // How much of what is behind an outline the grass hides that lines of sight meet, in the mean over a pixel.
 float outline_cover(vec4 met) {
-    return 1.0 - dot(comes_through(met), vec4(1.0)) / PARTS;
+    return 1.0 - dot(comes_through(met), vec4(1.0)) / LINES_IN_PIXEL;
 }
 
 // The slope at which a line of sight of some slope would come to the mesh if it were no higher along an outline.
