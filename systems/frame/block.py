@@ -160,14 +160,10 @@ class FrameBlock:
         """What it says by now."""
         self.buffer = ctx.buffer(reserve=FRAME.itemsize, dynamic=True)
         self.binding = block_binding(ctx)
+        self.casts = False
+        """Whether a game has shadow maps or shades: programs that are told PLAIN ask for none."""
         self.earth = 0
         """The texture of a game's own ground, by its number in GL; 0 for none."""
-
-    @property
-    def casts(self) -> bool:
-        """Whether a game has shadow maps or shades: programs that are told PLAIN ask for none."""
-        row = self.record[0]
-        return bool(row["maps_shown"] > 0.0 or row["shades_grid"][3] > 0.0)
 
     def texts(self, vertex: str, fragment: str, defines: Mapping[str, str | int]) -> Texts:
         """Return what a driver is given of a program that knows the block."""
@@ -179,7 +175,8 @@ class FrameBlock:
 
     def write(self, record: NDArray[np.void]) -> None:
         """Send the block and bind it."""
-        self.record = record
+        self.record, row = record, record[0]
+        self.casts = bool(row["maps_shown"] or row["shades_grid"][3])
         self.buffer.write(record)
         self.buffer.bind_to_uniform_block(self.binding)
 
