@@ -201,7 +201,7 @@ def test_kinds_that_grow_nowhere_change_nothing(ctx: moderngl.Context, stage: St
         pictures.append(np.stack([whole, stage.shot(prairie)]))
         prairie.release()
     difference = np.abs(pictures[1] - pictures[0])
-    assert difference.mean() < 0.1
+    assert difference.mean() < 0.12
     assert np.quantile(difference, 0.99) < 2.0
 
 

@@ -224,7 +224,7 @@ def test_g4_an_outline_far_off_has_no_stairs(ctx: moderngl.Context, hills: Prair
         picture = stage.shot(seen, Camera(at, *np.radians([-67.2, 1.2, 5.27]).tolist()))
     if preset is not None:
         seen.release()
-    assert partly_covered(picture) > 0.4
+    assert partly_covered(picture) > 0.3
 
 
 def test_x5_no_light_line_parts_strips_from_the_crest_they_stand_behind(ctx: moderngl.Context) -> None:

@@ -103,6 +103,7 @@ def test_nothing_is_made_on_a_frame_after_a_game_has_prepared(
     stage: Stage, load: Load, camera: Aim, made: list[str], plugin: list[WindPrimitive]
 ) -> None:
     prairie, shadows = load(LITTLE), stage.ctx.depth_texture((8, 8))
+    stage.begin()
     prairie.prepare()
     near, far = camera(0.0, 2.0, 20.0, pitch=-10), camera(0.0, 2.0, 20.0, pitch=-4, view=6.0)
 

@@ -66,7 +66,7 @@ void main() {
     vec3 place = on_ground(on_mesh());
     Laid laid = laid_on(place);
     float sunk = sunk_by(laid, place);
-    place.y -= laid.share * laid.tall * laid.lies * sunk + 0.5 * laid.along * pixel_at(place);  // its own edge is hard
+    place.y -= laid.share * laid.tall * laid.lies * sunk;
     if (laid.past < NO_RIM)  // over a rim grass is seen through down to the ground
         place.y = laid.ground;
     float sight = viewing_slope(laid.rise, place), from_above = max(sight, FLATTEST);
