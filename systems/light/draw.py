@@ -72,10 +72,6 @@ class LightPart(Part):
         self._repeating = repeating_texture(self.ctx, seed=seed)
         self._clouds.lay(seed=seed)
 
-    def rehearse(self, record: NDArray[np.void], /) -> None:
-        """Pretend that there are clouds."""
-        record["cloud_edge"] = min(float(record["cloud_edge"][0]), 0.5)
-
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Write how far the clouds have drifted."""
         assert self._grown is not None
