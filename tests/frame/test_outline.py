@@ -216,7 +216,7 @@ def partly_covered(picture: Doubles) -> float:
 
 
 @pytest.mark.parametrize("preset", [None, "low"])
-def test_g4_an_outline_far_off_is_soft_in_many_columns(ctx: moderngl.Context, hills: Prairie, preset: str | None) -> None:
+def test_g4_an_outline_far_off_is_soft(ctx: moderngl.Context, hills: Prairie, preset: str | None) -> None:
     """Hills some 300 m away, where all grass is as high as a pixel."""
     seen = hills if preset is None else Prairie.load(SCENES / "hills.yaml", ctx=ctx, preset=preset, live=False)
     at = camera_at(hills.scene.camera, None, hills.height_at).position
