@@ -68,7 +68,7 @@ class Quality(Declaration):
 
     coarse: bool = False
     """Whether the carpet has one image of each kind, and the ground's mesh far off half as many points along a side: at
-    about two thirds of the cost. With more than four kinds, only the mesh is coarser."""
+    about two thirds of the cost. With more than four kinds, only the mesh is coarser. Clouds have fewer pixels, too."""
 
     pixels: float = Field(default=1.0, ge=0.25, le=1.0)
     """Part of the picture's width and height that is drawn; below 1 it is scaled up afterwards."""

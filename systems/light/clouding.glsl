@@ -1,6 +1,7 @@
 // Clouds along a line of sight, on the way from the height of their bases to that of the highest tops: from 0 to 1.
 #include "lib/clouds.glsl"
 #include "systems/light/billows.py"
+#include "systems/light/cloudscape.py"
 #include "systems/light/heaps.py"
 
 uniform sampler2D heaps;    // how dense clouds are, and how that rises along x and z
@@ -14,12 +15,15 @@ struct Way {
     vec2 at;      // where it meets the height of the bases, in sides of the clouds' square
     vec2 each;    // how far it goes aside, in the same
     float level;  // of the block's mip-maps
+    float longer;  // how long it is, of one straight up
 };
 
 Way way_toward(vec3 direction) {
     float near = max(direction.y, 0.0) + CLOUDS_BENT, far = CLOUDS_AT / CLOUDS_SIDE / near;
     float texel = BILLOWS_SIDE / (BILLOWS_TEXELS * CLOUDS_AT) * near * pixels_a_metre();  // how wide it is seen [pixels]
-    return Way(clouds_over(eye.xz) + far * direction.xz, min(CLOUD_STEP * far, CLOUD_FARTHEST) * direction.xz, max(-log2(texel), 0.0));
+    vec2 each = min(CLOUD_STEP * far, CLOUD_FARTHEST) * direction.xz;
+    float longer = length(vec3(each * CLOUDS_SIDE / CLOUD_RISE, 1.0));
+    return Way(clouds_over(eye.xz) + far * direction.xz, each, max(-log2(texel), 0.0), longer);
 }
 
 struct Place {
@@ -37,5 +41,6 @@ Place place_on(Way way, float along) {
     vec4 billow = textureLod(billows, BLOCK * vec3(at.x, along * (CLOUD_RISE / CLOUDS_SIDE), at.y), way.level);
     float side = min(CLOUD_BASE + CLOUD_SIDE * along, 1.0), heap = side * (billow.x - 0.5);
     float deep = map.x - cloud_edge - CLOUD_ROUND * along * along + CLOUD_BILLOWED * heap;
+    deep *= deep > 0.0 ? min(CLOUD_BASE_DENSE + CLOUD_BASE_HIGH * along, 1.0) : 1.0;
     return Place(along, deep, side, heap, map, billow);
 }

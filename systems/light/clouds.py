@@ -1,8 +1,9 @@
 """Clouds: a layer of them that drifts, higher the denser its map is; how they look, and what they leave of light.
 
 A cloud reaches from a level base up to where a parabola of its density ends, and billows stand out from its sides. A
-line of sight steps on through the layer until it enters one: so bases are flat and grey, and tops are heaped, which the
-sun lights where they face it. `cloudscape.frag` draws what this module means.
+line of sight steps through the layer and sums up what stops it on its way, and how the sun lights that: so bases are
+flat and grey, tops are heaped and bright where they face the sun, and edges are soft. `cloudscape.frag` draws what this
+module means.
 """
 
 from dataclasses import dataclass
@@ -32,10 +33,6 @@ more, what is asked at two heights is of different heaps."""
 ROUND = 0.3
 """How much denser than at its edge a cloud is on the map that reaches to the highest tops; one of an x-th part of that
 reaches to the root of x of the height, as a dome."""
-
-BOW = 250.0
-"""How far the map falls below what its slope says, for the square of the way in sides of its own: in clouds rarely
-more."""
 
 BILLOWED = 0.36
 """How much denser than in the deepest creases clouds are on the highest billows, on the map: so far these stand out.
@@ -97,7 +94,7 @@ OVERCAST, SOON = 0.6, 9.0
 GLSL = {
     "CLOUDS_AT": CLOUDS_AT, "CLOUDS_BENT": BENT, "CLOUDS_FADE": FADE, "CLOUD_RISE": RISE,
     "CLOUD_STEP": RISE / CLOUDS_AT, "CLOUD_FARTHEST": FARTHEST / CLOUDS_SIDE, "CLOUD_ROUND": ROUND,
-    "CLOUD_BOW": BOW, "CLOUD_BILLOWED": BILLOWED, "CLOUD_COLUMN": COLUMN,
+    "CLOUD_BILLOWED": BILLOWED, "CLOUD_COLUMN": COLUMN,
     "CLOUD_ASIDE": ASIDE, "CLOUD_NEAR": NEAR, "CLOUD_DEEPER": DEEPER, "CLOUD_WITHIN": WITHIN,
     "CLOUD_UNDER": UNDERSIDE, "CLOUD_BASE": BASE, "CLOUD_SIDE": SIDES, "CLOUD_OPEN": OPEN, "CLOUD_HEAPED": HEAPED,
     "CLOUD_SUNLIT": SUNLIT, "CLOUD_SILVER": SILVER, "CLOUD_HIGHER": HIGHER, "CLOUD_PALE": PALE, "CLOUD_DARK": DARK,

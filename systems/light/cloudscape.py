@@ -1,4 +1,4 @@
-"""Clouds as a picture of their own, with half as many pixels across and up: from it, the sky is drawn behind all."""
+"""Clouds as a picture of their own, with fewer pixels across and up: from it, the sky is drawn behind all."""
 
 from collections.abc import Mapping
 
@@ -12,9 +12,10 @@ from .billows import billows_texture
 from .clouds import FADE
 from .heaps import heaps_texture
 
-PART = 2
-"""Pixels of the sky for each pixel of clouds, across and up: a line of sight through clouds costs ten times as much as
-all else of the sky, and their edges are soft."""
+FINEST, PARTS = 0.002, (2, 8)
+"""How wide a pixel of clouds is at least, as an angle, and how many of the sky's are across it: a line of sight through
+clouds costs ten times as much as all else of the sky. They have nothing finer than that: their billows are 18 m wide,
+and their edges 3 m soft."""
 
 MOST_SIZES = 4
 """Sizes whose pictures are kept: a viewer's last and present one, and another viewer's."""
@@ -22,25 +23,33 @@ MOST_SIZES = 4
 LEAST_RISE = 1e-6
 """What counts as no change from row to row of how far lines of sight rise."""
 
-TURNS, STEPS, SAFE = 20, (0.024, 0.2), 0.27
-"""How often a line of sight steps on at most; how far at least and at most, of the way from the bases to the
-highest tops: some 10 m, less than the finest billows, and less than heaps are wide; and how far for each 1 that clouds
-lack there on the map, which hardly rises faster than that."""
+TURNS = 32
+"""How often a line of sight steps on at most."""
 
-BRIM = 0.04
-"""How much denser than at its edge a base is that is seen: what is thinner shows what is behind."""
+STEPS, SAFE, INTO = (0.015, 0.2, 0.02), 0.27, 0.2
+"""How far at least, of the way from the bases to the highest tops, some 2 m; how much farther at most outside clouds,
+less than heaps are wide, and within; and how much for each 1 that clouds lack there on the map, which hardly rises
+faster than that, and that they have. So a step is never much longer beside one: no edge shows where it changes."""
 
-BEHIND, SOLID = 0.3, (0.01, 30.0)
-"""How far behind where a cloud is entered its map counts, of all the way; how much denser a billow is at least than
-there; and what the square of how fast it gets denser is divided by, as of a parabola: so edges of heaps are soft."""
+THICK = 500.0
+"""Optical depth of all that way, straight up, for each 1 that clouds are denser than at their edge: so domes hide as
+much of what is overhead as columns do, which shadows know of. With their sides, clouds hide 0.03 more of the sky."""
+
+BASE_DENSE, BASE_HIGH = 0.25, 8.0
+"""The part of that which a base has, and how much more places have, for all of the height: so bases are soft."""
+
+LEAST = 0.02
+"""The part of the light behind a cloud that counts as none."""
 
 GLSL = {
     "CLOUD_TURNS": TURNS,
     "CLOUD_STEPS": STEPS,
     "CLOUD_SAFE": SAFE,
-    "CLOUD_BRIM": BRIM,
-    "CLOUD_SOLID": SOLID,
-    "CLOUD_BEHIND": BEHIND,
+    "CLOUD_INTO": INTO,
+    "CLOUD_THICK": THICK,
+    "CLOUD_BASE_DENSE": BASE_DENSE,
+    "CLOUD_BASE_HIGH": BASE_HIGH,
+    "CLOUD_LEAST": LEAST,
 }
 
 Size = tuple[int, int]
@@ -56,6 +65,8 @@ class Cloudscape:
         self._billows = billows_texture(ctx)
         self._heaps: moderngl.Texture | None = None
         self._pictures: dict[Size, tuple[moderngl.Framebuffer, moderngl.Texture]] = {}
+        self.coarse = False
+        """Whether they are drawn a little coarser."""
 
     def lay(self, *, seed: int) -> None:
         """Take over the clouds of another scene."""
@@ -70,7 +81,7 @@ class Cloudscape:
             return 0
         self._billows.use(self._units["billows"])
         self._heaps.use(self._units["heaps"])
-        size = _size(row)
+        size = self._size
         target, _ = self._picture(size)
         target.use()
         target.scissor = None  # type: ignore[assignment]
@@ -82,9 +93,17 @@ class Cloudscape:
 
     def use(self) -> None:
         """Bind what was drawn, for the sky."""
-        drawn = self._pictures.get(_size(self._record[0]))
+        drawn = self._pictures.get(self._size)
         if drawn is not None:
             drawn[1].use(self._units["clouds"])
+
+    @property
+    def _size(self) -> Size:
+        """The size of the clouds' picture [pixels], by the frame's record."""
+        row = self._record[0]
+        wide, high = (2.0 * row["half_screen"]).tolist()
+        part = part_of(0.5 * high * float(np.linalg.norm(row["clip"][1:12:4]))) + self.coarse
+        return max(-int(-wide // part), 1), max(-int(-high // part), 1)
 
     def _picture(self, size: Size) -> tuple[moderngl.Framebuffer, moderngl.Texture]:
         """Return what a picture of a size is drawn into."""
@@ -108,10 +127,9 @@ class Cloudscape:
             release_all(*each)
 
 
-def _size(row: np.void) -> Size:
-    """Return the size of the clouds' picture [pixels], by a frame's record."""
-    width, height = (2.0 * row["half_screen"]).tolist()
-    return max(-int(-width // PART), 1), max(-int(-height // PART), 1)
+def part_of(pixels: float, /) -> int:
+    """Return how many of a picture's pixels are across one of clouds, where so many are as wide as far off."""
+    return int(np.clip(np.ceil(FINEST * pixels), *PARTS))
 
 
 def rows_of_sky(row: NDArray[np.void] | np.void, height: int, /) -> tuple[int, int]:

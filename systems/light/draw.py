@@ -50,6 +50,7 @@ class LightPart(Part):
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Take over another terrain or seed, and the light as it is by now."""
         before, self._grown = self._grown, grown
+        self._clouds.coarse = grown.quality.coarse
         if before is not grown and not (
             before and before.ground.terrain is grown.ground.terrain and before.scene.seed == grown.scene.seed
         ):

@@ -15,7 +15,7 @@ from tallgrass.systems.light.billows import SIDE as BLOCK_SIDE
 from tallgrass.systems.light.billows import STEEPEST as STEEPEST_BILLOW
 from tallgrass.systems.light.billows import billow_levels
 from tallgrass.systems.light.clouds import FADE, FARTHEST, clouds_of
-from tallgrass.systems.light.cloudscape import STEPS, rows_of_sky
+from tallgrass.systems.light.cloudscape import STEPS, part_of, rows_of_sky
 from tallgrass.systems.light.color import display, luminance
 from tallgrass.systems.light.daylight import daylight
 from tallgrass.systems.light.heaps import STEEPEST, heap_texels
@@ -200,6 +200,10 @@ def test_clouds_are_looked_for_in_all_rows_that_have_sky_and_hardly_more(pitch: 
     looked, seen = set(range(first, end)), set(sky.tolist())
     assert seen <= looked
     assert len(looked - seen) <= 5
+
+
+def test_clouds_have_no_more_pixels_than_can_be_seen_of_them_and_fewer_than_the_sky() -> None:
+    assert [part_of(pixels) for pixels in (1.0, 740.0, 1483.0, 2966.0, 1e5)] == [2, 2, 3, 6, 8]
 
 
 @pytest.mark.parametrize("cover", [0.05, 0.2, 0.4, 0.6])
