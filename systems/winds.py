@@ -287,7 +287,7 @@ class Winds(Feature):
         self._declared, self._known = [], {}  # their numbers may be others' by now
         self.change(self._scene, self._ground, self._growths)  # raises where the world is gone, or another is current
         self._generation = self._world.generation
-        log.warning("the esper world was cleared: the scene's winds are entities again, those that were added are gone")
+        log.warning("the esper world was cleared: what the scene declares is there again, added winds are gone")
 
 
 def matched(

@@ -52,6 +52,7 @@ class Trees(Feature):
         """Those of a forest that is too large for all of them to be entities."""
         self._seen: tuple[list[tuple[int, Tree]], list[tuple[int, Pose]]] = [], []
         self._heights = -1
+        self._generation = world.check()
         self._unknown: set[str] = set()
         """Kinds of which it was said that the scene does not have them."""
         self._rows: Rows = np.zeros(0, STANDING)
@@ -113,6 +114,7 @@ class Trees(Feature):
 
     def note(self, time: float) -> None:
         """Take note of which trees stand where at a time [s], and how much grass grows below them."""
+        self._revive()
         changes = self._grown.ground.terrain.changes.count
         seen = (trees := self._world.rows(Tree)), self._world.rows(Pose) if trees else []
         before, self._seen = (
@@ -124,6 +126,16 @@ class Trees(Feature):
             self._look(time)
         if self._going.step(time):
             self._shade_grass()
+
+    def _revive(self) -> None:
+        """Let the scene's trees that stood last be entities again after the game has cleared its world."""
+        if self._generation == self._world.check():
+            return
+        self._generation = self._world.generation
+        stood = {*self._there} if self._heights >= 0 else {*self.entities}
+        self._rows, self._there = self._rows[:0], []  # none of them is felled
+        for number in [number for number, entity in enumerate(self.entities) if entity in stood]:
+            self._plant_again(number)
 
     def _shade(self, standing: Standing) -> None:
         """Let these give shade, and what is left of those that were felled."""
@@ -180,6 +192,7 @@ class Trees(Feature):
 
     def planted(self) -> set[int]:
         """Return the entities of the scene's own trees that are as they were planted."""
+        self._revive()
         own = {entity for number, entity in enumerate(self.entities) if self._is_as_planted(number)}
         return own | (self.wild.entities if self.wild is not None else set())
 
@@ -188,6 +201,7 @@ class Trees(Feature):
 
         First those that have numbers, then those of a forest too large for that.
         """
+        self._revive()
         own, (wild, stood) = self._changed(), ([], []) if self.wild is None else self.wild.felled()
         poses = [self._seedlings[number][1] for number in own]
         return own, wild, [*[(pose.x, pose.z) for pose in poses], *stood]

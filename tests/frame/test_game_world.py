@@ -16,13 +16,14 @@ import pytest
 from tallgrass import Blast, Breeze, Gust, Pose
 from tallgrass.components.patch import Patch
 from tallgrass.components.receivers import Receivers
+from tallgrass.components.tree import Tree
 from tallgrass.components.viewer import Viewer
 from tallgrass.components.wind import WindSource
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.scene import LoadedScene, read_scene
 from tallgrass.engine.world import install
 from tallgrass.systems.prairie import Prairie
-from tallgrass.testing import LITTLE
+from tallgrass.testing import LITTLE, watch
 
 Stage = Any
 Aim = Callable[..., Camera]
@@ -265,3 +266,30 @@ def test_d2_grass_that_was_taken_away_stays_away_when_the_world_is_cleared(stage
     assert (bare != whole).any()
     esper.clear_database()
     np.testing.assert_array_equal(stage.shot(windy), bare)
+
+
+def test_d2_a_scenes_trees_are_there_again_when_the_world_is_cleared_but_for_those_that_were_felled(
+    tmp_path: Path,
+) -> None:
+    wooded = tmp_path / "wooded.yaml"
+    wooded.write_text(LITTLE + "trees: { thorn: { habit: hawthorn, positions: [[0, 0], [5, 5], [9, 0]] } }\n", "utf-8")
+    prairie = Prairie.load(wooded)
+    esper.clear_database()
+    assert trees_after_a_frame(prairie) == [(0.0, 0.0), (5.0, 5.0), (9.0, 0.0)], "it has not looked before"
+    esper.delete_entity(esper.get_component(Tree)[0][0], immediate=True)
+    esper.create_entity(Tree("thorn", 2.0), Pose(-9.0, 0.0))
+    assert trees_after_a_frame(prairie) == [(5.0, 5.0), (9.0, 0.0), (-9.0, 0.0)]
+    esper.clear_database()
+    bullet = esper.create_entity(Bullet(1.0))
+    again = Prairie.load(wooded)
+    again.restore(prairie.state())
+    assert len(esper.get_component(Tree)) == 4, "two of each: none was felled by clearing"
+    again.release()
+    assert trees_after_a_frame(prairie) == [(5.0, 5.0), (9.0, 0.0)]
+    prairie.release()
+    assert [*esper.get_entities()] == [bullet]
+
+
+def trees_after_a_frame(prairie: Prairie) -> list[tuple[float, float]]:
+    watch(prairie)
+    return [(pose.x, pose.z) for _, (_, pose) in esper.get_components(Tree, Pose)]
