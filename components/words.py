@@ -25,6 +25,7 @@ _WANTED = {
 }
 _UNIT = re.compile(r"\[([a-z/]{1,12})\]")
 _DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+")
+_TIGHT = re.compile(r"([a-z_]+):\S")
 _WITH_UNIT = re.compile(r"([-+]?[\d.]+)\s*[a-zA-Z°%/]+")
 
 
@@ -144,16 +145,26 @@ def _limits(field: Field) -> dict[str, Any]:
 
 
 def _hint(kind: str, value: object, field: Field) -> str:
+    if kind == "model_type":
+        return _hint_of_mapping(value, field)
     if value is None and kind == "string_type" and LONG in _limits(field).get("pattern", ""):
         return "; a colour needs quotes, '#2f4019', because # begins a comment"
-    if value is None and kind == "model_type" and _needs_nothing(field.model):
-        return "; write {} to leave everything at its default"
     if isinstance(value, str) and kind in ("float_type", "int_type"):
         if _DECIMAL_COMMA.fullmatch(value):
             return f"; write it with a point, {value.replace(',', '.')}"
         number = _WITH_UNIT.fullmatch(value)
         return f"; leave the unit out, {number[1]}" if number else ""
     return ""
+
+
+def _hint_of_mapping(value: object, field: Field) -> str:
+    """Return what helps where a mapping is due and `value` is none."""
+    if value is None:
+        return "; write {} to leave everything at its default" if _needs_nothing(field.model) else ""
+    if field.model is not None and field.name in field.model.model_fields:
+        return "; this key stands one level deeper, below a name"
+    tight = _TIGHT.match(value) if isinstance(value, str) else None
+    return f"; a space is missing after '{tight[1]}:'" if tight else ""
 
 
 def _needs_nothing(model: type[BaseModel] | None) -> bool:

@@ -12,12 +12,15 @@ DEEPEST = 64
 TOO_DEEP = f"nested more than {DEEPEST} levels deep"
 
 _BARE_COLOUR = re.compile(rf"[:,\[]\s+({LONG}|{SHORT})\b")
+_TIGHT = re.compile(r"(?:^|[{,]|- )\s*([a-z][\w-]*):(?=[^\s:])")
+"""A key whose colon no space follows."""
+
 _UNCLOSED = "the quote that opens here is never closed"
 _WORDS: dict[str, str] = {
     "mapping values are not allowed in this context": (
         "a ':' cannot stand here; check the indentation of this line, or quote the text"
     ),
-    "could not find expected ':'": "expected ':' after the key",
+    "could not find expected ':'": "expected ': ' after this key",
     "did not find expected key": "expected a key; check the indentation of this line",
     "did not find expected '-' indicator": "expected '- ' and a further item; check the indentation of this line",
     "did not find expected ',' or ']'": "expected ',' or ']'; the list that opens at {context} is never closed",
@@ -41,20 +44,37 @@ def explain(error: yaml.MarkedYAMLError, lines: list[str]) -> tuple[int, int, st
         return context.line, context.column, _UNCLOSED
     if problem == "found character that cannot start any token":
         return mark.line, mark.column, _cannot_start(lines, mark.line, mark.column)
-    comment = _comment(lines, context.line, mark.line) if "expected ','" in problem else None
-    if comment is not None:
-        line, column, colour = comment
-        return line, column, f"a colour needs quotes, '{colour}', because # begins a comment"
+    if "expected ','" in problem or "node content" in problem:  # the latter does not know where its list began
+        comment = _comment(lines, context.line if "," in problem else 0, mark.line)
+        if comment is not None:
+            line, column, colour = comment
+            return line, column, f"a colour needs quotes, '{colour}', because # begins a comment"
+    if "':'" in problem or "mapping values" in problem:
+        tight = _tight(lines, mark.line)
+        if tight is not None:
+            line, column, key = tight
+            return line, column, f"a space is missing after '{key}:'"
+    if problem == "could not find expected ':'":
+        mark = context  # the key itself: what shows that its colon is missing may come lines later
     words = _WORDS.get(problem, "this is not YAML: " + problem.replace("{", "{{").replace("}", "}}"))
     return mark.line, mark.column, words.format(context=f"{context.line + 1}:{context.column + 1}")
 
 
 def _comment(lines: list[str], first: int, last: int) -> tuple[int, int, str] | None:
-    """Return where a colour without quotes has begun a comment, and the colour; None where none has."""
-    for line in range(first, min(last + 1, len(lines))):
+    """Return where a colour without quotes has begun a comment, the last one, and the colour; None where none has."""
+    for line in range(min(last, len(lines) - 1), first - 1, -1):
         found = _BARE_COLOUR.search(lines[line])
         if found:
             return line, found.start(1), found[1]
+    return None
+
+
+def _tight(lines: list[str], last: int) -> tuple[int, int, str] | None:
+    """Return where a key up to a line has no space after its colon, in it or the one before, and the key."""
+    for line in [line for line in range(min(last, len(lines) - 1), -1, -1) if lines[line].strip()][:2]:
+        found = _TIGHT.search(lines[line])
+        if found:
+            return line, found.end(), found[1]
     return None
 
 
