@@ -42,8 +42,10 @@ FOOT = 1.6
 """How far about its foot a trunk itself hides the sky from the grass, and leaves it less water [m]: a map that pixels
 read has texels of 1 m."""
 
-FOOT_MEETS, FOOT_MEETS_MOST = 7.0, 1.6
-"""As many leaves as that hides the sky in the middle, for each metre of the trunk's radius; and at most."""
+FOOT_MEETS, FOOT_MEETS_MOST = 12.0 / (np.pi * FOOT), float(np.log(2.0))
+"""As many leaves as that hides the sky in the middle, for each metre of the trunk's radius r; and at most, as right at
+a wide trunk half of the sky is hidden. At a distance d it hides asin(r / d) / pi of all ways, over that disc 2 r times
+its radius: as much again is for the water that its roots take."""
 
 GLSL = {"LEAST_SHADE": LEAST_SHADE, "TRUNK_FOOT": FOOT, "FOOT_MEETS_MOST": FOOT_MEETS_MOST}
 
