@@ -14,7 +14,8 @@ out vec4 pixel;
 
 void main() {
     Pictured leaf = pictured(on, picture);
-    must_cover(leaf.cover);
+    float own = step(max(abs(on.x), abs(2.0 * on.y - 1.0)), 1.0), cover = own * leaf.cover;  // its corners may lie beyond it
+    must_cover(cover);
     float brighter = dot(leaf.lies, relief.xyz) + relief.w;
-    pixel = covered(max(brighter, 0.0) * mix(darkest, brightest, leaf.tone), leaf.cover);
+    pixel = covered(max(brighter, 0.0) * mix(darkest, brightest, leaf.tone), cover);
 }

@@ -10,8 +10,8 @@ in uvec4 hung_axes;
 in uvec4 hung_light;
 in uvec2 hung_haze;
 
-uniform vec2 corners[OUTLINE];  // of its outline, left and right in turn: across from -1 to 1, and up from 0 to 1
-uniform vec4 card;              // as twig.glsl has it
+uniform vec2 corners[CARD_CORNERS];  // of its outline: across from -1 to 1, and up from 0 to 1, but for what lies beyond the card
+uniform vec4 card;                   // as twig.glsl has it
 
 out vec2 on;
 flat out float picture;   // which one its card shows

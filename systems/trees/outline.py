@@ -39,10 +39,13 @@ whose edges alone cover a texel in part, it is 0.02 to 0.055 from `SOLID` on."""
 SWEEPS = 4
 """How often corners of a tree's pictures are moved in, one after another: more changes little."""
 
-BOX = np.stack([np.tile([-1.0, 1.0], CORNERS), np.repeat(np.linspace(0.0, 1.0, CORNERS), 2)], axis=1)
+SIDES = 24
+"""Directions that a side of a card's outline may face."""
+
+BOX = np.array([(-1.0, 0.0), (1.0, 0.0), (-1.0, 1.0), (1.0, 1.0)])
 """The whole of a card."""
 
-GLSL = {"OUTLINE": 2 * CORNERS}
+GLSL = {"OUTLINE": 2 * CORNERS, "CARD_CORNERS": len(BOX)}
 
 
 class Around(NamedTuple):
@@ -151,21 +154,19 @@ def solid_above(cover: Bytes, /) -> float:
 
 
 def outline(covered: Mask, beyond: int = AROUND, /) -> Doubles:
-    """Return the corners about what a picture (n, n) covers, left and right in turn, shape (2 CORNERS, 2).
+    """Return four corners about what a picture (n, n) covers, as a strip of two triangles has them, shape (4, 2).
 
     They are across from -1 to 1, and up from 0 to 1, with about as little area as they can have, and so many texels
-    beyond it.
+    beyond it. They may lie beyond the card.
     """
     side = len(covered)
     if not covered.any():
         return BOX
-    rows, left, right = _spans(covered, beyond)
-    corners = np.stack([_edge(rows, -left), _edge(rows, right)], axis=1)
-    corners[:, 0, 0] *= -1.0
-    corners[..., 0] = corners[..., 0] / side * 2.0 - 1.0
-    corners[..., 1] /= side
-    found = np.clip(corners.reshape(-1, 2), (-1.0, 0.0), 1.0)
-    return found if _goes_round(found) else BOX
+    corners = _quads(*_facing(covered, beyond))
+    after = np.roll(corners, -1, axis=1)
+    area = (corners[..., 0] * after[..., 1] - corners[..., 1] * after[..., 0]).sum(axis=1)
+    least = corners[area.argmin()][[0, 1, 3, 2]] / side
+    return np.asarray(least * (2.0, 1.0) - (1.0, 0.0))
 
 
 def pairs(corners: Doubles, /) -> list[tuple[float, float]]:
@@ -173,53 +174,22 @@ def pairs(corners: Doubles, /) -> list[tuple[float, float]]:
     return [(x, y) for x, y in corners.tolist()]
 
 
-def _spans(covered: Mask, beyond: int) -> tuple[Doubles, Doubles, Doubles]:
-    """Return edges of rows about what is covered, and from where to where it goes there [texels]."""
-    side, any_there = len(covered), covered.any(axis=1)
-    first = np.where(any_there, covered.argmax(axis=1), side) - beyond
-    last = np.where(any_there, side - covered[:, ::-1].argmax(axis=1), 0) + beyond
-    rows = np.flatnonzero(any_there)
-    edges = np.unique(np.linspace(max(rows[0] - beyond, 0), min(rows[-1] + 1 + beyond, side), ROWS).astype(np.intp))
-    near = [slice(max(edge - 2 * beyond, 0), min(edge + 2 * beyond, side)) for edge in edges]
-    left = np.array([first[part].min() for part in near], np.float64)
-    right = np.array([last[part].max() for part in near], np.float64)
-    return edges.astype(np.float64), left, right
+def _facing(covered: Mask, beyond: int) -> tuple[Doubles, Doubles]:
+    """Return directions (n, 2), and how far on in each what is covered goes (n,) [texels]."""
+    angle = 2.0 * np.pi * np.arange(SIDES) / SIDES
+    to = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    rows = np.flatnonzero(covered.any(axis=1))
+    there = covered[rows]
+    left, right = there.argmax(axis=1), there.shape[1] - there[:, ::-1].argmax(axis=1)
+    ends = [np.stack([across, rows + up], axis=1) for across in (left, right) for up in (0, 1)]
+    return to, (np.concatenate(ends) @ to.T).max(axis=0) + beyond
 
 
-def _edge(rows: Doubles, reach: Doubles) -> Doubles:
-    """Return the corners (CORNERS, 2) of a line nowhere within `reach` of rows: how far out, and how high."""
-    out = np.linspace(reach.min(), reach.max(), TRIED)
-    inner = np.stack(np.meshgrid(out, out, indexing="ij"), axis=-1).reshape(-1, 2)
-    least, best = np.inf, np.zeros((CORNERS, 2))
-    for between in combinations(np.linspace(rows[0], rows[-1], TRIED)[1:-1].tolist(), 2):
-        high = np.array([rows[0], *between, rows[-1]])
-        lines = _lines(rows, reach, high, inner)
-        areas = 0.5 * ((lines[:, 1:] + lines[:, :-1]) * np.diff(high)).sum(axis=1)
-        smallest = int(areas.argmin())
-        if areas[smallest] < least:
-            least, best = float(areas[smallest]), np.stack([lines[smallest], high], axis=1)
-    return best
-
-
-def _lines(rows: Doubles, reach: Doubles, high: Doubles, inner: Doubles) -> Doubles:
-    """Return lines (n, CORNERS) over heights with these two inner corners, infinite where one lies within `reach`."""
-    part = np.clip(np.searchsorted(high, rows, side="right") - 1, 0, CORNERS - 2)
-    share = (rows - high[part]) / np.diff(high)[part]
-    foot, middle, tip = (part == each for each in range(CORNERS - 1))
-
-    def end(chosen: Mask, weight: Doubles, beside: Doubles) -> Doubles:
-        needed = (reach[chosen] - beside[:, None] * (1.0 - weight)) / np.maximum(weight, 1e-3)
-        return np.asarray(np.maximum(needed.max(axis=1, initial=reach.min()), reach.min()))
-
-    first, last = end(foot, 1.0 - share[foot], inner[:, 0]), end(tip, share[tip], inner[:, 1])
-    line = inner[:, :1] * (1.0 - share[middle]) + inner[:, 1:] * share[middle]
-    holds = (line >= reach[middle] - 1e-6).all(axis=1)
-    return np.where(holds[:, None], np.column_stack([first, inner, last]), np.inf)
-
-
-def _goes_round(corners: Doubles) -> bool:
-    """Return whether no triangle of the strip through corners is turned over."""
-    one, two, three = corners[:-2], corners[1:-1], corners[2:]
-    turns = np.where(np.arange(len(one)) % 2 == 0, 1.0, -1.0)
-    (ax, ay), (bx, by) = (two - one).T, (three - one).T
-    return bool((turns * (ax * by - ay * bx) > -1e-9).all())
+def _quads(to: Doubles, reach: Doubles) -> Doubles:
+    """Return the corners (n, 4, 2) of all quads whose sides face four of such directions, each as far on."""
+    sides = np.array(list(combinations(range(SIDES), len(BOX))))
+    turn = np.diff(sides, axis=1, append=sides[:, :1] + SIDES)
+    sides = sides[(2 * turn < SIDES).all(axis=1)]  # others do not meet
+    (one, other), (a, b) = ([each[some] for some in (sides, np.roll(sides, -1, axis=1))] for each in (to, reach))
+    (ax, ay), (bx, by) = np.moveaxis(one, -1, 0), np.moveaxis(other, -1, 0)
+    return np.asarray(np.stack([a * by - b * ay, b * ax - a * bx], axis=-1) / (ax * by - ay * bx)[..., None])

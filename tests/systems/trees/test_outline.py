@@ -8,7 +8,7 @@ from tallgrass.engine.camera import View, projection_matrix, view_matrix
 from tallgrass.systems.space.frustum import picture_sides
 from tallgrass.systems.trees.choice import Choice
 from tallgrass.systems.trees.model import Model, models_of
-from tallgrass.systems.trees.outline import CORNERS, Around, around
+from tallgrass.systems.trees.outline import AROUND, BOX, CORNERS, Around, around, outline
 from tallgrass.systems.trees.standing import STANDING, Standing
 from tallgrass.testing import looking
 
@@ -46,6 +46,21 @@ def test_about_a_picture_that_covers_nothing_the_whole_of_it_is_drawn() -> None:
     empty = around(np.zeros((2, SIDE, SLIM), np.uint8))
     assert (empty.high[0], empty.high[-1]) == (-1.0, 1.0)
     assert empty.reaches == [(SLIM / SIDE,) * CORNERS] * 4
+
+
+@pytest.mark.parametrize("askew", [0.0, 0.3])
+def test_all_that_the_picture_of_a_twig_covers_lies_within_four_corners_and_little_else(askew: float) -> None:
+    up, across = np.mgrid[0:SIDE, 0:SIDE] + 0.5 - 0.5 * SIDE
+    covered = ((across + askew * up) / 14.0) ** 2 + (up / 40.0) ** 2 < 1.0
+    one, two, four, three = outline(covered)
+    corners = np.array([one, two, three, four]) * (0.5 * SIDE, SIDE) + np.array([0.5 * SIDE, 0.0])
+    rows, columns = np.nonzero(covered)
+    for first, second in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        inwards = np.array([first[1] - second[1], second[0] - first[0]]) / np.linalg.norm(second - first)
+        assert ((np.stack([columns, rows], axis=1) + 0.5 - first) @ inwards).min() > AROUND
+    x, y = corners.T
+    assert 0.5 * (x * np.roll(y, -1) - np.roll(x, -1) * y).sum() < 4.4 * (14.0 + AROUND) * (40.0 + AROUND)
+    assert np.array_equal(outline(np.zeros_like(covered)), BOX)
 
 
 @pytest.fixture(scope="module")
