@@ -256,11 +256,10 @@ class Winds(Feature):
             if before is not None and type(before.wind) is type(wind):
                 go_on = partial(on_course, wind, before.wind, time=self._clock)
                 wind = self.quarantine.ask(source, "rates", go_on)
-            end = self.quarantine.ask(source, "ends", wind.ends)
-            self.quarantine.must_be(source, "ends", end, float, int)
+            end = self.quarantine.ask_end(source, wind.ends)
         except QuarantinedError:
             return _Known(source, wind, inf)
-        return _Known(source, wind, float(end))
+        return _Known(source, wind, end)
 
     def bent(self, time: float) -> float:
         """Return the posture index that the winds bring grass to everywhere at `time` [s], in the mean."""

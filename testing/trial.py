@@ -127,6 +127,16 @@ def flight(wind: WindPrimitive, report: Report, times: Iterable[float], /) -> No
         _stands("pose", report.twice("pose", when, partial(wind.pose, time=moment), Pose), report, when)
 
 
+def times_of(wind: WindPrimitive, report: Report, /) -> None:
+    """Ask a wind how fast its phases run, and when it is over. Raises FailedError where these are no numbers."""
+    rates = report.ask("rates", "at any time", lambda: tuple(wind.rates()))
+    if not all(_is_sound(rate, bounded=True) for rate in rates):
+        raise report.fail("rates", f"rates returned {rates}, which is not all finite numbers")
+    end = report.ask("ends", "at any time", wind.ends)
+    if not _is_sound(end, bounded=False):
+        raise report.fail("ends", f"ends returned {end!r}, not a time")
+
+
 def _stands(what: str, answer: Pose | Extent, report: Report, when: str) -> None:
     numbers = astuple(answer)
     if isinstance(answer, Pose) and answer.y is None:  # it has no height, which is last

@@ -16,7 +16,7 @@ from ..systems.overlay.paint import is_color
 from ..systems.wind.quarantine import SLOW
 from .declared import declaration_problems
 from .receivers import crowd, grass_at
-from .trial import FailedError, Report, flight, timed, try_part
+from .trial import FailedError, Report, flight, timed, times_of, try_part
 
 MOST_COST = 0.02
 """How long a wind may take for 10,000 receivers, in processor time [s].
@@ -87,6 +87,7 @@ def _behaviour(wind: WindPrimitive, seed: int) -> list[str]:
         times = timeline(wind)
         if report.twice("hover", "at any time", wind.hover, Hover, type(None)) is not None:
             flight(wind, report, times)
+        times_of(wind, report)
         first = {time: _answers(wind, report, time, seed) for time in times}
         _answers(wind, report, times[0], MOST_SEED)
         for time in reversed(times):

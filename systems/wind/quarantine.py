@@ -141,6 +141,12 @@ class Quarantine:
             raise self.leave_out(source, "pose returned numbers far beyond any prairie")
         return pose
 
+    def ask_end(self, source: WindSource, ends: Callable[[], float]) -> float:
+        """Return when a wind is over for good [s], `inf` for never; raises QuarantinedError where that is no time."""
+        end = self.ask(source, "ends", ends)
+        self._must_count(source, "ends", (end,))
+        return float(end)
+
     def must_be(self, source: WindSource, what: str, answer: object, /, *kinds: type) -> None:
         """Raise QuarantinedError unless a wind's answer is of one of these types."""
         if not isinstance(answer, kinds):
@@ -169,7 +175,7 @@ class Quarantine:
             if type(number) in PLAIN and -inf < number < inf:
                 continue
             self.must_be(source, what, number, float, int, np.floating, np.integer)
-            if isnan(number) or (abs(number) == inf and what != "extent"):
+            if isnan(number) or (abs(number) == inf and what not in ("ends", "extent")):
                 raise self.leave_out(source, f"{what} returned numbers that are not finite")
 
     def let_back(self, now: float, /) -> None:

@@ -61,6 +61,23 @@ def test_a_frame_with_failing_winds_is_the_frame_without_them(
     assert [message.partition(" of ")[0] for message in caplog.messages] == ["lost", "raising", "undefined"]
 
 
+class Undated(Raising):
+    """A wind that does not know when it is over."""
+
+    kind: str = "undated"
+
+    def ends(self) -> float:
+        return float("nan")
+
+
+def test_a_wind_that_ends_at_no_time_is_told_of(load: Load, caplog: pytest.LogCaptureFixture) -> None:
+    prairie = load()
+    prairie.add(Undated())
+    prairie.wind_at([(0, 0)])
+    assert prairie.wind_failures == {"undated": "undated: ends returned numbers that are not finite"}
+    assert len(caplog.messages) == 1
+
+
 class Steady(Raising):
     """A wind that never fails."""
 

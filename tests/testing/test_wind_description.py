@@ -84,6 +84,34 @@ class Sudden(Even):
         return Pose(x=float(np.sqrt(time)))
 
 
+class Countless(Even):
+    """It has no list of rates."""
+
+    def rates(self) -> Any:
+        return None
+
+
+class Rateless(Even):
+    """Its rate is no number."""
+
+    def rates(self) -> Any:
+        return (float("nan"),)
+
+
+class Evermore(Even):
+    """When it is over is a word."""
+
+    def ends(self) -> Any:
+        return "never"
+
+
+class Undated(Even):
+    """When it is over is no number."""
+
+    def ends(self) -> Any:
+        return float("nan")
+
+
 class Painted(Even):
     """Its colour is in bytes."""
 
@@ -148,6 +176,10 @@ class Odd(Even):
         (Buried, r"hover raised ValueError: a body flies above 0 and up to 1000 m high, not -1\.0 \(at any time\)"),
         (Wavering, r"hover answers differently when it is asked again \(at any time\)"),
         (Sudden, r"pose raised FloatingPointError: .* \(at -0\.3 s, for what hovers over it\)"),
+        (Countless, r"rates raised TypeError: .* \(at any time\)"),
+        (Rateless, r"rates returned \(nan,\), which is not all finite numbers"),
+        (Evermore, r"ends returned 'never', not a time"),
+        (Undated, r"ends returned nan, not a time"),
         (Painted, r"color is \(255, 128, 0\), not a tuple of three numbers from 0 to 1"),
         (Boxed, r"extent returned list, not Extent or None \(at 0 s\)"),
         (Inverted, r"extent returned Extent\(.*\), which ends before it begins \(at 0 s\)"),
