@@ -89,4 +89,5 @@ def _write(folder: Path, made: dict[str, str], names: dict[str, str]) -> list[Pa
 
 def _must_be_name(what: str, name: str) -> None:
     if not _NAME.fullmatch(name) or len(name) > 60:
-        raise InputError(f"a {what} is written in lower-case letters and digits, with - or _ between, unlike '{name}'")
+        form = "lower-case letters and digits, a letter first, with - or _ between"
+        raise InputError(f"a {what} is written in {form}, unlike '{name}'")

@@ -149,6 +149,8 @@ def wind(kind: str) -> Callable[[type[_W]], type[_W]]:
 
     Raises PluginError when the kind is taken, and when the class is no complete `WindPrimitive`.
     """
+    if not isinstance(kind, str):
+        raise PluginError("a wind is registered by its kind, as @wind('ripple'), not by @wind alone")
 
     def added(primitive: type[_W]) -> type[_W]:
         wind_kinds().add(kind, primitive)

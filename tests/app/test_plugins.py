@@ -228,7 +228,7 @@ def test_what_comes_next_is_said(
 )
 def test_a_name_that_cannot_be_one_is_refused(tmp_path: Path, kind: str) -> None:
     for begin in (scaffold, scaffold_game):
-        with pytest.raises(InputError, match="lower-case letters and digits"):
+        with pytest.raises(InputError, match="lower-case letters and digits, a letter first"):
             begin(kind, tmp_path / "new")
     assert not (tmp_path / "new").exists()
 

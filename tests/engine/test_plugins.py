@@ -283,6 +283,11 @@ def test_what_is_installed_cannot_be_shadowed() -> None:
         wind("breeze")(Calm)
 
 
+def test_wind_without_a_kind_is_refused_at_once() -> None:
+    with pytest.raises(PluginError, match=r"as @wind\('ripple'\), not by @wind alone"):
+        wind(Calm)  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize("kind", ["", "Calm", "two words", "os.path:join", "1st"])
 def test_a_malformed_kind_is_refused(kind: str) -> None:
     with pytest.raises(PluginError, match="lower-case letters"):
