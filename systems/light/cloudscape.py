@@ -12,7 +12,7 @@ from .billows import billows_texture
 from .clouds import FADE
 from .heaps import heaps_texture
 
-FINEST, PARTS = 0.002, (2, 8)
+FINEST, PARTS = 0.002, (1, 8)
 """How wide a pixel of clouds is at least, as an angle, and how many of the sky's are across it: a line of sight through
 clouds costs ten times as much as all else of the sky. They have nothing finer than that: their billows are 18 m wide,
 and their edges 3 m soft."""

@@ -194,14 +194,14 @@ def test_f5_an_overcast_sky_is_grey_all_over_down_to_the_horizon(room: Stage, lo
     for up in (0.45, 1.3):
         sky, clear = sky_over(room, load, 1.0, up=up), sky_over(room, load, 0.0, up=up)
         assert np.ptp(sky, axis=1).max() < 0.35 * np.ptp(clear, axis=1).max()
-        assert np.ptp(bright(sky[None])) < 80.0
+        assert np.ptp(bright(sky[None])) < 90.0
 
 
 def test_f5_clouds_are_brighter_on_the_side_of_the_sun(room: Stage, load: Load) -> None:
     """Where a cloud thins out towards the sun, to the right, it is brighter than with the sun on its left."""
     skies = [sky_over(room, load, 0.5, up=1.3, azimuth=side).reshape(*room.size[::-1], 3) for side in (90.0, -90.0)]
     blue, (right, left) = sum(np.ptp(sky, axis=2) for sky in skies), map(bright, skies)
-    way = 8  # pixels
+    way = 16  # pixels
     thins = blue[:, 2 * way :] - blue[:, : -2 * way]
     brighter = (right - left)[:, way:-way]
     brighter -= brighter.mean(axis=0)  # about the sun all the sky is
