@@ -158,7 +158,8 @@ class World:
     def rows(self, kind: type[Component]) -> list[tuple[int, Component]]:
         """Return every entity with a component of exactly this type, in any order and whosever it is.
 
-        It is quick: who keeps it sees by comparing it whether any of them has become another.
+        It is quick: who keeps it sees by comparing it whether any of them has become another. But it is made anew
+        whenever any entity comes or goes: many are to be exchanged `uncollected`.
         """
         self._must_be_current()
         return esper.get_component(kind)
@@ -275,16 +276,26 @@ def _current(name: str) -> Iterator[None]:
 
     Meanwhile nothing is collected: a handler of the game's that went now would leave its reference in its world.
     """
-    before, collecting = esper.current_world, gc.isenabled()
+    before = esper.current_world
     if before == name:
         yield
         return
+    with uncollected():
+        esper.switch_world(name)
+        try:
+            yield
+        finally:
+            esper.switch_world(before)
+
+
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """Let Python's collector rest meanwhile: what is made and let go again by then never sets it off."""
+    collecting = gc.isenabled()
     gc.disable()
-    esper.switch_world(name)
     try:
         yield
     finally:
-        esper.switch_world(before)
         if collecting:
             gc.enable()
 

@@ -14,7 +14,7 @@ from ...components.pose import Pose
 from ...components.tree import HIGHEST, LOWEST, Tree
 from ...engine.declared.tree import TreeKind
 from ...engine.terrain.sample import height_at
-from ...engine.world import World
+from ...engine.world import World, uncollected
 from ..frame.block import FrameBlock
 from ..frame.feature import Eye, Feature, Start
 from ..space.grown import Grown
@@ -116,12 +116,11 @@ class Trees(Feature):
         """Take note of which trees stand where at a time [s], and how much grass grows below them."""
         self._revive()
         changes = self._grown.ground.terrain.changes.count
-        seen = (trees := self._world.rows(Tree)), self._world.rows(Pose) if trees else []
-        before, self._seen = (
-            self._seen,
-            seen,
-        )  # of equal lists the new ones: they are the same ones again in the next frame
-        if seen != before or changes != self._heights:
+        with uncollected():
+            seen = (trees := self._world.rows(Tree)), self._world.rows(Pose) if trees else []
+            are_others = seen != self._seen
+            self._seen = seen  # of equal lists the new ones: they are the same ones again in the next frame
+        if are_others or changes != self._heights:
             self._heights = changes
             self._look(time)
         if self._going.step(time):

@@ -58,12 +58,15 @@ def test_n11_what_a_flight_leaves_behind_goes_at_once_and_makes_no_cycles(
         gc.enable()
 
 
+@pytest.mark.parametrize("trees", [0, 1600])
 def test_n11_a_flight_over_thousands_of_patches_hardly_ever_sets_off_the_collector(
-    stage: Stage, prairie: Prairie, camera: Aim
+    stage: Stage, load: Load, camera: Aim, trees: int
 ) -> None:
     def collections() -> int:
         return int(gc.get_stats()[0]["collections"])
 
+    stand = [[x, z] for x in range(-114, 115, 6) for z in range(-190, 191, 9)][:trees]
+    prairie = load(LONG + (f"trees: {{ thorn: {{ habit: hawthorn, positions: {stand} }} }}\n" if stand else ""))
     cells = []
     for frame in range(40 + 210):
         if frame == 40:  # until then there are more and more patches
