@@ -127,6 +127,18 @@ def test_blades_just_before_the_eye_hide_and_shine_as_those_of_the_reference(
     assert np.mean(apart) < 9.5
 
 
+def test_g5_blades_of_a_farther_ring_have_as_many_segments_as_it_says(stage: Stage, load: Load) -> None:
+    def shown(segments: int) -> NDArray[np.float64]:
+        rings = f"to: 1, segments: 4 }}, {{ to: 4, segments: {segments}"
+        text = SCENE.format(profile="blade, lean: 0.4").replace("to: 1, segments: 4", rings)
+        return stage.shot(load(text + "wind: [{ kind: breeze, strength: 0.9 }]\n", lod="blades"), camera)
+
+    camera = Camera((0.0, 1.0, 8.0), 0.0, -0.2, np.radians(40.0))
+    apart = np.abs(shown(1) - shown(4)).mean(axis=(1, 2))
+    assert apart.max() > 2.0
+    assert not apart[-len(apart) // 4 :].any()  # nearer ones have as many as before
+
+
 @pytest.mark.slow
 def test_g1_a_kind_may_have_segments_of_its_own_and_then_all_its_blades_are_drawn_with_them(
     stage: Stage, load: Load

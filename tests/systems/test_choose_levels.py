@@ -15,7 +15,7 @@ _, STRIPS, CARPET = range(3)
 REACH = (2, 5, 9)
 
 
-def test_the_system_writes_what_is_due_and_changes_nothing_else() -> None:
+def test_x1_only_what_was_and_is_seen_is_kept_finer_than_is_due_and_nothing_else_is_written() -> None:
     outlook = Outlook(Viewer(jumped=False), 0, PatchTable.allocate(3, NAMES))
     patches = outlook.patches
     patches.away[:] = np.arange(9)
@@ -46,7 +46,7 @@ class Choosy(StripRepresentation):
         return rows == 3
 
 
-def test_a_representation_passes_patches_that_it_would_not_do_for_on_to_the_next() -> None:
+def test_f2_a_representation_passes_patches_that_it_would_not_do_for_on_to_the_next() -> None:
     outlook = Outlook(Viewer(jumped=False), 0, PatchTable.allocate(3, NAMES))
     outlook.patches.away[:] = np.arange(9)
     outlook.patches.visible[:] = True
