@@ -80,15 +80,16 @@ def hearing(outlook: Outlook, /) -> list[Receiving]:
 
 
 def receivers_shown(outlook: Outlook, growths: Sequence[Growth], /, *, patch: float, margin: float) -> ReceiverArrays:
-    """Return all receivers of what a viewer is shown, pool after pool.
+    """Return all receivers that winds without a twin tell something, pool after pool.
 
     `patch` is a patch's side, and `margin` how far receivers may stand outside of it [m].
     """
     order = hearing(outlook)
-    places = [receiving.pool.places(receiving.slots).reshape(-1, 2) for receiving in order]
-    rows = np.concatenate([receiving.rows for receiving in order])
-    each = [np.full(len(receiving.slots), receiving.each) for receiving in order]
-    kind = np.concatenate([receiving.pool.kind(receiving.slots) for receiving in order])
+    told = [receiving.told for receiving in order]
+    places = [receiving.pool.places(slots).reshape(-1, 2) for receiving, (_, slots) in zip(order, told, strict=True)]
+    rows = np.concatenate([rows for rows, _ in told])
+    each = [np.full(len(slots), receiving.each) for receiving, (_, slots) in zip(order, told, strict=True)]
+    kind = np.concatenate([receiving.pool.kind(slots) for receiving, (_, slots) in zip(order, told, strict=True)])
     return ReceiverArrays(
         place=np.concatenate(places),
         grass=grass_of(growths, kind),

@@ -194,6 +194,14 @@ class Receiving:
         self.rows, self.slots, self.letters.shown = rows, slots, slots
 
     @property
+    def told(self) -> tuple[Rows, Rows]:
+        """Rows and slots of those that winds without a twin tell something: of still ones all, as their mean counts."""
+        if not self.still:
+            return self.rows, self.slots
+        every = np.arange(self.pool.slots)
+        return every, every
+
+    @property
     def is_listed(self) -> bool:
         """Whether those shown were entities, all of them, when that was last seen to."""
         return self.slots is self._listed[0]

@@ -74,14 +74,15 @@ class Received:
 
 
 def numbers_of(outlook: Outlook, first: Mapping[str, Sequence[int]], /) -> NDArray[np.intp]:
-    """Return the numbers on the graphics card of all receivers shown, those that are still last, shape (n,).
+    """Return the numbers on the graphics card of all receivers told something, those that are still last, shape (n,).
 
     `first` gives the numbers of the first receivers of each representation's pools.
     """
     parts: list[tuple[bool, NDArray[np.intp]]] = []
     for name, kept in outlook.kept.items():
         for receiving, start in zip(kept.receiving, first[name], strict=True):
-            own = receiving.slots if receiving.still else np.arange(len(receiving.slots) * receiving.each)
+            slots = receiving.told[1]
+            own = slots if receiving.still else np.arange(len(slots) * receiving.each)
             parts.append((receiving.still, start + own))
     return np.concatenate([own for _, own in sorted(parts, key=lambda part: part[0])])
 

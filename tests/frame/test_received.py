@@ -153,6 +153,28 @@ def test_d5_a_wind_is_told_alike_with_and_without_a_twin(
     assert caplog.messages == []
 
 
+class UntwinnedBreeze(Breeze):
+    """A breeze that numpy alone computes."""
+
+    twin = None
+
+
+def test_d5_grass_out_of_view_and_all_that_lies_farther_off_is_told_alike_with_and_without_a_twin(
+    stage: Stage, load: Load
+) -> None:
+    felt = []
+    for kind in (Breeze, UntwinnedBreeze):
+        prairie = load(LITTLE)
+        prairie.add(kind(strength=0.5, priority=9))
+        prairie.advance(1.0)
+        stage.shot(prairie)
+        assert prairie.painter is not None
+        felt += [on_carpet(prairie), np.frombuffer(carpet_painter(prairie.painter).air.mean.read(), np.float32)]
+    assert np.linalg.norm(felt[1]) > 0.3
+    np.testing.assert_allclose(felt[2], felt[0], atol=1e-4)
+    np.testing.assert_allclose(felt[3], felt[1], atol=1e-4)
+
+
 def test_n4_the_wind_as_it_is_asked_read_by_a_game_and_told_on_the_card_is_the_same(
     stage: Stage, mapped: Prairie, on_card: OnCard
 ) -> None:
