@@ -109,6 +109,17 @@ def test_f4_a_lawn_is_as_bright_on_all_representations_as_every_blade_of_it(
         np.testing.assert_allclose(mean, due, rtol=0.06, err_msg=lod)
 
 
+def test_f4_to_a_walker_half_of_high_grass_is_as_bright_on_the_carpet_as_on_blades(
+    stage: Stage, load: Load, camera: Aim
+) -> None:
+    means = []
+    for lod in ("blades", "carpet"):
+        prairie = load(LAWN, lod=lod)
+        prairie.cut(ALL, 0.3)
+        means.append(stage.shot(prairie, camera(0.0, 1.7, 20.0, pitch=-8))[-30:].mean(axis=(0, 1)))
+    np.testing.assert_allclose(means[1], means[0], rtol=0.08)
+
+
 @pytest.mark.parametrize("lod", KEPT)
 def test_f4_grass_that_was_grown_again_looks_as_if_it_had_never_been_cut(
     stage: Stage, load: Load, camera: Aim, lod: str
