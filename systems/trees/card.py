@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...engine.gl.records import Records
 from ...engine.gl.stream import Stream, release_all
-from .bark import RUNS, SENT, sent
+from .bark import RUNS, SENT, ranges_of, sent
 from .lies import Lies
 from .model import Model
 from .outline import NOWHERE
@@ -72,16 +72,17 @@ class ModelOnCard:
 
     def __init__(self, ctx: moderngl.Context, model: Model) -> None:
         self.model = model
+        ranges = ranges_of(model.vertices)
         self.numbers: Numbers = {
             "tall": (model.height,), "twigs": (len(model.twigs),),
             "ball": (model.middle, model.half), "slim": (model.slim,), "lines": (model.lines,),
             "lawn_shade": model.shade,
-            "column": (COLUMN * model.radius,),
+            "column": (COLUMN * model.radius,), **ranges._asdict(),
         }  # fmt: skip
         """What programs are told of it."""
         self.twigs = Records(ctx, TWIG, ROW, rows=-(-len(model.twigs) // ROW))
         self.twigs.write(model.twigs)
-        self.vertices = ctx.buffer(sent(model.vertices))
+        self.vertices = ctx.buffer(sent(model.vertices, ranges))
         self.triangles = ctx.buffer(np.concatenate([each.triangles for each in model.wood]))
         self.first_of: list[int] = np.cumsum([0, *(len(each.triangles) for each in model.wood)]).tolist()
         """The first of those that are drawn of each of `RUNS`."""
@@ -113,7 +114,7 @@ class ModelOnCard:
 
     def bark(self, program: moderngl.Program) -> tuple[moderngl.Buffer | str, ...]:
         """Return the vertices of its wood, as a vertex array takes them: those fields that a program has."""
-        names, forms = list(SENT.names or ()), ("4f", "4f1", "4f2", "3f2 2x", "4f2")
+        names, forms = list(SENT.names or ()), ("4u2", "4f1", "4f2", "3f2 2x", "4f1")
         ends = [*(SENT.fields[name][1] for name in names), SENT.itemsize] if SENT.fields else []
         kept = [
             form if name in program else f"{end - start}x"

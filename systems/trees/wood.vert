@@ -1,19 +1,23 @@
 // Trunks, limbs and branches. None is drawn narrower than a pixel: what is thinner covers as much less of that. Others are drawn a
 // pixel broader than they are, over which their edges fade.
 #include "systems/trees/tree.glsl"
+#include "systems/trees/bark.py"
 #include "systems/trees/behind.glsl"
 #include "systems/trees/far.py"
 #include "systems/trees/leaf_sends.glsl"
 #include "systems/trees/pigment.glsl"
 #include "systems/trees/wood.py"
 
-in vec4 stem;     // of the model: the stem's middle; its radius [m]
+in uvec4 stem;    // of the model: the stem's middle; its radius; 0 to STEM_ONE within their ranges
 in vec4 side;     // which way the vertex lies from that, a unit vector, and how much farther out the corners of what has flat sides
                   // are than what it stands for; or which way a ribbon goes, and -1 or 1 on its edge
 in vec4 own;      // around the stem and along it [m]; what sets its limb apart, and the frequency of that
 in vec3 pivot;    // foot of its limb
-in vec4 shading;  // what light meets on its way
+in vec4 shading;  // what light meets on its way, by direction about 0.5 and in all, of the most
 
+uniform vec4 stem_least;    // ranges, as bark.py has them
+uniform vec4 stem_range;
+uniform vec2 most_shading;
 uniform float usual;     // as twig.glsl has them
 uniform vec3 leaf_shape;
 
@@ -50,21 +54,22 @@ vec3 aside_of(vec3 middle_at) {
 
 void main() {
     on_skin = own.xy;
+    vec4 stem_at = stem_least + stem_range * (vec4(stem) / STEM_ONE), meets = vec4(2.0 * shading.xyz - 1.0, shading.w) * most_shading.xxxy;
 #ifdef BAKED
-    inside = shading;
+    inside = meets;
     facing = 2.0 * side.xyz - 1.0;
     rounds = 0.0;
-    seen_at = stem.xyz + stem.w * facing;
+    seen_at = stem_at.xyz + stem_at.w * facing;
     thick = stands = 1.0;
-    aged = stem.w / THICKEST;
+    aged = stem_at.w / THICKEST;
     fading = vec2(0.0, 1.0);
     among_grass = vec2(0.0);
     gl_Position = baked * vec4(seen_at, 1.0);
 #else
-    vec3 middle_at = swayed(stem.xyz, pivot, own.z, own.w, message);
+    vec3 middle_at = swayed(stem_at.xyz, pivot, own.z, own.w, message);
     facing = aside_of(middle_at);
     vec4 projected = clip * vec4(middle_at, 1.0);
-    float pixel_at = THINNEST * max(projected.w, AWAY) / pixels_a_metre(), half_width = scale * stem.w;
+    float pixel_at = THINNEST * max(projected.w, AWAY) / pixels_a_metre(), half_width = scale * stem_at.w;
     thick = min(half_width / pixel_at, 1.0);
     aged = aged_at(half_width);
     thick *= mix(1.0, smoothstep(THINS.x, THINS.y, thick), foliage) * (1.0 - smoothstep(0.0, 1.0, gone));
@@ -74,7 +79,7 @@ void main() {
     seen_at = middle_at + ends * corners * facing;
     stands = (seen_at.y - root.y) / stands_in.x;
     among_grass = stands_in.yz;
-    Light light = light_in_crown(seen_at, shading, facing.y);
+    Light light = light_in_crown(seen_at, meets, facing.y);
     vec3 pigment = mix(young_bark, bark, aged);
 #ifdef SOFT
     pigment *= mix(1.0, bark_mean(), aged);  // what is drawn in part are thin stems, and edges a pixel wide
