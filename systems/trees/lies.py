@@ -5,8 +5,9 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Bytes, Doubles
 
-AROUND, TILTS = 8, 2
-"""Directions around the middle of a card, and how steep ones there are."""
+AROUND, TILTS = 5, 2
+"""Directions around the middle of a card, and how steep ones there are: an odd number around tells sides as finely as
+twice as many, as leaves are seen from either side."""
 
 LIES = AROUND * TILTS
 """Directions in all."""
