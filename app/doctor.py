@@ -13,7 +13,7 @@ from typing import Literal
 
 from ..engine.gl.rasteriser import is_software
 from ..engine.installed import OURS
-from ..engine.plugins import GROUP, PluginError, WindKinds, wind_kinds
+from ..engine.plugins import GROUP, NewerError, PluginError, WindKinds, wind_kinds
 from .shell import command_line
 
 _DISTRIBUTION = "tallgrass"
@@ -156,7 +156,8 @@ def winds(kinds: WindKinds, entries: Sequence[EntryPoint], /) -> list[Finding]:
         except PluginError as error:
             # A newer package may mend its own faults; of a module that it lacks, the text says all there is to say.
             lacks = isinstance(error.__cause__, ModuleNotFoundError)
-            mended = _pip(name) if kind in owner and not lacks else None
+            newer = "tallgrass" if isinstance(error, NewerError) else name
+            mended = _pip(newer) if kind in owner and not lacks else None
             findings.append(Finding(f"wind {kind}", "note", str(error), mended))
         else:
             findings.append(Finding(f"wind {kind}", "ok", f"from {name}"))

@@ -28,6 +28,10 @@ class PluginError(ValueError):
     """A kind is unknown, claimed twice or broken; the message is one sentence that names whose it is."""
 
 
+class NewerError(PluginError):
+    """A kind is written for a newer tallgrass."""
+
+
 @dataclass(frozen=True, slots=True)
 class Provided:
     """A kind of wind and who brings it."""
@@ -165,7 +169,8 @@ def _must_be_primitive(thing: object, what: str) -> type[WindPrimitive]:
     if isabstract(thing):
         raise PluginError(f"{what} lacks {' and '.join(sorted(thing.__abstractmethods__))}")
     if thing.interface != INTERFACE:
-        raise PluginError(f"{what} is written for interface {thing.interface} of winds; this tallgrass has {INTERFACE}")
+        refusal = NewerError if thing.interface > INTERFACE else PluginError
+        raise refusal(f"{what} is written for interface {thing.interface} of winds; this tallgrass has {INTERFACE}")
     return thing
 
 

@@ -132,15 +132,18 @@ def test_no_newer_package_is_named_for_a_plugin_that_lacks_another_one(
     info = tmp_path / "tallgrass_dry-0.1.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: tallgrass-dry\nVersion: 0.1\n")
-    (info / "entry_points.txt").write_text(f"[{GROUP}]\nlacking = tallgrass_lacking:A\nold = tallgrass_old:B\n")
+    names = "lacking = tallgrass_lacking:A\nnew = tallgrass_new:C\nold = tallgrass_old:B\n"
+    (info / "entry_points.txt").write_text(f"[{GROUP}]\n{names}")
+    (tmp_path / "tallgrass_new.py").write_text("from tallgrass import Breeze\nclass C(Breeze): interface = 99\n")
     (tmp_path / "tallgrass_lacking.py").write_text("import no_such_module_anywhere\n")
     (tmp_path / "tallgrass_old.py").write_text("")
     monkeypatch.syspath_prepend(str(tmp_path))
     entries = [entry for entry in entry_points(group=GROUP) if entry.dist and entry.dist.name == "tallgrass-dry"]
-    lacking, old = winds(WindKinds(entries), entries)
+    lacking, new, old = winds(WindKinds(entries), entries)
     assert lacking.text.endswith("ModuleNotFoundError: No module named 'no_such_module_anywhere'")
     assert lacking.cure is None
     assert (old.cure or "").endswith("--upgrade tallgrass-dry")
+    assert (new.cure or "").endswith("--upgrade tallgrass"), "it is written for a newer one"
 
 
 def test_a_kind_whose_module_ends_python_is_one_note(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
