@@ -1,4 +1,4 @@
-"""Strips as the graphics card puts them: their edges bend, and they end where their paint does (W1, G3)."""
+"""Strips as the graphics card puts them: their edges bend, they end as their paint does, in order (W1, G3, T5)."""
 
 from typing import Any
 
@@ -103,6 +103,20 @@ def test_w1_a_strip_stands_between_two_edges_on_the_ground_each_bent_as_numpy_sa
                 np.testing.assert_allclose(everything.clip[here, vertex], expected, atol=FILTERED)
         assert np.linalg.norm(heard, axis=-1).mean() > 0.15
         assert len(set(turn.tolist())) == 4
+
+
+def test_t5_on_each_patch_strips_are_drawn_from_its_far_side_to_its_near_one(scene: Any) -> None:
+    everything, outlook, seen = scene.strips_drawn(), scene.outlook, 0
+    back = np.linalg.inv(scene.painter.record[0]["clip"].reshape(4, 4).astype(float))
+    off = (everything.clip[:, 0] @ back)[:, [0, 2]] - np.array(outlook.viewer.eye)[::2]
+    for number, ring in enumerate(outlook.shows(StripsShown).rings):
+        for row, along in zip(ring.rows, ring.along, strict=True):
+            across, once = 1 - along, np.count_nonzero(ring.rows == row) == 1
+            if once and outlook.patches.cell[row, across] != outlook.viewer.centre[across]:  # on one side of the eye
+                away = np.abs(off[(everything.ring == number) & (everything.row == row), across])
+                assert (np.diff(away) < FILTERED).all()
+                seen += int(away[0] - away[-1] > 1.0)
+    assert seen > 8
 
 
 def test_g3_a_strip_that_ends_where_its_paint_ends_is_a_part_of_the_whole_one(scene: Any) -> None:
