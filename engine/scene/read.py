@@ -187,7 +187,8 @@ def _path(scene: str | Path) -> Path:
         near = get_close_matches(text, bundled, n=1)
         guess = f"; did you mean '{near[0]}'?" if near else ";"
         raise _no_file(f"no scene file '{text}'{guess} bundled: {', '.join(bundled)}")
-    raise _no_file(f"no scene file '{text}'{_guess(path)}")
+    bundle = f"; '{path.stem}' alone is a bundled scene" if path.stem in bundled else ""
+    raise _no_file(f"no scene file '{text}'{_guess(path) or bundle}")
 
 
 def _no_file(message: str) -> SceneError:

@@ -87,4 +87,5 @@ def check_finite(
 
 def eight_bit(path: Path | None) -> MapError:
     """Return why 8-bit heights are refused."""
-    return MapError(path, "8 bits hold only 256 heights, which would make terraces; export 16-bit grey")
+    instead = "export 16-bit grey" if path else "hand in metres as float32"
+    return MapError(path, f"8 bits hold only 256 heights, which would make terraces; {instead}")

@@ -111,7 +111,7 @@ def test_values_that_hold_themselves_and_too_many_are_refused() -> None:
         (HEIGHTS[:2, :2], "it is only 1 by 1 m; give a larger cell, in metres"),
         (HEIGHTS.astype(complex), "it holds complex128 values; heights are floats or integers"),
         (HEIGHTS.astype(object), "it holds object values; heights are floats or integers"),
-        (HEIGHTS.astype(np.uint8), "8 bits hold only 256 heights, which would make terraces; export 16-bit grey"),
+        (HEIGHTS.astype(np.uint8), "8 bits hold only 256 heights, which would make terraces; hand in metres as"),
         (1e6 * np.ones((9, 9)), "its heights go from 1e+06 to 1e+06 m; scale them, or mark its voids"),
         (np.where(HEIGHTS[3, 4] == HEIGHTS, np.inf, HEIGHTS), "1 height is no number, the first at row 3, column 4, "),
         (np.full((9, 9), -np.inf), "81 heights are no numbers, the first at row 0, column 0, counted from 0"),
