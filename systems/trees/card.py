@@ -13,7 +13,7 @@ from .lies import Lies
 from .model import Model
 from .outline import NOWHERE
 from .shells import SHELLS
-from .standing import COLUMN, HUNG, LEAFY, SHOWN, TOLD
+from .standing import COLUMN, HUNG, HUNG_LEAVES, LEAFY, SHOWN, TOLD
 from .twig import RANKS, ROW, TWIG
 from .wood import Parts, parts
 
@@ -96,7 +96,7 @@ class ModelOnCard:
         self.streams[LEAVES] = Stream(ctx, LEAFY)
         self.told = {id(each): Stream(ctx, TOLD, rows=ROOM) for each in self.streams.values()}
         """What is made out of the trees of each stream once a tree, by the stream's id."""
-        self.hung = {name: Stream(ctx, HUNG) for name in (*CARDS, LEAVES)}
+        self.hung = {**{name: Stream(ctx, HUNG) for name in CARDS}, LEAVES: Stream(ctx, HUNG_LEAVES)}
         """What is made out of each twig of their trees once a twig."""
         self.most = dict.fromkeys(self.streams, 0)
         """Twigs that any tree of a stream draws."""

@@ -8,7 +8,6 @@
 in vec4 hung_at;      // as hang.vert has it
 in uvec4 hung_axes;
 in uvec4 hung_light;
-in uvec2 hung_haze;
 
 uniform vec2 corners[CARD_CORNERS];  // of its outline: across from -1 to 1, and up from 0 to 1, but for what lies beyond the card
 uniform vec4 card;                   // as twig.glsl has it
@@ -21,7 +20,7 @@ flat out vec3 brightest;
 
 void main() {
     on = corners[gl_VertexID];
-    HungCard hung = hung_card(hung_axes, hung_light, hung_haze);
+    HungCard hung = hung_card(hung_axes, hung_light);
     picture = hung.picture;
     relief = hung.relief;
     darkest = hung.darkest;

@@ -7,7 +7,9 @@
 out vec4 hung_at;        // its foot [m]; how long it is, 0 where it is left out [m]
 flat out uvec4 hung_axes;
 flat out uvec4 hung_light;
+#ifdef LEAVES
 flat out uvec2 hung_haze;
+#endif
 
 uniform bool whole;  // whether all its twigs are drawn: they are told from near to far then, so that they hide one another
 
@@ -46,7 +48,7 @@ void tell_card(vec3 along, vec3 aside, vec3 facing, vec4 chance, float picture, 
     light.sky = mix(below, light.sky, 0.5 + 0.5 * seen.up);
     vec3 towards = sun * own * (dot(facing, ray) > 0.0 ? -seen.turns : seen.turns);
     vec4 relief = seen.darker * vec4(towards, 1.0 - dot(towards, seen.faces));
-    pack(HungCard(along, aside, relief, shows(0.0, light), shows(CARD_TONES.x + CARD_TONES.y * chance.z, light), picture), hung_axes, hung_light, hung_haze);
+    pack(HungCard(along, aside, relief, shows(0.0, light), shows(CARD_TONES.x + CARD_TONES.y * chance.z, light), picture), hung_axes, hung_light);
 }
 #endif
 
@@ -62,7 +64,9 @@ void main() {
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
     hung_at = vec4(root, 0.0);
     hung_axes = hung_light = uvec4(0u);
+#ifdef LEAVES
     hung_haze = uvec2(0u);
+#endif
     if (size <= 0.0 || (chance.w < leaf_by_leaf(one.foot)) != LEAF_BY_LEAF)
         return;
     if (!LEAF_BY_LEAF)

@@ -2,7 +2,9 @@
 const float IN_HALF = 65535.0;  // the greatest number of 16 bits
 const float LONGEST = 2.0;  // how long an axis is at most, of the twig
 const float BRIGHTEST = 64.0;  // radiance that is told at most; its root is told, as dark ones are to differ in less
-const float MOST_PICTURES = 16.0;
+const float IN_REST = 16383.0;  // the greatest number of 14 bits, which are left beside the number of a picture
+const int PICTURE_BITS = 2;
+const uint PICTURE_MASK = 3u;
 const uint LOW = 65535u;
 const int HIGH = 16;
 
@@ -41,21 +43,22 @@ struct HungCard {
     float picture;
 };
 
-void pack(HungCard told, out uvec4 axes, out uvec4 colors, out uvec2 others) {
+void pack(HungCard told, out uvec4 axes, out uvec4 colors) {
     vec3 along = packed_axis(told.along), aside = packed_axis(told.aside);
     vec3 dark = packed_light(told.darkest), bright = packed_light(told.brightest);
     vec4 relief = clamp(vec4(packed_axis(told.relief.xyz), packed_axis(told.relief.www).x), 0.0, 1.0);
     axes = uvec4(two(along.xy), two(vec2(along.z, aside.x)), two(aside.yz), two(relief.xy));
-    colors = uvec4(two(relief.zw), two(dark.xy), two(vec2(dark.z, bright.x)), two(bright.yz));
-    others = uvec2(two(vec2(told.picture / MOST_PICTURES, 0.0)), 0u);
+    uint both = uint(relief.w * IN_REST + 0.5) << PICTURE_BITS | uint(told.picture);
+    colors = uvec4(two(vec2(relief.z, 0.0)) | both << HIGH, two(dark.xy), two(vec2(dark.z, bright.x)), two(bright.yz));
 }
 
-HungCard hung_card(uvec4 axes, uvec4 colors, uvec2 others) {
-    vec2 second = two_of(axes.y), seventh = two_of(colors.z), fifth = two_of(colors.x);
+HungCard hung_card(uvec4 axes, uvec4 colors) {
+    uint both = colors.x >> HIGH;
+    vec2 second = two_of(axes.y), seventh = two_of(colors.z), fifth = vec2(two_of(colors.x).x, float(both >> PICTURE_BITS) / IN_REST);
     vec3 along = axis_of(vec3(two_of(axes.x), second.x)), aside = axis_of(vec3(second.y, two_of(axes.z)));
     vec4 relief = vec4(axis_of(vec3(two_of(axes.w), fifth.x)), axis_of(fifth.yyy).x);
     vec3 dark = light_of(vec3(two_of(colors.y), seventh.x)), bright = light_of(vec3(seventh.y, two_of(colors.w)));
-    return HungCard(along, aside, relief, dark, bright, floor(two_of(others.x).x * MOST_PICTURES + 0.5));
+    return HungCard(along, aside, relief, dark, bright, float(both & PICTURE_MASK));
 }
 
 // What is the same all over a twig whose leaves are drawn each by itself.

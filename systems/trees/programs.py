@@ -12,7 +12,7 @@ from ..frame.block import FrameBlock, joined
 from .card import CAST, FAR, IN_ROWS, LEAVES, NEAR, PICTURED, WOOD, ModelOnCard
 from .grow import MOST_TWIGS
 from .habit import HABITS
-from .standing import HUNG
+from .standing import HUNG, HUNG_LEAVES
 
 SORTS: Mapping[str, tuple[str, str, Mapping[str, str | int]]] = {
     NEAR: ("card", "card", {}),
@@ -32,12 +32,10 @@ opaque; the others, blended; or all of them, opaque in as many samples of a pixe
 STAND, HANG, HANG_LEAVES = "stand", "hang", "hang leaves"
 """What is made out: once a tree, once a twig on its card, and once a twig leaf by leaf."""
 
-_HUNG = HUNG.names or ()
-
 MADE: Mapping[str, tuple[str, tuple[str, ...], Mapping[str, str | int]]] = {
     STAND: ("stand", ("moved", "veil", "among", "sent_up"), {}),
-    HANG: ("hang", _HUNG, {"STANDS": 1}),
-    HANG_LEAVES: ("hang", _HUNG, {"STANDS": 1, "LEAVES": 1}),
+    HANG: ("hang", HUNG.names or (), {"STANDS": 1}),
+    HANG_LEAVES: ("hang", HUNG_LEAVES.names or (), {"STANDS": 1, "LEAVES": 1}),
 }
 """By that: the shader, what it writes, and what it is told."""
 

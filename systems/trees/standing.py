@@ -51,8 +51,11 @@ fast its trunk swings [Hz]: what `stand.vert` asks of it."""
 TOLD = np.dtype([("blown", "4f4"), ("misty", "4f4"), ("stands_in", "4f4"), ("lawn_sends", "3f4")])
 """What they make out of it once a tree: `stand.vert` writes it."""
 
-HUNG = np.dtype([("hung_at", "4f4"), ("hung_axes", "4u4"), ("hung_light", "4u4"), ("hung_haze", "2u4")])
+HUNG = np.dtype([("hung_at", "4f4"), ("hung_axes", "4u4"), ("hung_light", "4u4")])
 """And once a twig on its card: `hang.vert` writes it."""
+
+HUNG_LEAVES = np.dtype([*HUNG.descr, ("hung_haze", "2u4")])
+"""And once a twig leaf by leaf."""
 
 WHOLE, FEWER_BY = 620.0, 1.4
 """Height from which on all twigs of a tree are drawn [pixels], and the power of lower ones' height by which fewer are.
