@@ -1,4 +1,4 @@
-"""Each term of light and shadow alone, on blades, strips and carpet, against every blade (F5, F10, N12).
+"""Each term of light and shadow alone, on blades, strips and carpet, against every blade (F5, F6, F10, N12).
 
 A term is what changes between two scenes. The change is taken over squares of the picture, of the brightness before;
 what a representation misses of it is the mean difference from the reference's change, of the mean of that. The
@@ -36,6 +36,7 @@ quality:
   strip_rings: [{{ to: 5, strips: 4, texel: 0.015 }}]
   carpet_to: 16
   carpet: 64
+wind: [{wind}]
 """
 CAMERA = Camera((0.0, 8.0, 8.0), 0.0, -0.8, np.radians(30.0))
 SIZE, SQUARE = (96, 64), 16
@@ -59,6 +60,7 @@ class Seen:
     turf: str = ""
     ground: str = "flat"
     shade: bool = False
+    wind: str = ""
 
 
 @dataclass(frozen=True)
@@ -72,6 +74,9 @@ class Term:
 
 
 BLACK, BLUE = '"#000000"', '"#6080ff"'
+AWAY = "{ kind: breeze, direction: 0, strength: 0.8, gustiness: 0, swing: 0 }"
+"""A wind that bends grass evenly, away from the eye."""
+
 NIGHT = f"zenith: {BLACK}, horizon: {BLACK}"
 """A sky that gives no light, so that the sun's alone is seen."""
 
@@ -86,6 +91,7 @@ TERMS = {
     "haze": Term(Seen(), Seen(haze=30.0), 0.9),
     "gloss": Term(Seen(BEHIND, 20.0, turf="gloss: 0"), Seen(BEHIND, 20.0, turf="gloss: 1"), 0.12, missed=0.25),
     "transmission": Term(Seen(BEFORE, 25.0, turf="translucency: 0"), Seen(BEFORE, 25.0, turf="translucency: 1.5"), 0.4),
+    "bent grass": Term(Seen(), Seen(wind=AWAY), 0.2, missed=0.3),
 }
 
 
