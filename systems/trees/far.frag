@@ -32,6 +32,7 @@ flat in vec3 old_bark;
 flat in vec2 sides;
 flat in vec2 waves;
 flat in vec3 gives;
+flat in float grasses;
 #endif
 flat in vec4 told;
 
@@ -137,7 +138,7 @@ void main() {
     Light light = Light((sunlit.rgb + wooden.rgb * wood) * seen, sky, hazy, 0.0, 0.0, vec2(0.0));
     float aged = aged_at(wooden.a * texel.b / max(texel.g, LEAST_COVER));
     float tone = texel.r * whole, worn = mix(1.0, 2.0 * tone, wood / (1.0 + PLAINER * told.w));  // of bark too: 0.5 is the mean
-    vec3 pigment = pigment_of(tone, wood, worn * mix(young_bark, old_bark, aged));
+    vec3 pigment = pigment_of(tone, wood, soiled_at(on.z * grasses) * worn * mix(young_bark, old_bark, aged));
     pixel = drawn(shade(Surface(pigment, 1.0, AMONG_LEAVES), light), cover);
 }
 #endif

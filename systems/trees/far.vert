@@ -36,6 +36,7 @@ flat out vec3 old_bark; // its pigment, in the mean
 flat out vec2 sides;   // of its pictures, across and up [texels]
 flat out vec2 waves;   // how its limbs swing just now, along and across its picture [rad]
 flat out vec3 gives;   // how far clumps of leaves have given way to those of the second, both ways, and by how much they do so apart
+flat out float grasses; // how many times as high as the grass about its foot it is
 #endif
 
 out vec3 on;           // where on its picture, each way from 0 to 1, or across a row, with CAST of half its height; and how high over
@@ -130,6 +131,7 @@ void tell_pixels() {
     waves = AROUND * (SHIMMER_HERTZ * moment + told.x) + vec2(0.0, 1.0);
     sides = lines * vec2(1.0 / slim, 1.0);
     old_bark = old_bark_mean();
+    grasses = tall * scale / stands_in.x;
     on.xy = 0.5 + 0.5 * vec2(columns > 1.0 ? 1.0 : slim, 1.0) * on.xy;
 }
 

@@ -2,6 +2,13 @@
 #include "systems/trees/told.py"
 
 const float FURROWED_MEAN = 0.925, BANDED_MEAN = 0.88;  // how bright bark is with what it has on it, of its ground, in the mean
+const vec2 SOILED = vec2(0.3, 2.8);  // heights between which soil and moss on bark end, of the grass's, and with noise of it
+const float SOIL_TONE = 0.62;  // how bright bark is below them, of what it is
+
+// How much of bark is left of soil and moss where it stands so high, of the grass there.
+float soiled_at(float height) {
+    return mix(SOIL_TONE, 1.0, smoothstep(SOILED.x, SOILED.y, height));
+}
 
 float bark_mean() {
     return rough < 0.0 ? BANDED_MEAN : mix(1.0, FURROWED_MEAN, rough);

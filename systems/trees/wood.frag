@@ -41,19 +41,12 @@ const vec2 FOOT = vec2(0.1, 1.2);  // between which ways along a stem its foot e
 const vec2 SPOTS = vec2(9.0, 5.0);  // how many of these there are on a metre around and along it
 const vec2 SPOT = vec2(0.28, 0.5);  // noise between which a spot begins
 const float BAND_TONE = 0.42;  // how bright bands and spots are, of the bark
-const vec2 SOILED = vec2(0.3, 2.8);  // heights between which soil and moss on bark end, of the grass's, and with noise of it
-const float SOIL_TONE = 0.62;  // how bright bark is below them, of what it is
 const vec2 FINEST_BARK = vec2(1.5, 18.0);  // furrows are seen where a pixel is under 1/36 m of bark, and none of them over 1/12;
 const float BROADER = 4.0;  // bands, which are larger, up to so many times as much
 const float SHARPER = 1.7;  // how much more contrast pictures of trees get, which are read between their texels
 const float SOFTER = 1.2;  // how much farther apart the noise is between which a band begins, of how broad a pixel of bark is [1/m]
 
 const float SHARPER_BY = -1.5, BANDS_SHARPER = -2.5;  // level of noise: furrows and bands are where it is highest, and a mean would have none
-
-// How much of bark is left of soil and moss where it stands so high.
-float soiled_at(float height) {
-    return mix(SOIL_TONE, 1.0, smoothstep(SOILED.x, SOILED.y, height));
-}
 
 #ifdef SOFT
 // How bright the bark is there, of its mean.

@@ -168,3 +168,19 @@ def test_f3_a_birch_far_off_has_its_bands(stage: Stage, ctx: moderngl.Context) -
         trunk = stage.shot(made, looking(0.0, 1.7, 12.0, pitch=2.0, view=14.0))[63:76, 47:49].mean(axis=(1, 2))
     assert 125.0 < trunk.mean() < 155.0
     assert 12.0 < trunk.std() < 35.0
+
+
+def test_a_trunk_has_a_dark_foot_far_off_as_it_has_near_by(
+    ctx: moderngl.Context, stage: Stage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    grass = SCENE.replace("[0.05, 0.08]", "[0.5, 0.5]").replace(", place: none", "")
+    scene = grass.replace("habit: hawthorn, height: [3.8, 3.8]", "habit: pine, height: [15, 15], foliage: 0.01")
+    aim, dark = looking(0.0, 1.2, 50.0, view=3.5), list[float]()
+    for gone in (1.0, 1e5):  # as wood, and as a picture
+        monkeypatch.setattr(standing, "GONE", gone)
+        monkeypatch.setattr(standing, "BEGINS", 2.0 * gone)
+        with private_world(), little_prairie(scene=scene, ctx=ctx) as made:
+            trunk = stage.shot(made, aim)[:, 46:50].mean(axis=(1, 2))
+        dark.append(float(trunk[48:76].mean() / trunk[10:20].mean()))  # up to 1.2 m over the ground, and at 2.3 m
+    assert max(dark) < 0.92
+    assert dark[1] == pytest.approx(dark[0], abs=0.08)
