@@ -12,10 +12,10 @@ from .billows import billows_texture
 from .clouds import FADE
 from .heaps import heaps_texture
 
-FINEST, PARTS = 0.002, (1, 8)
-"""How wide a pixel of clouds is at least, as an angle, and how many of the sky's are across it: a line of sight through
-clouds costs ten times as much as all else of the sky. They have nothing finer than that: their billows are 18 m wide,
-and their edges 3 m soft."""
+MOST_ROWS = 364
+"""Rows of pixels that clouds are drawn with at most: a line of sight through clouds costs ten times as much as all else
+of the sky. In a view of 40 degrees a pixel is 2 mrad high then, 1 m of the nearest clouds. They have nothing finer: their
+billows are 18 m wide, and their edges 3 m soft. It does not follow the view, or a lens would need new pictures."""
 
 MOST_SIZES = 4
 """Sizes whose pictures are kept: a viewer's last and present one, and another viewer's."""
@@ -100,9 +100,8 @@ class Cloudscape:
     @property
     def _size(self) -> Size:
         """The size of the clouds' picture [pixels], by the frame's record."""
-        row = self._record[0]
-        wide, high = (2.0 * row["half_screen"]).tolist()
-        part = part_of(0.5 * high * float(np.linalg.norm(row["clip"][1:12:4]))) + self.coarse
+        wide, high = (2.0 * self._record[0]["half_screen"]).tolist()
+        part = part_of(high) + self.coarse
         return max(-int(-wide // part), 1), max(-int(-high // part), 1)
 
     def _picture(self, size: Size) -> tuple[moderngl.Framebuffer, moderngl.Texture]:
@@ -127,9 +126,9 @@ class Cloudscape:
             release_all(*each)
 
 
-def part_of(pixels: float, /) -> int:
-    """Return how many of a picture's pixels are across one of clouds, where so many are as wide as far off."""
-    return int(np.clip(np.ceil(FINEST * pixels), *PARTS))
+def part_of(height: float, /) -> int:
+    """Return how many pixels of a picture of this height are across one of its clouds."""
+    return max(-int(-height // MOST_ROWS), 1)
 
 
 def rows_of_sky(row: NDArray[np.void] | np.void, height: int, /) -> tuple[int, int]:
