@@ -15,7 +15,7 @@ from .heaps import heaps_texture
 MOST_ROWS = 364
 """Rows of pixels that clouds are drawn with at most: a line of sight through clouds costs ten times as much as all else
 of the sky. In a view of 40 degrees a pixel is 2 mrad high then, 1 m of the nearest clouds. They have nothing finer:
-their billows are 18 m wide, and their edges 3 m soft. It does not follow the view, or a lens would need new pictures."""
+their billows are 18 m wide, their edges 3 m soft. It does not follow the view, as lenses would need new pictures."""
 
 MOST_SIZES = 4
 """Sizes whose pictures are kept: a viewer's last and present one, and another viewer's."""
