@@ -39,7 +39,8 @@ BILLOWED = 0.36
 Half of it is more, and half of it less than the map says, so that clouds hide as much of the sky as without."""
 
 COLUMN = 45.0
-"""Optical depth of a cloud is this times how much denser it is than at its edge, where it is densest on the way."""
+"""Optical depth of a cloud, straight up, is this times how much denser its map is than at its edge: for its shadow, and
+for the mean of the sky."""
 
 SOFT = 1.0 / COLUMN
 """How much denser than at its edge a cloud is until it hides as much as its edges let through."""

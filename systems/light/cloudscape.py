@@ -1,4 +1,4 @@
-"""Clouds as a picture of their own, with fewer pixels across and up: from it, the sky is drawn behind all."""
+"""Clouds as a picture of their own, with no more pixels than show: from it, the sky is drawn behind all."""
 
 from collections.abc import Mapping
 
