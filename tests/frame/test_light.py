@@ -223,8 +223,8 @@ def test_f5_clouds_have_soft_edges_and_dark_undersides(room: Stage, load: Load) 
     assert edges.mean() > 0.15
 
 
-@pytest.mark.parametrize("cover", [0.2, 0.5])
-def test_f5_clouds_hide_as_much_of_the_sky_as_a_scene_says(room: Stage, load: Load, cover: float) -> None:
+@pytest.mark.parametrize(("cover", "off"), [(0.2, 0.05), (0.5, 0.08)])
+def test_f5_clouds_hide_as_much_of_the_sky_as_a_scene_says(room: Stage, load: Load, cover: float, off: float) -> None:
     """Over all of their square: half of the blue is gone where they hide half of what is behind."""
     skies = [load(f"{SCENE}light: {{ elevation: 60, clouds: {part} }}") for part in (cover, 0.0)]
     hidden = []
@@ -232,7 +232,7 @@ def test_f5_clouds_hide_as_much_of_the_sky_as_a_scene_says(room: Stage, load: Lo
         up = Camera((float(x), 2.0, float(z)), 0.0, 1.5, np.radians(60.0))
         cloudy, clear = (np.ptp(room.shot(sky, up), axis=2) for sky in skies)
         hidden.append(np.mean(cloudy < 0.5 * clear))
-    assert np.mean(hidden) == pytest.approx(cover, abs=0.08)
+    assert np.mean(hidden) == pytest.approx(cover, abs=off)
 
 
 def test_f5_heaps_far_off_are_no_stacks_of_slices(room: Stage, load: Load) -> None:
