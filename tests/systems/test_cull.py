@@ -77,21 +77,24 @@ def test_t2_nothing_that_shows_in_the_picture_is_culled(
 def test_t2_no_blade_is_left_out_any_part_of_which_shows(camera: Camera, bank: float, seed: int) -> None:
     rng, reach = np.random.default_rng(seed), 0.8
     pool, seen = BladePool.allocate(2, np.zeros(30, np.intp)), seen_by(camera, bank=bank)
-    pool.x[:], pool.z[:] = rng.uniform(-9.0, 9.0, (2, 4, 30))
+    pool.stamp[:] = rng.integers(-4, 4, (4, 2))
+    pool.x[:], pool.z[:] = (pool.stamp.T[..., None] + rng.random((2, 4, 30))) * PATCH
     ground = rng.uniform(-2.0, 2.0, (4, 30))
     pool.ground[:] = np.stack([ground.min(axis=1), ground.max(axis=1)], 1)
     off = rng.normal(size=(20, 4, 30, 3))
     off *= reach * rng.uniform(0.9, 1.0, (20, 4, 30, 1)) / np.linalg.norm(off, axis=-1, keepdims=True)
     shows = in_picture(seen, np.stack([pool.x, ground, pool.z], -1) + off).any(axis=0)
-    assert may_be_seen(pool, np.arange(4), picture_sides(seen), reach=reach)[shows].all()
+    assert may_be_seen(pool, np.arange(4), picture_sides(seen), reach=reach, patch=PATCH)[shows].all()
 
 
 def test_t2_blades_beside_the_picture_and_behind_the_eye_are_left_out() -> None:
-    pool = BladePool.allocate(1, np.zeros(4, np.intp))
-    pool.x[0], pool.z[0] = [0.0, -9.0, 9.0, 0.0], [-10.0, -10.0, -10.0, 10.0]
+    pool, patch = BladePool.allocate(3, np.zeros(4, np.intp)), 20.0
+    pool.stamp[:3] = (-1, -1), (9, -9), (-1, 5)
+    pool.x[0], pool.z[0] = [-0.1, -9.0, -19.0, -0.1], [-10.0, -10.0, -10.0, -0.1]
+    pool.x[1], pool.z[1], pool.x[2], pool.z[2] = 190.0, -170.0, -10.0, 110.0
     seen = seen_by(Camera((0.0, 1.7, 0.0), 0.0, 0.0, radians(40)))
-    left = may_be_seen(pool, np.zeros(1, np.int64), picture_sides(seen), reach=0.8)
-    assert left.tolist() == [[True, False, False, False]]
+    left = may_be_seen(pool, np.arange(3), picture_sides(seen), reach=0.8, patch=patch)
+    assert left.tolist() == [[True, False, False, False], [False] * 4, [False] * 4]
 
 
 @given(cameras, st.floats(0.5, 2.0))

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Floats
+from ....components.arrays import Doubles, Floats, Rows
 from .pool import BladePool
 from .shown import Standing
 
@@ -30,19 +30,24 @@ def gather_blades(
     return numbers.take(np.argsort(near, kind="stable"))
 
 
-def may_be_seen(
-    pool: BladePool, slots: NDArray[np.int64], sides: NDArray[np.float64], /, *, reach: float
-) -> NDArray[np.bool_]:
+def may_be_seen(pool: BladePool, slots: Rows, sides: Doubles, /, *, reach: float, patch: float) -> NDArray[np.bool_]:
     """Return which blades of some slots may be seen in the picture, shape (m, n).
 
     `sides` are the planes of the picture as `picture_sides` gives them. A blade may stand as low and as high as any of
-    its slot, and no part of it comes farther than `reach` [m] from its root.
+    its slot, and no part of it comes farther than `reach` [m] from its root, which is in its cell, `patch` [m] a side.
+    Most cells are in the picture or out of it as a whole: only where a plane parts one, its blades are asked.
     """
-    x, z = pool.x.take(slots, axis=0), pool.z.take(slots, axis=0)
-    ground, seen = pool.ground.take(slots, axis=0), np.ones(x.shape, np.bool_)
-    for across, up, along, far in sides:
-        most = (ground * up).max(axis=1) + far + reach
-        seen &= x * np.float32(across) + z * np.float32(along) >= -most.astype(np.float32)[:, None]
+    stamp = pool.stamp.take(slots, axis=0)
+    square = np.stack([stamp, stamp + 1], axis=-1) * patch
+    most = (pool.ground.take(slots, axis=0)[:, None] * sides[:, 1, None]).max(axis=-1) + sides[:, 3] + reach
+    across = square[:, None] * sides[:, ::2, None]
+    enters = (across.max(axis=-1).sum(axis=-1) + most >= 0.0).all(axis=1)
+    parted = (across.min(axis=-1).sum(axis=-1) + most < 0.0) & enters[:, None]
+    seen = np.repeat(enters[:, None], pool.x.shape[1], axis=1)
+    for row, (x, _, z, _) in enumerate(sides.astype(np.float32)):
+        asked = parted[:, row].nonzero()[0]
+        own, far = slots.take(asked), -most[asked, row].astype(np.float32)
+        seen[asked] &= pool.x.take(own, axis=0) * x + pool.z.take(own, axis=0) * z >= far[:, None]
     return seen
 
 

@@ -102,7 +102,7 @@ class BladesPainter(RepresentationPainter):
         """What is brought into GL beside them."""
         self._came: tuple[float, ...] = ()
         self._strips, self._units, self._received, self._models = strips, units, canvas.received, len(stock.rank)
-        self._fade, self._near = canvas.transitions.fade, PARTED * quality.patch
+        self._fade, self._patch, self._near = canvas.transitions.fade, quality.patch, PARTED * quality.patch
         laid = {**self.store.defines, "STORED": 1, "RINGS": room_for(len(quality.strip_rings))}
         hiding = {"HIDING": 1} if quality.blades >= HIDING else {}
         self.hearing = Hearing(canvas, "systems/show/blades/receivers.frag", laid, self._tell)
@@ -236,7 +236,9 @@ class BladesPainter(RepresentationPainter):
         home = at_home(outlook, moving, away)
         groups = [together(rings) for rings in self._grouped(shown.rings)]
         of_form = partial(self._of_form, outlook)
-        stand = [may_be_seen(pool, each.slots, outlook.viewer.sides, reach=self._stock.reach) for each in groups]
+        slots, ends = np.concatenate([each.slots for each in groups]), np.cumsum([len(each.slots) for each in groups])
+        seen = may_be_seen(pool, slots, outlook.viewer.sides, reach=self._stock.reach, patch=self._patch)
+        stand = np.split(seen, ends[:-1])
         if self._came:
             stand = [seen & of_form(each) for seen, each in zip(stand, groups, strict=True)]
         if home.any():
