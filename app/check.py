@@ -1,6 +1,14 @@
-"""Checking scene files, their maps included."""
+"""Scene files: checked here, their maps included, and by the schema in an editor that knows it."""
 
+import json
+import sys
+from warnings import catch_warnings
+
+from .. import __version__
+from ..components.wind import WindPrimitive
+from ..engine.plugins import PluginError, WindKinds, wind_kinds
 from ..engine.scene import SceneError, load_maps, printable, read_scene
+from ..engine.scene.schema import Schema, scene_schema
 
 
 def check(scenes: list[str]) -> int:
@@ -18,3 +26,36 @@ def check(scenes: list[str]) -> int:
         else:
             print(f"{printable(scene)}: ok")
     return status
+
+
+def schema() -> None:
+    """Print the schema of scene files, installed plugins included; a plugin that cannot be described is told of."""
+    made, told = described(wind_kinds())
+    print(json.dumps(made, indent=2))
+    for line in told:
+        print(line, file=sys.stderr)
+
+
+def described(kinds: WindKinds, /) -> tuple[Schema, list[str]]:
+    """Return the schema of scene files, and a sentence for each kind that it says nothing or little of."""
+    winds: dict[str, type[WindPrimitive] | None] = {}
+    told = []
+    for kind in kinds.names():
+        try:
+            winds[kind] = _describable(kinds.find(kind))
+        except PluginError as error:
+            told.append(f"{error}; it is left out")
+        except Exception as error:  # noqa: BLE001 - a plugin's own types may raise anything
+            winds[kind] = None
+            told.append(f"kind '{kind}' has no schema, any keys are taken as right: {type(error).__name__}: {error}")
+    made = scene_schema(winds)
+    made["$comment"] = (
+        f"Made by tallgrass {__version__} with the winds {', '.join(winds)}: make it again after a change."
+    )
+    return made, told
+
+
+def _describable(primitive: type[WindPrimitive]) -> type[WindPrimitive]:
+    with catch_warnings(action="ignore"):
+        primitive.model_json_schema()
+    return primitive

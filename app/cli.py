@@ -204,7 +204,7 @@ def schema() -> None:
 
     A language server for YAML finds it by a comment anywhere in a scene: # yaml-language-server: $schema=FILE
     """
-    from .schema import schema
+    from .check import schema
 
     schema()
 

@@ -1,6 +1,7 @@
 """What there is on a site at one time, and what a prairie tells of it to those who ask."""
 
 import logging
+from collections.abc import Callable
 from functools import partial
 from typing import NoReturn
 
@@ -14,7 +15,7 @@ from ..engine.declared.light import Light
 from ..engine.declared.scene import Scene
 from ..engine.handed import as_rays, must_be_step, must_be_time, must_be_viewer
 from ..engine.terrain.pick import pick
-from ..engine.terrain.sample import height_at, normal_at
+from ..engine.terrain.sample import density_at, height_at, natural_at, normal_at
 from ..engine.underflow import Underflowing
 from ..engine.world import World
 from .around.clearing import Clearings
@@ -22,18 +23,23 @@ from .around.outlook import Outlooks
 from .entities import PatchEntities
 from .features import begun, one
 from .frame.feature import Start
+from .grow.record import Postures
 from .light.feature import Lighting
 from .mow.feature import Mowing
+from .mow.mown import Mown
 from .pressers import Pressers
 from .site import Site
+from .space.ground import PRESENT
 from .space.window import as_places, cell_of
-from .standing import grass_at
 from .trees.feature import Trees
 from .wind.blow import ReceiverArrays
 from .wind.quarantine import Quarantine
 from .winds import Winds
 
 log = logging.getLogger("tallgrass")
+
+Felt = Callable[[Floats, int], Floats]
+"""Gives the messages (n, 2) that grass of a kind, by its number, feels now at ground positions (n, 2) [m]."""
 
 
 class Answering(Underflowing):
@@ -203,3 +209,34 @@ def _entities_on(world: World, clearings: Clearings, viewers: Outlooks, site: Si
 def _felt_of(winds: Winds, pressers: Pressers, receivers: ReceiverArrays, /, *, time: float) -> Floats:
     """Return what receivers feel at `time` [s] of the winds and of those who walk there, shape (n, 2)."""
     return pressers.over(winds.heard(receivers, time=time), receivers)
+
+
+def grass_at(site: Site, clearings: Clearings, mown: Mown, felt: Felt, place: Floats, /) -> GrassAt:
+    """Return what grows at ground positions (n, 2) [m].
+
+    It stands as high as nine of ten plants of its kind do at most, or as it is cut, and lower as its blades are bent.
+    Where kinds grow together the tallest counts.
+    """
+    density = density_at(site.ground.density, place)
+    grows = density >= PRESENT
+    kind = np.where(grows.any(axis=0), density.argmax(axis=0), -1)
+    taken = ~clearings.spare(cell_of(place, patch=site.ground.patch))
+    left, height = mown.at(place), np.zeros(len(place), np.float32)
+    for number, growth in enumerate(site.growths):
+        here = np.flatnonzero(grows[number] & ~taken)
+        if len(here):
+            up = upright(growth.postures, np.hypot(*felt(place[here], number).T))
+            height[here] = np.maximum(height[here], np.minimum(site.canopy[number], left[here]) * up)
+    bare = np.flatnonzero(~grows.any(axis=0))
+    taken[bare] |= (natural_at(site.ground.density, place[bare]) >= PRESENT).any(axis=0)
+    names = [*site.scene.grass, ""]
+    return GrassAt(kind, tuple(names[number] for number in kind), np.ascontiguousarray(density.T), height, taken)
+
+
+def upright(postures: Postures, message: Floats, /) -> Floats:
+    """Return how high blades stand that feel messages of these lengths (n,), of their height in calm air, (n,)."""
+    highest = postures.shape[0, :, :, 1].max(axis=1)
+    calm = np.interp(0.0, postures.index, highest)
+    return np.asarray(
+        np.interp(postures.bent_by(message.astype(np.float64)), postures.index, highest / calm), np.float32
+    )

@@ -19,8 +19,7 @@ from .press.footprint import discs_of
 from .press.trail import BEGUN, FIRST, LAST, LEFT, NUMBERS, REACH, Stretches
 from .press.walk import Stand
 from .pressers import Treading
-from .saved import Arrays, Saved, SavedTreading, SavedWalk, from_planes, refuse
-from .thing import component_of, fields_of
+from .saved import Arrays, Saved, SavedTreading, SavedWalk, component_of, fields_of, from_planes, refuse
 
 WALKS = ("scenes", "games")
 """How arrays of a state are called: of those that the scene declares, and of a game's own."""

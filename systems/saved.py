@@ -1,10 +1,12 @@
 """A prairie's state as bytes: what a game has done to it, to be kept and brought back."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from hashlib import blake2b
 from io import BytesIO
-from typing import Annotated, Any, NoReturn
+from numbers import Real
+from types import NoneType
+from typing import Annotated, Any, Literal, NoReturn
 from zlib import compress, decompressobj
 
 import numpy as np
@@ -12,9 +14,12 @@ from numpy.typing import NDArray
 from pydantic import Field, ValidationError
 
 from ..components.declaration import Declaration, Number
+from ..components.lamp import Lamp
+from ..components.presser import Presser
+from ..components.shade import Shade
+from ..components.tree import Tree
 from ..engine.declared.light import Light
 from .light.shining import Way
-from .thing import Kind
 
 FORMAT, OLDEST = 4, 3
 """Version of what a state holds, and the oldest that is read.
@@ -33,6 +38,12 @@ Arrays = Mapping[str, NDArray[Any]]
 
 Standing = Annotated[list[Number], Field(min_length=3, max_length=4)]
 """A `Pose`: x, z [m], yaw [rad], and a height [m] where it has one."""
+
+Kind = Literal["presser", "lamp", "shade", "tree"]
+Thing = Presser | Lamp | Shade | Tree
+
+THINGS: Mapping[Kind, type[Thing]] = {"presser": Presser, "lamp": Lamp, "shade": Shade, "tree": Tree}
+"""Components that are saved, by what a state calls them."""
 
 
 class SavedCourse(Declaration):
@@ -263,3 +274,24 @@ def planes(heights: NDArray[np.float32], /) -> NDArray[np.uint8]:
 def from_planes(bytes_: NDArray[np.uint8], shape: tuple[int, ...], /) -> NDArray[np.float32]:
     """Return the numbers that `planes` took apart."""
     return np.ascontiguousarray(bytes_.T).view(np.float32).reshape(shape)
+
+
+def fields_of(thing: Thing, /) -> dict[str, Any]:
+    """Return the fields of a component, as JSON has them."""
+    return {name: _plain(value) for name, value in asdict(thing).items()}
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, bool | str | NoneType):
+        return value
+    return float(value) if isinstance(value, Real) else [_plain(each) for each in value]  # type: ignore[attr-defined]
+
+
+def component_of(kind: Kind, fields: Mapping[str, Any], /) -> Thing:
+    """Return the component of these fields; raises ValueError for what is none."""
+    make: Any = THINGS[kind]
+    try:
+        made: Thing = make(**{name: tuple(each) if isinstance(each, list) else each for name, each in fields.items()})
+    except TypeError as error:
+        raise ValueError(f"what was a {kind} is none: {error}") from error
+    return made

@@ -28,12 +28,16 @@ from .light.shining import Shining
 from .mow.mown import Mown
 from .pressers import Pressers, Treading
 from .saved import (
+    THINGS,
     Arrays,
     Saved,
     SavedCourse,
     SavedThing,
     SavedWind,
     State,
+    Thing,
+    component_of,
+    fields_of,
     packed,
     planes,
     refuse,
@@ -43,7 +47,6 @@ from .saved import (
 from .seasons import Recalled, Seasons
 from .site import Site
 from .space.ground import Ground
-from .thing import THINGS, Thing, component_of, fields_of
 from .trees.feature import Trees
 from .trees.forest import Gone
 from .winds import Winds

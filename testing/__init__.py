@@ -7,13 +7,12 @@ from ..engine.gl.headless import NoContextError
 from ..engine.schedule import Phase
 from ..engine.world import private_world
 from .clock import FixedClock, fixed_clock
-from .context import headless_context
 from .golden import same_picture
 from .heard import Heard, receivers_of
 from .little import LITTLE, little_prairie
 from .looking import looking
 from .site import little_site, look, systems_on, viewer_on
-from .stage import Stage, stage
+from .stage import Stage, headless_context, stage
 from .step import step, watch
 from .twins import twin_problems
 from .winds import check_wind, wind_problems

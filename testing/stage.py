@@ -1,4 +1,4 @@
-"""A framebuffer to draw pictures into, small enough for tests."""
+"""A GL context without a window, and a framebuffer to draw pictures into, small enough for tests."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -8,12 +8,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
+from ..engine.gl.headless import standalone_context
 from ..engine.gl.stream import release_all
 from ..systems.prairie import Prairie
 from .looking import must_be_camera
 
 Picture = NDArray[np.float64]
 Matrix = NDArray[np.float32]
+
+
+@contextmanager
+def headless_context() -> Iterator[moderngl.Context]:
+    """Make a GL context of OpenGL 3.3 or newer without a window, and give it back in the end.
+
+    A small framebuffer is bound in it, because without one there is nothing to draw into. A software rasteriser will
+    do. Raises NoContextError, a RuntimeError of one sentence that says what to install, where there is none. A second
+    context takes the place of the first: make one for a whole run of tests.
+    """
+    ctx = standalone_context()
+    try:
+        ctx.simple_framebuffer((1, 1)).use()
+        yield ctx
+    finally:
+        ctx.release()
 
 
 class Stage:

@@ -17,12 +17,11 @@ from ..studio.progress import counted, course
 from ..studio.studio import Studio
 from ..studio.take import Take
 from ..studio.timing import card_timer, spread, timed
-from .machine import head
+from .machine import head, yardstick_ms
 from .processor import on_processor
 from .rivals import Rivals
 from .still import FRAMES, Still
 from .viewers import side_by_side
-from .yardstick import yardstick_ms
 
 EVERY = 12
 """Frames between two draws of every blade: taken in turn, since such machines change their speed."""

@@ -8,8 +8,8 @@ from ..studio.encode import make_folder
 from ..studio.errors import InputError
 from ..studio.progress import counted
 from ..studio.take import Take
-from .asked import Asked, Measure, Told
 from .machine import tell
+from .sent import Asked, Measure, Told, measured_on
 
 COMMON = ("machine", "size", "frames")
 """What is told once of all scenes in a folder."""
@@ -77,8 +77,6 @@ def _measured(survey: Survey, takes: list[Take], outputs: list[str | None], on: 
                 make_folder(Path(output))
             yield survey.measure(take, output)
         return
-    from .sent import measured_on
-
     yield from measured_on(on, survey.asked or Asked(survey.measure), takes, outputs)
 
 

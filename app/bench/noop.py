@@ -11,9 +11,9 @@ from ..studio.offscreen import standalone_context
 from ..studio.studio import Studio
 from ..studio.take import Take, parse_size
 from ..studio.timing import spread
+from .machine import yardstick_ms
 from .still import FRAMES, Still
 from .walk import paces
-from .yardstick import yardstick_ms
 
 Told = dict[str, object]
 

@@ -23,9 +23,8 @@ from ..studio.encode import Picture, picture_writer
 from ..studio.progress import Course, course
 from ..studio.studio import Studio, about
 from ..studio.take import SAMPLES, Take
-from .color import hue_between, luminance, mean_light
 from .contrast import contrast
-from .flip import MOMENT, evaluator, flip
+from .flip import MOMENT, evaluator, flip, hue_between, luminance, mean_light
 from .machine import head
 from .many import Survey
 from .multisampled import Multisampled

@@ -14,16 +14,15 @@ from ..studio.errors import InputError
 from ..studio.progress import counted, course
 from ..studio.studio import Studio, about
 from ..studio.take import Take
-from .asked import Asked
-from .climb import climb
 from .crew import by_many, cores, ticked
 from .drift import Change, mean_drift, mean_ghosting, taken_together
 from .flicker import MARGIN, TILE
 from .flip import evaluator, flip
 from .machine import head
 from .many import Survey
+from .sent import Asked
 from .steps import TOLD, Record, frames_of, merged, walked
-from .stroll import Leg, legs
+from .stroll import Leg, climb, legs
 from .verdict import Step, Verdict
 
 HARD = Transitions(morph=False, fade=False, growth=False)

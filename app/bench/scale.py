@@ -18,9 +18,9 @@ from ..studio.progress import counted
 from ..studio.studio import Studio
 from ..studio.take import Take, words_of
 from ..studio.walker import MARGIN
-from .asked import Asked
 from .machine import head, resident_mb
 from .many import Survey
+from .sent import Asked
 from .stroll import RATE, SECONDS, legs
 from .walk import paced
 

@@ -1,6 +1,6 @@
 """Benchmarks of many scenes, done by workers on this machine or on others."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +16,22 @@ from ..farm.worker import in_drawing_thread, told_in_lines
 from ..studio.encode import make_folder
 from ..studio.progress import unseen
 from ..studio.take import Take
-from .asked import Asked, Measure
+
+Told = dict[str, Any]
+
+Measure = Callable[[Take, str | None], Told]
+"""Returns what a benchmark tells of a take; where a folder is given, its pictures go there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What workers are asked for each scene."""
+
+    measure: Measure
+    """It is a function of a module, or a part of one: by its name workers find it."""
+
+    timed: bool = False
+    """Whether it tells of time: then no machine does it for two scenes at once."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -17,8 +17,7 @@ from ...systems.trees.draw import TreePart
 from ..studio.encode import Picture
 from ..studio.studio import Studio
 from . import stroll
-from .drift import Change, Sample, changes, sample, sampled_frames
-from .ghost import ends_of_change
+from .drift import Change, Sample, changes, ends_of_change, sample, sampled_frames
 from .stroll import REST, Leg, Moment, moments, raise_gusts
 from .truth import Truth
 from .verdict import Step, Verdict, judge

@@ -1,8 +1,8 @@
-"""The walk that transitions and frame rates are measured on: the same every time, and laid out in any scene."""
+"""The walk and the climb that changes are measured on: the same every time, and laid out in any scene."""
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from ...components.arrays import Doubles
 from ...engine.camera import Camera, Heights, camera_at
 from ...systems.prairie import Prairie
 from ...systems.wind.gust import Gust
-from ..studio.walker import EYE, MARGIN
+from ..studio.walker import EYE, FLY, MARGIN
 
 RATE = 30
 """Frames per second: what pops, pops from one frame to the next, however short a frame is."""
@@ -41,6 +41,12 @@ RISE = 0.5
 
 SEARCHED = 90.0
 """How far from the camera a crest is looked for [m]."""
+
+TOP = 60.0
+"""How high above the ground the climb ends [m]."""
+
+DOWN = math.radians(90.0)
+"""How far below the horizon it looks in the end [rad]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,3 +201,28 @@ def raise_gusts(prairie: Prairie, walk: list[Leg], /) -> None:
             ),
             name=f"gust of the leg {leg.name}",
         )  # fmt: skip
+
+
+def climb(prairie: Prairie, /) -> list[Leg]:
+    """Return the climb over a prairie, at its camera's place: legs on which it rises, and then legs on which it tilts.
+
+    Each begins where the one before ended, and all take as long as those of a walk; it is no faster than a flyer, and
+    turns its head no faster than a walker.
+    """
+    rising = math.ceil((TOP - EYE) / (FLY * SECONDS))
+    tilting = math.ceil((DOWN + PITCH) / (TURN * SECONDS))
+    rise = (TOP - EYE) / (rising * SECONDS)
+    tilt = (DOWN + PITCH) / (tilting * SECONDS)
+    camera = camera_at(prairie.scene.camera, None, prairie.height_at)
+    half = np.asarray(prairie.site.ground.terrain.size) / 2.0
+    x, z = np.clip(camera.position[::2], -half, half).tolist()
+
+    plain = Leg("", 0.0, (x, z), camera.yaw, camera.yaw, pace=0.0)
+    walk = []
+    for number in range(rising):
+        height = EYE + number * rise * SECONDS
+        walk.append(replace(plain, name=f"up-{height:.0f}", height=height, rise=rise))
+    for number in range(tilting):
+        pitch = PITCH - number * tilt * SECONDS
+        walk.append(replace(plain, name=f"tilt-{-math.degrees(pitch):.0f}", height=TOP, pitch=pitch, tilt=tilt))
+    return [replace(leg, start=REST + number * (SECONDS + REST)) for number, leg in enumerate(walk)]

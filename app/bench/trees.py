@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 from ...components.arrays import Mask
 from ...systems.reference import Truth
 from ..studio.encode import Picture
-from .color import hue_between, luminance, mean_light
 from .contrast import luma, relative_contrast, tile_side, tiled
-from .flip import flip_map
+from .flip import flip_map, hue_between, luminance, mean_light
 
 LEAST = 0.3
 """Part of a tile that trees cover at least, so that it is one of theirs."""

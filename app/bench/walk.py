@@ -11,10 +11,9 @@ from ..studio.progress import counted, course
 from ..studio.studio import Studio
 from ..studio.take import Take
 from ..studio.timing import spread, timed
-from .machine import head, resident_mb
+from .machine import head, resident_mb, yardstick_ms
 from .processor import on_processor
 from .stroll import REST, Leg, Moment, legs, moments, raise_gusts
-from .yardstick import yardstick_ms
 
 PARTS = {"drawing": 10.0, "without drawing": 1.0}
 """What there is to do, and how long it takes in terms of one another, about."""

@@ -13,8 +13,7 @@ from pydantic_core import PydanticUndefined
 
 from ...components.colour import LONG
 from ...components.field import Field, declared, inside
-from .values import NOTHING
-from .yaml_text import yaml_text
+from .values import NOTHING, yaml_text
 
 Form = Literal[
     "number", "whole", "switch", "choice", "color", "text", "numbers", "part", "parts", "named", "fixed", "yaml"

@@ -7,7 +7,7 @@ from typing import Any
 from ...engine.scene import SceneError
 from ...engine.scene.compose import read_document
 from .spans import Span, spans
-from .yaml_text import yaml_text
+from .values import yaml_text
 
 Splice = tuple[int, int, str]
 """From which character to which another text is to stand."""

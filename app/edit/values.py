@@ -1,9 +1,19 @@
-"""Values of a scene file as plain mappings and lists, and other values made from them; none is changed in place."""
+"""Values of a scene file as plain mappings and lists, others made from them, and how a file writes them."""
 
+import json
+import re
 from typing import Any, Final
+
+from ...engine.scene.compose import scalar
 
 Way = tuple[str | int, ...]
 """The way from the root to a value, as in `("wind", 0, "position")`."""
+
+DIGITS = 12
+"""Most digits of a number that are written."""
+
+_WORDS = {None: "null", True: "true", False: "false"}
+_PLAIN = re.compile(r"[A-Za-z_][\w./-]*")
 
 
 class _Nothing:
@@ -57,3 +67,22 @@ def _with_item(values: Any, step: int, rest: Way, value: Any) -> Any:
         raise KeyError(step)
     inner = with_value(items[step] if step < len(items) else NOTHING, rest, value) if rest else value
     return [*items[:step], *([] if inner is NOTHING else [inner]), *items[step + 1 :]]
+
+
+def yaml_text(value: Any, /) -> str:
+    """Return a value on one line, as the house writes it: `{ kind: gust, position: [0, 2.5], tip: "#d9c27a" }`."""
+    if isinstance(value, dict):
+        inner = ", ".join(f"{yaml_text(key)}: {yaml_text(each)}" for key, each in value.items())
+        return f"{{ {inner} }}" if inner else "{}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(yaml_text, value))}]"
+    if isinstance(value, str):
+        return value if is_plain(value) else json.dumps(value, ensure_ascii=False)
+    if isinstance(value, float):
+        return format(value, f".{DIGITS}g")
+    return _WORDS[value] if value is None or isinstance(value, bool) else str(value)
+
+
+def is_plain(text: str, /) -> bool:
+    """Return whether a text needs no quotes."""
+    return _PLAIN.fullmatch(text) is not None and scalar(text) == text

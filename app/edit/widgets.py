@@ -10,8 +10,7 @@ from ...engine.declared.scene import FORMAT
 from ...engine.scene import SceneError
 from ...engine.scene.compose import read_document
 from .fields import EVERYWHERE, Form, Key, tidied
-from .values import NOTHING
-from .yaml_text import yaml_text
+from .values import NOTHING, yaml_text
 
 WIDE = 1000.0
 """Range from which on a slider would be too coarse: what is wider is dragged, or a slider in powers of ten."""

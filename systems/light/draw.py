@@ -1,25 +1,30 @@
-"""Drawing what light comes from: the sky, and over the terrain a map of how it lies to the sun."""
+"""Drawing what light comes from, the sky, and what every program knows of that light."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from math import cos, radians, sin
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Floats
+from ...engine.declared.grass import GrassKind
+from ...engine.declared.light import Light
 from ...engine.gl.stream import release_all
 from ...engine.terrain.record import Terrain
 from ..around.outlook import Outlook
 from ..frame.block import FrameBlock, joined
 from ..frame.feature import Part
 from ..space.grown import Grown
+from .clouds import clouds_of
 from .cloudscape import Cloudscape
 from .daylight import Daylight
 from .lie import LieMap
+from .materials import apart, grain, pigment
 from .repeating import drifted, repeating_texture
-from .shine import shine, toward_sun
 from .shining import Shining
 from .sky import COLUMNS, ROWS
+from .sun import sun_at
 
 ACROSS, UP = 48, 48
 """Squares across and up the picture, at whose corners the sky's colour is looked up."""
@@ -117,3 +122,24 @@ def _sky_texture(ctx: moderngl.Context) -> moderngl.Texture:
     texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
     texture.repeat_x = texture.repeat_y = False
     return texture
+
+
+def shine(record: NDArray[np.void], declared: Light, light: Daylight, kinds: Sequence[GrassKind], /) -> None:
+    """Write the light that is `declared`, and what it does to the kinds of grass."""
+    row = record[0]
+    row["sun"], row["sunlight"], row["skylight"] = light.direction, light.sun, light.down
+    row["cloud_edge"], row["haze_density"] = clouds_of(declared.clouds).edge, 1.0 / declared.haze
+    row["exposure"], row["lamplight"], row["cloudlight"] = light.exposure, light.lamplight, light.clouds
+    row["zenith"] = light.sky.map[-1].mean(axis=0)
+    row["horizon"][:, :3] = light.sky.horizon
+    row["toward_sun"] = toward_sun(declared)
+    row["soil"] = pigment(declared.ground)
+    for index, kind in enumerate(kinds):
+        row["kinds"]["grain_c"][index], row["kinds"]["grain_s"][index] = grain(kind, light)
+        row["kinds"]["apart"][index] = apart(kind, light)
+
+
+def toward_sun(light: Light, /) -> tuple[float, float]:
+    """Return the direction over the ground that the sun stands in (x, z)."""
+    azimuth = radians(sun_at(light)[0])
+    return sin(azimuth), -cos(azimuth)

@@ -19,8 +19,7 @@ from ..grow.record import Response
 from .blow import BESIDE, Blowing, ReceiverArrays, claim, send
 from .flutter import flutter_values
 from .quarantine import Quarantine
-from .sheets import Sheets
-from .told import Told
+from .sheets import Sheets, Told
 from .twin import (
     ANY,
     LARGEST,

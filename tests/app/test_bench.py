@@ -14,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from tallgrass.app.bench import picture, processor, stroll, yardstick
+from tallgrass.app.bench import machine, picture, processor, stroll
 from tallgrass.app.bench.flip import MOMENT
 from tallgrass.app.bench.rivals import Rivals
 from tallgrass.app.bench.scale import stretched
@@ -193,9 +193,9 @@ def test_the_frustum_holds_what_a_picture_shows_and_nothing_behind_or_far_aside(
 
 def test_the_yardstick_is_the_least_of_its_timings(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = iter([0.0, 3.0, 3.0, 4.0, 4.0, 9.0])
-    monkeypatch.setattr(yardstick, "TIMINGS", 3)
-    monkeypatch.setattr(yardstick, "perf_counter", lambda: next(clock))
-    assert yardstick.yardstick_ms() == 1000.0
+    monkeypatch.setattr(machine, "TIMINGS", 3)
+    monkeypatch.setattr(machine, "perf_counter", lambda: next(clock))
+    assert machine.yardstick_ms() == 1000.0
 
 
 def test_only_a_patch_that_keeps_its_representation_changes_its_sub_level() -> None:

@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from tallgrass.app.bench import pop, stroll
-from tallgrass.app.bench.climb import TOP, climb
-from tallgrass.app.bench.stroll import moments
+from tallgrass.app.bench.stroll import TOP, climb, moments
 from tallgrass.app.cli import run
 from tallgrass.app.studio.walker import EYE, FLY
 from tallgrass.engine.camera import Camera

@@ -6,8 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tallgrass.app.bench import stroll
-from tallgrass.app.bench.drift import ENOUGH, Change, mean_drift, mean_ghosting, sampled_frames, taken_together
-from tallgrass.app.bench.ghost import ghosted
+from tallgrass.app.bench.drift import ENOUGH, Change, ghosted, mean_drift, mean_ghosting, sampled_frames, taken_together
 from tallgrass.components.arrays import Doubles
 
 

@@ -15,8 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tallgrass.app.bench import pop, stroll
-from tallgrass.app.bench.asked import Asked
-from tallgrass.app.bench.sent import found
+from tallgrass.app.bench.sent import Asked, found
 from tallgrass.app.cli import run
 from tallgrass.app.farm.dask import need_distributed
 from tallgrass.app.farm.film import LONGEST, MOST_BYTES, ranges, shot_on

@@ -14,7 +14,7 @@ from typing import IO, Any
 
 import pytest
 
-from tallgrass.app.schema import described
+from tallgrass.app.check import described
 from tallgrass.engine.plugins import wind_kinds
 from tallgrass.engine.scene import bundled_scenes
 

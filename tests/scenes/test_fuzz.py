@@ -23,7 +23,7 @@ import numpy as np
 import pytest
 from pydantic import Field, field_validator
 
-from tallgrass.app.schema import described
+from tallgrass.app.check import described
 from tallgrass.components.arrays import Floats
 from tallgrass.components.declaration import Declaration, Pair
 from tallgrass.components.wind import Grass, WindPrimitive, WindSource

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from pydantic import Field
 
-from tallgrass.app.schema import described
+from tallgrass.app.check import described
 from tallgrass.components.arrays import Floats
 from tallgrass.components.declaration import Declaration
 from tallgrass.components.wind import Grass, WindPrimitive

@@ -4,7 +4,7 @@ import pytest
 
 pytest.importorskip("imgui_bundle", reason="the panel is drawn by imgui-bundle, of the extra 'edit'")
 
-from tallgrass.app.edit.timeline import spans_of
+from tallgrass.app.edit.panel import spans_of
 
 
 def test_the_bars_of_a_frame_follow_one_another_and_fill_it() -> None:

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from tallgrass.engine.scene.scalars import scalar
+from tallgrass.engine.scene.compose import scalar
 
 
 @pytest.mark.parametrize("text", ["", "~", "null", "Null", "NULL"])

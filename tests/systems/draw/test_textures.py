@@ -12,8 +12,8 @@ from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.land.heights import Heights
 from tallgrass.systems.land.maps import density_texture, posture_texture
+from tallgrass.systems.light.lie import slow_map
 from tallgrass.systems.light.repeating import LITTER_ONE, SIDE, ground_maps, repeating_levels
-from tallgrass.systems.light.slow import slow_map
 from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.carpet.textures import carpet_texture
 from tallgrass.systems.show.strips.pages import WHOLE, packed

@@ -19,8 +19,7 @@ from tallgrass.systems.wind.blow import Blowing, ReceiverArrays, blowing, hear, 
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.quarantine import Quarantine
-from tallgrass.systems.wind.sheets import Sheets
-from tallgrass.systems.wind.told import Told
+from tallgrass.systems.wind.sheets import Sheets, Told
 from tallgrass.systems.wind.twin import TOLD, Twin, TwinError, check_values, fitted, joined_twins, twin_of
 from tallgrass.systems.wind.whirlwind import Whirlwind
 from tallgrass.testing.receivers import grass_at
