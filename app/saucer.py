@@ -1,8 +1,9 @@
-"""How the viewer of the window flies a saucer: pure functions from what is pressed to where it is and how it leans."""
+"""The saucer that the viewer of the window flies: where it is and how it leans, by what is pressed, and its blast."""
 
 import math
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, replace
+from math import cos, sin
 
 import numpy as np
 
@@ -10,7 +11,9 @@ from ..components.body import Body
 from ..components.pose import Pose
 from ..engine.camera import Camera, forward
 from ..systems.bodies.fly import foot, lean, level
-from .studio.walker import Ground, Move, on_terrain
+from ..systems.prairie import Prairie
+from ..systems.wind.blast import Blast, Shape
+from .studio.walker import Ground, Move, Walker, on_terrain, settled
 
 CRUISE, FAST = 8.0, 20.0
 """Speeds ahead [m/s]; back it is half as fast."""
@@ -33,6 +36,9 @@ LOWEST_LOOK, HIGHEST_LOOK = -1.2, 0.4
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 _AT, _WEIGHT = (_NODES + 1.0) / 2.0, _WEIGHTS / 2.0
+
+BLAST = Blast(outline=Shape(disc=3.5))
+"""What its jet does to the grass."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,3 +147,45 @@ def _asked(held: AbstractSet[Move]) -> tuple[float, float]:
     speed = FAST if "run" in held else CRUISE
     along = ("ahead" in held) - 0.5 * ("back" in held) if ("ahead" in held) != ("back" in held) else 0.0
     return along * speed, (("right" in held) - ("left" in held)) * TURN
+
+
+class Flight:
+    """A saucer in flight: one entity of the prairie that has a body, a blast and a pose.
+
+    It sets out ahead of who boards it, so that the camera behind it starts about where that one stood.
+    """
+
+    def __init__(self, prairie: Prairie, walker: Walker, ground: Ground) -> None:
+        x, _, z = walker.position
+        self.saucer = launched(x + DISTANCE * sin(walker.yaw), z - DISTANCE * cos(walker.yaw), walker.yaw, ground)
+        self._prairie = prairie
+        self._entity = prairie.add(BLAST, pose=jet(self.saucer, ground), name="saucer")
+        self._follow(ground)
+
+    def step(self, held: AbstractSet[Move], dt: float, ground: Ground) -> None:
+        """Fly on by `dt` [s] of the held keys, with the blast."""
+        self.saucer = flown(self.saucer, held, dt, ground)
+        self._follow(ground)
+
+    def look(self, *, right: float, up: float) -> None:
+        """Turn the look around the saucer by two angles [rad]."""
+        self.saucer = looked(self.saucer, right=right, up=up)
+
+    def camera(self, view: float, ground: Ground) -> Camera:
+        """Return the camera that follows it."""
+        return chase(self.saucer, view, ground)
+
+    def settle(self, ground: Ground) -> None:
+        """Fly on at the same place over other ground."""
+        self.saucer = put(self.saucer, ground)
+        self._follow(ground)
+
+    def leave(self, ground: Ground) -> Walker:
+        """Take the saucer away and return who stood in it: on the ground below, and looking the same way."""
+        self._prairie.remove(self._entity)
+        x, y, z = self.saucer.place
+        return settled(Walker((x, y, z), self.camera(1.0, ground).yaw), ground)
+
+    def _follow(self, ground: Ground) -> None:
+        self._prairie.move(self._entity, jet(self.saucer, ground))
+        self._prairie.world.add(self._entity, body(self.saucer))

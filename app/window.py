@@ -18,8 +18,8 @@ from ..systems.overlay.layers import LAYERS, Layer
 from ..systems.overlay.overlay import Overlay
 from ..systems.prairie import Prairie
 from .display import no_window
-from .flight import Flight
 from .overlay import HELP, Note, statistics_lines
+from .saucer import Flight
 from .studio.encode import picture_writer
 from .studio.errors import InputError, MachineError
 from .studio.offscreen import Offscreen

@@ -242,5 +242,4 @@ class Holding:
     def release(self) -> None:
         """Give everything back to the context."""
         self._let_go()
-        release_all(*self.parts, self.received, self.block)
-        release_all(*([] if self._staged is None else [self._staged]))
+        release_all(*self.parts, self.received, self.block, self._staged)

@@ -30,7 +30,7 @@ class Ripening:
     def __init__(self, seasons: Seasons, *, live: bool) -> None:
         self._seasons, self._live = seasons, live
         self._asked: _Asked | None = None
-        self._hands: ThreadPoolExecutor | None = None
+        self._hands = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")  # without a thread, until it is asked
         self._free = 0.0
         """When the last kinds had become others that did so together [s]."""
 
@@ -87,8 +87,6 @@ class Ripening:
         wanted = site, self._known, stands, {} if batch is None else batch.kinds
         if waits:
             return _Asked(ripened(*wanted), stands, batch)
-        if self._hands is None:
-            self._hands = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")
         return _Asked(self._hands.submit(ripened, *wanted), stands, batch)
 
     def _arrive(self, site: Site, time: float, stage: Stage, *, waits: bool) -> Site:
@@ -115,5 +113,4 @@ class Ripening:
 
     def release(self) -> None:
         """Let nothing grow any more."""
-        if self._hands is not None:
-            self._hands.shutdown(wait=False, cancel_futures=True)
+        self._hands.shutdown(wait=False, cancel_futures=True)

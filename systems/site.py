@@ -17,7 +17,7 @@ from .around.patches import PatchTable
 from .around.transitions import SEAMLESS, Transitions
 from .entities import components
 from .grow.record import NOTHING, Growth, forms_of
-from .land.maps import posture_table
+from .land.part import posture_table
 from .land.record import figures_on
 from .lod import reach_of
 from .room import keep_on, keep_room

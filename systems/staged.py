@@ -55,7 +55,7 @@ class Staged:
 
     def release(self) -> None:
         """Give everything back that nobody has taken over."""
-        release_all(*self.painters.values(), *([] if self.air is None else [self.air]))
+        release_all(*self.painters.values(), self.air)
 
 
 @contextmanager

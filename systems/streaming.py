@@ -38,7 +38,7 @@ class Streaming:
     def __init__(self, *, live: bool) -> None:
         self._live = live
         self._asked: _Asked | None = None
-        self._hands: ThreadPoolExecutor | None = None
+        self._hands = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")  # without a thread, until it is asked
 
     def follow(self, terrain: Terrain, eye: Eye, others: Iterable[Viewer], /, *, time: float) -> None:
         """Let a terrain be the window about the middle of all who look, if it streams.
@@ -75,8 +75,6 @@ class Streaming:
         return max(abs(place[0] / blocks.cell - column), abs(place[1] / blocks.cell - row)) / blocks.step
 
     def _ask(self, blocks: Blocks, first: Numbers) -> None:
-        if self._hands is None:
-            self._hands = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")
         self._asked = _Asked(self._hands.submit(_made, blocks, first), first, dict(blocks.changed))
 
     def _take(self, terrain: Terrain, blocks: Blocks, asked: _Asked, *, leaps: bool) -> None:
@@ -89,8 +87,7 @@ class Streaming:
 
     def release(self) -> None:
         """Ask for nothing any more."""
-        if self._hands is not None:
-            self._hands.shutdown(wait=False, cancel_futures=True)
+        self._hands.shutdown(wait=False, cancel_futures=True)
 
 
 def _made(blocks: Blocks, first: Numbers) -> Terrain:

@@ -9,9 +9,8 @@ from ..engine.world import private_world
 from .clock import FixedClock, fixed_clock
 from .golden import same_picture
 from .heard import Heard, receivers_of
-from .little import LITTLE, little_prairie
+from .little import LITTLE, little_prairie, little_site, look, systems_on, viewer_on
 from .looking import looking
-from .site import little_site, look, systems_on, viewer_on
 from .stage import Stage, headless_context, stage
 from .step import step, watch
 from .twins import twin_problems

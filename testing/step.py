@@ -3,8 +3,8 @@
 from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ..engine.schedule import Phase
 from ..systems.prairie import Prairie
+from .little import ASPECT
 from .looking import must_be_camera
-from .site import ASPECT
 
 
 def watch(prairie: Prairie, camera: Camera | None = None, /) -> None:

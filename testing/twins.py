@@ -17,7 +17,7 @@ from ..systems.wind.blow import Blowing, ReceiverArrays, hear, places_alone
 from ..systems.wind.card import SAMPLERS, CardWinds
 from ..systems.wind.quarantine import Quarantine
 from ..systems.wind.twin import TwinError, twin_of
-from .receivers import crowd, grass_at
+from .trial import crowd, grass_at
 from .winds import timeline
 
 CLOSE_TWIN = 1e-3

@@ -140,8 +140,7 @@ def _packed(ctx: moderngl.Context, texels: Floats, texture: moderngl.Texture | N
     """Return a texture that holds texels (n, 4) row after row: the one that there is, or a larger one in its place."""
     rows = max(1, ceil(len(texels) / WIDTH))
     if texture is None or texture.height < rows:
-        if texture is not None:
-            texture.release()
+        release_all(texture)
         texture = ctx.texture((WIDTH, rows if texture is None else rows * 3 // 2 + 1), 4, dtype="f4")
         texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
     padded = np.zeros((rows * WIDTH, 4), np.float32)

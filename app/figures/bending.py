@@ -14,8 +14,7 @@ from ...components.wind import Grass
 from ...engine.declared.grass import GrassKind
 from ...engine.scene import read_scene
 from ...systems.grow.bend import bending
-from ...systems.grow.give import grow_give
-from ...systems.grow.postures import grow_postures
+from ...systems.grow.postures import grow_give, grow_postures
 from ...systems.grow.record import Postures, Response
 from ...systems.grow.response import grow_response
 from ...systems.wind.gust import Gust

@@ -14,10 +14,11 @@ class Releasable(Protocol):
         """Give everything back to the context."""
 
 
-def release_all(*things: Releasable) -> None:
-    """Give everything that `things` hold back to the context."""
+def release_all(*things: Releasable | None) -> None:
+    """Give everything that `things` hold back to the context; None holds nothing."""
     for thing in things:
-        thing.release()
+        if thing is not None:
+            thing.release()
 
 
 def attributes(record: np.dtype[np.void]) -> tuple[str, list[str]]:

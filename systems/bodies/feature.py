@@ -119,8 +119,7 @@ class BodiesPart(Part):
 
     def release(self) -> None:
         """Give everything back."""
-        if self.painter is not None:
-            self.painter.release()
+        release_all(self.painter)
 
 
 def nearest(shades: Sequence[Shade], eye: tuple[float, float, float], /) -> list[Shade]:

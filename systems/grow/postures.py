@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from ...components.arrays import Doubles
+from ...components.arrays import Doubles, Floats
 from ...engine.declared.grass import GrassKind
-from .record import Postures
+from .record import GIVES, Postures
 from .simulate import LINKS, Chain, build_chain, damp, lowest_swing, place_links, sag, settle, simulate
 
 NEAR_FLAT = np.radians(83.0)
@@ -135,3 +135,24 @@ def _random_factors(variants: int, seed: int, /) -> Doubles:
     factors = np.exp(slope * along + random.normal(0.0, 0.55, (variants, LINKS)))
     factors[0] = 1.0
     return factors
+
+
+def grow_give(kind: GrassKind, /) -> Floats:
+    """Return the posture indices that messages of evenly spaced lengths from 0 to 1 bend a kind's blades to.
+
+    A message is a wind's force: the force that bends the same blade to that index when its stiffness is 1. So a blade
+    of stiffness 1 has the index of the message, a stiffer one a smaller, and a softer one a larger, up to 1, where it
+    lies flat already. Shape (GIVES,), rising from 0.
+    """
+    common = _rest_by_pressure(kind.model_copy(update={"stiffness": 1.0}))
+    own = _rest_by_pressure(kind) if kind.stiffness != 1.0 else common
+    pressure = np.interp(np.linspace(0.0, 1.0, GIVES), common[1], common[0])
+    return np.interp(pressure, *own).astype(np.float32)
+
+
+def _rest_by_pressure(kind: GrassKind, /) -> tuple[Doubles, Doubles]:
+    """Return squared speeds of constant winds, and the posture indices that they hold an even blade at, up to 1."""
+    angle, wind = rest_in_winds(build_chain(kind, np.ones((1, LINKS))))
+    end = flat_step(angle) + 1
+    chord = np.maximum.accumulate(chord_angle(angle[:end]))
+    return np.append(0.0, wind[:end] ** 2), np.append(0.0, chord / chord[-1])

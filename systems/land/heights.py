@@ -86,7 +86,7 @@ class Heights:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(self.texture, *([] if self._spare is None else [self._spare]))
+        release_all(self.texture, self._spare)
 
 
 def _way(to: tuple[int, int] | None, since: tuple[int, int] | None) -> tuple[int, int]:

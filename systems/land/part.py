@@ -1,18 +1,56 @@
-"""The land: terrain and kinds of grass, as every program knows them."""
+"""The land: terrain and kinds of grass, as every program knows them, and their textures."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Floats
 from ...engine.gl.stream import release_all
+from ...engine.memo import while_it_lives
+from ...engine.terrain.record import Density
 from ..frame.block import FrameBlock
 from ..frame.feature import Feature, Part
+from ..grow.record import NOTHING, Growth
 from ..space.grown import Grown
 from .heights import Heights
-from .maps import density_texture, posture_texture
 from .record import write_land
+
+
+@while_it_lives
+def posture_table(growth: Growth, /) -> Floats:
+    """Return what `posture_texture` has of a kind, shape (variants, rows, points, 4)."""
+    place = growth.postures.shape.astype(np.float32)
+    return np.concatenate([place, np.gradient(place, axis=2)], axis=-1, dtype=np.float32)
+
+
+def posture_texture(
+    ctx: moderngl.Context, growths: Sequence[Growth], coming: Mapping[int, Growth] = NOTHING
+) -> moderngl.TextureArray:
+    """Return all kinds' posture tables, one layer per form and variant; columns are points, rows are indices.
+
+    A texel holds a point's place and the blade's direction there, each (along the bending direction, up).
+    """
+    forms = [*growths, *(coming.get(kind, growth) for kind, growth in enumerate(growths) if coming)]
+    table = np.concatenate([posture_table(growth) for growth in forms])
+    layers, rows, points, _ = table.shape
+    texture = ctx.texture_array((points, rows, layers), 4, table.tobytes(), dtype="f4")
+    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+    texture.repeat_x = texture.repeat_y = False
+    return texture
+
+
+def density_texture(ctx: moderngl.Context, density: Density) -> moderngl.TextureArray:
+    """Return the kinds' densities as a texture over the terrain: each layer's channels are those of four kinds."""
+    kinds, rows, columns = density.maps.shape
+    packed = np.zeros((-(-kinds // 4), rows, columns, 4), np.uint8)
+    for kind, values in enumerate(density.maps):
+        packed[kind // 4, ..., kind % 4] = np.round(values * 255.0)
+    texture = ctx.texture_array((columns, rows, len(packed)), 4, packed.tobytes(), alignment=1)
+    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+    texture.repeat_x = texture.repeat_y = False
+    return texture
 
 
 class Land(Feature):
@@ -41,7 +79,7 @@ class LandPart(Part):
         before, self._grown = self._grown, grown
         terrain = grown.ground.terrain
         if self._heights is None or self._heights.terrain is not terrain:
-            release_all(*([] if self._heights is None else [self._heights]))
+            release_all(self._heights)
             self._heights = Heights(self.ctx, terrain)
         elif self._heights.follow():
             record["terrain_origin"] = self._heights.origin
@@ -76,4 +114,4 @@ class LandPart(Part):
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self.textures.values(), *([] if self._heights is None else [self._heights]))
+        release_all(*self.textures.values(), self._heights)

@@ -70,8 +70,7 @@ class Cloudscape:
 
     def lay(self, *, seed: int) -> None:
         """Take over the clouds of another scene."""
-        if self._heaps is not None:
-            self._heaps.release()
+        release_all(self._heaps)
         self._heaps = heaps_texture(self.ctx, seed=seed)
 
     def draw(self) -> int:
@@ -119,9 +118,7 @@ class Cloudscape:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(self._array, self._array.program, self._billows)
-        if self._heaps is not None:
-            self._heaps.release()
+        release_all(self._array, self._array.program, self._billows, self._heaps)
         for each in self._pictures.values():
             release_all(*each)
 

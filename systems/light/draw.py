@@ -73,8 +73,7 @@ class LightPart(Part):
 
     def _lay(self, terrain: Terrain, *, seed: int) -> None:
         self.lie.lay(terrain, seed=seed)
-        if self._repeating is not None:
-            self._repeating.release()
+        release_all(self._repeating)
         self._repeating = repeating_texture(self.ctx, seed=seed)
         self._clouds.lay(seed=seed)
 
@@ -106,9 +105,7 @@ class LightPart(Part):
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(self._array, self._array.program, self._sky, self._clouds, self.lie)
-        if self._repeating is not None:
-            self._repeating.release()
+        release_all(self._array, self._array.program, self._sky, self._clouds, self.lie, self._repeating)
 
 
 def _pair(place: Floats) -> tuple[float, float]:

@@ -76,6 +76,9 @@ class _Coming:
     changes: int = 0
     """Changes of the terrain that are in it."""
 
+    def release(self) -> None:
+        release_all(self.laid)
+
 
 class LieMap:
     """A texture of two maps over the terrain, side by side: what never changes, and what the sun's azimuth changes.
@@ -92,7 +95,7 @@ class LieMap:
         self._laid: _Laid | None = None
         self._coming: _Coming | None = None
         self._toward: Place | None = None
-        self._hands: ThreadPoolExecutor | None = None
+        self._hands = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")  # without a thread, until it is asked
 
     def _make(self, *, mirrored: bool) -> None:
         self._is_mirrored, self._at_once = mirrored, AT_ONCE // (IMAGES if mirrored else 1)
@@ -142,8 +145,7 @@ class LieMap:
 
     def _begin(self, origin: Place, *, leaps: bool) -> None:
         """Begin a map of another window; where somebody waits for it, it is there with the next frame."""
-        if self._coming is not None and self._coming.laid is not None:
-            self._coming.laid.release()
+        release_all(self._coming)
         self._coming = None
         assert self._laid is not None
         if leaps:
@@ -152,8 +154,6 @@ class LieMap:
             self._laid, self._seen = made, -1
             self.leap()
         elif not self._is_at(origin, self._laid.origin):
-            if self._hands is None:
-                self._hands = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")
             slow = self._hands.submit(slow_map, self._terrain.size, origin, seed=self._seed)
             self._coming = _Coming(origin, slow)
 
@@ -267,16 +267,14 @@ class LieMap:
         return 1
 
     def _let_go(self) -> None:
-        coming = None if self._coming is None else self._coming.laid
-        release_all(*(each for each in (self._laid, coming) if each is not None))
+        release_all(self._laid, self._coming)
         self._laid = self._coming = None
 
     def release(self) -> None:
         """Give everything back."""
         release_all(*self._arrays, self._still, self._before)
         self._let_go()
-        if self._hands is not None:
-            self._hands.shutdown(wait=False, cancel_futures=True)
+        self._hands.shutdown(wait=False, cancel_futures=True)
 
 
 def map_shape(size: tuple[float, float], /) -> tuple[int, int]:

@@ -72,9 +72,8 @@ class MarkPainter:
         self.arrays[2].render(moderngl.TRIANGLE_STRIP, vertices=4)
 
     def _release_sheet(self) -> None:
-        if self.sheet is not None:
-            self.sheet.release()
-            self.sheet = None
+        release_all(self.sheet)
+        self.sheet = None
 
     def release(self) -> None:
         """Give everything back."""

@@ -10,10 +10,9 @@ from ...components.arrays import Floats
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
 from ..grow.bend import spine
-from ..grow.give import grow_give
 from ..grow.layout import layout_of
 from ..grow.plants import grow_patch
-from ..grow.postures import grow_postures
+from ..grow.postures import grow_give, grow_postures
 from ..grow.record import Blades, Growth, PatchModel, Postures, Response
 from ..grow.response import grow_response
 from ..show.registry import REPRESENTATIONS

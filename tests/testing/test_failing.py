@@ -8,7 +8,7 @@ import pytest
 from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass, WindPrimitive
 from tallgrass.testing import wind_problems
-from tallgrass.testing.receivers import places_to_try
+from tallgrass.testing.trial import places_to_try
 
 
 class UnspeakableError(Exception):

@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tallgrass.app.edit.rewrite import RewriteError, rewritten
-from tallgrass.app.edit.spans import spans
+from tallgrass.app.edit.rewrite import RewriteError, rewritten, spans
 from tallgrass.app.edit.values import NOTHING, Way, value_at, with_value
 from tallgrass.engine.scene import bundled_scenes
 from tallgrass.engine.scene.compose import read_document

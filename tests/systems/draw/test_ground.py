@@ -18,7 +18,7 @@ from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.frame.block import FrameBlock
 from tallgrass.systems.land.heights import Heights
-from tallgrass.systems.land.maps import density_texture
+from tallgrass.systems.land.part import density_texture
 from tallgrass.systems.light.lie import laid_over
 from tallgrass.systems.show.carpet.rims import NOWHERE, Rims
 from tallgrass.systems.show.carpet.tiles import (

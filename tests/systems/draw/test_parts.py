@@ -12,12 +12,11 @@ from tallgrass.engine.declared.grass import MOST_KINDS, GrassKind
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.grow.bend import bending, spine
-from tallgrass.systems.grow.give import grow_give
-from tallgrass.systems.grow.postures import HANGING, grow_postures
+from tallgrass.systems.grow.postures import HANGING, grow_give, grow_postures
 from tallgrass.systems.grow.record import GIVES, Blades, Growth
 from tallgrass.systems.grow.response import grow_response
 from tallgrass.systems.land.heights import Heights
-from tallgrass.systems.land.maps import posture_texture
+from tallgrass.systems.land.part import posture_texture
 from tallgrass.systems.site import Site
 
 Laid = Callable[..., Site]

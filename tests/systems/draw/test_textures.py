@@ -11,7 +11,7 @@ from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.land.heights import Heights
-from tallgrass.systems.land.maps import density_texture, posture_texture
+from tallgrass.systems.land.part import density_texture, posture_texture
 from tallgrass.systems.light.lie import slow_map
 from tallgrass.systems.light.repeating import LITTER_ONE, SIDE, ground_maps, repeating_levels
 from tallgrass.systems.show.carpet.grow import carpet_of

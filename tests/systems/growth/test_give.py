@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.systems.grow.bend import bending, spine
 from tallgrass.systems.grow.blades import grow_blades
-from tallgrass.systems.grow.give import grow_give
-from tallgrass.systems.grow.postures import NEAR_FLAT, chord_angle, grow_postures
+from tallgrass.systems.grow.postures import NEAR_FLAT, chord_angle, grow_give, grow_postures
 from tallgrass.systems.grow.record import GIVES, Postures
 from tallgrass.systems.grow.simulate import LINKS, build_chain, damp, settle, simulate
 

@@ -17,7 +17,7 @@ from tallgrass.systems.press.footprint import discs_of
 from tallgrass.systems.press.lie import laid_over, pressed, touches
 from tallgrass.systems.press.marks import MOST_MARKS, UNTRODDEN, Marks, Memory, Trodden
 from tallgrass.systems.press.trail import BESIDE, Discs, Trail
-from tallgrass.testing.receivers import grass_at
+from tallgrass.testing.trial import grass_at
 
 Way = Callable[[float], tuple[float, float]]
 

@@ -22,7 +22,7 @@ from tallgrass.systems.wind.quarantine import Quarantine
 from tallgrass.systems.wind.sheets import Sheets, Told
 from tallgrass.systems.wind.twin import TOLD, Twin, TwinError, check_values, fitted, joined_twins, twin_of
 from tallgrass.systems.wind.whirlwind import Whirlwind
-from tallgrass.testing.receivers import grass_at
+from tallgrass.testing.trial import grass_at
 from tallgrass.testing.twins import CLOSE_TWIN, CardEar
 
 TIME = 3.0
