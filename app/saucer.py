@@ -3,7 +3,6 @@
 import math
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, replace
-from math import cos, sin
 
 import numpy as np
 
@@ -157,7 +156,7 @@ class Flight:
 
     def __init__(self, prairie: Prairie, walker: Walker, ground: Ground) -> None:
         x, _, z = walker.position
-        self.saucer = launched(x + DISTANCE * sin(walker.yaw), z - DISTANCE * cos(walker.yaw), walker.yaw, ground)
+        self.saucer = launched(x + DISTANCE * math.sin(walker.yaw), z - DISTANCE * math.cos(walker.yaw), walker.yaw, ground)
         self._prairie = prairie
         self._entity = prairie.add(BLAST, pose=jet(self.saucer, ground), name="saucer")
         self._follow(ground)

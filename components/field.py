@@ -1,12 +1,14 @@
 """A declared field of a scene: its name, its type, and what may stand below it."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import NoneType, UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
+
+LIMITS = "ge", "gt", "le", "lt", "min_length", "max_length", "pattern"
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,8 +21,8 @@ class Field:
     annotation: Any = None
     """Its declared type, without what `Annotated` adds."""
 
-    limits: tuple[Any, ...] = ()
-    """What is declared of its range and length."""
+    limits: dict[str, Any] = field(default_factory=dict)
+    """What is declared of its range and length, of `X | None` too: some of `LIMITS`."""
 
     description: str = ""
     """What the field that holds it says of itself."""
@@ -37,15 +39,19 @@ class Field:
 def declared(name: str, info: FieldInfo, /) -> Field:
     """Return the field that a model declares."""
     annotation, more = _bare(info.annotation)
-    limits = (*info.metadata, *more)
+    limits = _named((*info.metadata, *more))
     return Field(name, annotation, limits, info.description or "", model_of(annotation))
 
 
-def inside(field: Field, name: str, /) -> Field:
+def inside(of: Field, name: str, /) -> Field:
     """Return the field of an item of a list, or of an entry of a mapping whose keys are free."""
-    inner = get_args(field.annotation)
-    annotation, limits = _bare(inner[-1]) if inner else (field.annotation, ())
-    return Field(name, annotation, limits, field.description, model_of(annotation))
+    inner = get_args(of.annotation)
+    annotation, limits = _bare(inner[-1]) if inner else (of.annotation, ())
+    return Field(name, annotation, _named(limits), of.description, model_of(annotation))
+
+
+def _named(limits: tuple[Any, ...]) -> dict[str, Any]:
+    return {name: getattr(limit, name) for limit in limits for name in LIMITS if hasattr(limit, name)}
 
 
 def _bare(annotation: Any) -> tuple[Any, tuple[Any, ...]]:

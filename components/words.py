@@ -98,7 +98,7 @@ def _not_among(error: ErrorDetails, field: Field) -> str:
 
 
 def _out_of_range(error: ErrorDetails, field: Field) -> str:
-    bounds = _limits(field) | error["ctx"]
+    bounds = field.limits | error["ctx"]
     if "ge" in bounds and "le" in bounds:
         text = f"between {_number(bounds['ge'])} and {_number(bounds['le'])}"
     else:
@@ -109,7 +109,7 @@ def _out_of_range(error: ErrorDetails, field: Field) -> str:
 
 
 def _of_length(error: ErrorDetails, field: Field) -> str:
-    value, limits = error["input"], _limits(field) | error["ctx"]
+    value, limits = error["input"], field.limits | error["ctx"]
     if isinstance(value, list | tuple):
         return f"{field.name} must be {_list(field)}, found {len(value)}"
     least, most = limits.get("min_length", 0), limits.get("max_length", "any number of")
@@ -130,24 +130,17 @@ def _number(value: float) -> str:
 
 
 def _list(field: Field) -> str:
-    limits = _limits(field)
-    least, most = limits.get("min_length", 0), limits.get("max_length")
+    least, most = field.limits.get("min_length", 0), field.limits.get("max_length")
     things = "numbers" if inside(field, "").annotation in (int, float) else "entries"
     if least == most:
         return f"a list of {least} {things}"
     return f"a list of {least} to {most} {things}" if most else "a list"
 
 
-def _limits(field: Field) -> dict[str, Any]:
-    """Return the declared limits of a value, of `X | None` too."""
-    names = ("ge", "gt", "le", "lt", "min_length", "max_length", "pattern")
-    return {name: getattr(limit, name) for limit in field.limits for name in names if hasattr(limit, name)}
-
-
 def _hint(kind: str, value: object, field: Field) -> str:
     if kind == "model_type":
         return _hint_of_mapping(value, field)
-    if value is None and kind == "string_type" and LONG in _limits(field).get("pattern", ""):
+    if value is None and kind == "string_type" and LONG in field.limits.get("pattern", ""):
         return "; a colour needs quotes, '#2f4019', because # begins a comment"
     if isinstance(value, str) and kind in ("float_type", "int_type"):
         if _DECIMAL_COMMA.fullmatch(value):

@@ -108,7 +108,7 @@ _PLAIN: dict[Any, Form] = {bool: "switch", int: "whole", float: "number", str: "
 
 def _taken(field: Field) -> dict[str, Any]:
     """Return the form of a field, and what goes with it."""
-    origin, limits = get_origin(field.annotation), _limits(field)
+    origin, limits = get_origin(field.annotation), field.limits
     choices = tuple(_literals(field.annotation))
     if LONG in limits.get("pattern", ""):
         return {"form": "color"}
@@ -132,15 +132,10 @@ def _of_list(field: Field, limits: dict[str, Any]) -> dict[str, Any]:
     item = inside(field, field.name)
     least, most = limits.get("min_length"), limits.get("max_length")
     if item.annotation in (int, float) and least is not None and least == most:
-        return {"form": "numbers", "count": least, **_bounds(_limits(item))}
+        return {"form": "numbers", "count": least, **_bounds(item.limits)}
     if field.model is not None:
         return {"form": "parts", "model": field.model, "most": most}
     return {"form": "yaml"}
-
-
-def _limits(field: Field) -> dict[str, Any]:
-    names = ("ge", "gt", "le", "lt", "min_length", "max_length", "pattern")
-    return {name: getattr(limit, name) for limit in field.limits for name in names if hasattr(limit, name)}
 
 
 def _bounds(limits: dict[str, Any]) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from ...engine.plugins import wind_kinds
 from ...systems.prairie import Prairie
 from ..overlay import statistics_lines
 from .editor import Editor
-from .tree import REFUSED, Box, Tree
+from .tree import Box, Tree, last_box, show_refusal
 
 WIDTH = 400.0
 """Of the panel when it is first shown [pixels]."""
@@ -87,10 +87,7 @@ class Panel:
         imgui.text_unformatted("growing ..." if self.editor.remaking.is_growing else told)
         refusal = self.editor.refusal
         if refusal is not None and refusal.way not in self.tree.boxes:
-            imgui.push_style_color(imgui.Col_.text, REFUSED)
-            for reason in refusal.reasons:
-                imgui.text_wrapped(reason)
-            imgui.pop_style_color()
+            show_refusal(refusal)
 
     def _brush(self) -> None:
         brush = self.editor.brush
@@ -130,8 +127,7 @@ class Panel:
         self._held = held
 
     def _remember(self, name: str) -> None:
-        low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
-        self.buttons[name] = low.x, low.y, high.x, high.y
+        self.buttons[name] = last_box()
 
 
 def show_frame(prairie: Prairie, frames_ms: Sequence[float]) -> None:

@@ -10,7 +10,7 @@ from pydantic import BaseModel
 from ...components.wind import WindPrimitive
 from ...engine.declared.grass import GrassKind
 from .brush import Brush
-from .editor import Editor
+from .editor import Editor, Refusal
 from .fields import Key, first_part, first_value, item_key, keys_of, told_of
 from .values import NOTHING, Way, value_at
 from .widgets import NUMBERS, written
@@ -21,7 +21,8 @@ Box = tuple[float, float, float, float]
 
 REFUSED = imgui.ImVec4(1.0, 0.45, 0.35, 1.0)
 UNSAID = imgui.ImVec4(0.62, 0.66, 0.60, 1.0)
-"""Colours of what was refused, and of what the file leaves to its default."""
+PICKED = imgui.ImVec4(1.0, 0.9, 0.4, 1.0)
+"""Colours of what was refused, of what the file leaves to its default, and of the wind that is picked."""
 
 
 @dataclass(slots=True)
@@ -113,12 +114,12 @@ class Tree:
         """Show one of several parts, with what can be done to it as a whole."""
         kind = f"{name} {part.kind}" if isinstance(part, WindPrimitive) else name
         imgui.push_id(name)
-        if isinstance(part, WindPrimitive) and self.editor.picked == way[-1]:
-            imgui.push_style_color(imgui.Col_.text, imgui.ImVec4(1.0, 0.9, 0.4, 1.0))
-            opened = self._opened(item_key(key, kind, type(part)), way, f"{kind}###item")
+        is_picked = isinstance(part, WindPrimitive) and self.editor.picked == way[-1]
+        if is_picked:
+            imgui.push_style_color(imgui.Col_.text, PICKED)
+        opened = self._opened(item_key(key, kind, type(part)), way, f"{kind}###item")
+        if is_picked:
             imgui.pop_style_color()
-        else:
-            opened = self._opened(item_key(key, kind, type(part)), way, f"{kind}###item")
         if isinstance(part, WindPrimitive) and imgui.is_item_clicked():
             self.editor.picked = int(way[-1])
         if opened:
@@ -193,11 +194,21 @@ class Tree:
     def _refusal(self, way: Way) -> None:
         refusal = self.editor.refusal
         if refusal is not None and refusal.way == way:
-            imgui.push_style_color(imgui.Col_.text, REFUSED)
-            for reason in refusal.reasons:
-                imgui.text_wrapped(reason)
-            imgui.pop_style_color()
+            show_refusal(refusal)
 
     def _remember(self, way: Way) -> None:
-        low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
-        self.boxes[way] = low.x, low.y, high.x, high.y
+        self.boxes[way] = last_box()
+
+
+def last_box() -> Box:
+    """Return where the last item was shown."""
+    low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
+    return low.x, low.y, high.x, high.y
+
+
+def show_refusal(refusal: Refusal) -> None:
+    """Show why a change was not made."""
+    imgui.push_style_color(imgui.Col_.text, REFUSED)
+    for reason in refusal.reasons:
+        imgui.text_wrapped(reason)
+    imgui.pop_style_color()
