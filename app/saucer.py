@@ -155,8 +155,8 @@ class Flight:
     """
 
     def __init__(self, prairie: Prairie, walker: Walker, ground: Ground) -> None:
-        x, _, z = walker.position
-        self.saucer = launched(x + DISTANCE * math.sin(walker.yaw), z - DISTANCE * math.cos(walker.yaw), walker.yaw, ground)
+        (x, _, z), yaw = walker.position, walker.yaw
+        self.saucer = launched(x + DISTANCE * math.sin(yaw), z - DISTANCE * math.cos(yaw), yaw, ground)
         self._prairie = prairie
         self._entity = prairie.add(BLAST, pose=jet(self.saucer, ground), name="saucer")
         self._follow(ground)

@@ -3,7 +3,6 @@
 import re
 from collections.abc import Callable, Iterable
 from difflib import get_close_matches
-from typing import Any
 
 import numpy as np
 from pydantic import BaseModel, ValidationError

@@ -20,9 +20,9 @@ from .frame.block import aim, confine
 from .frame.feature import Feature, Part, doing
 from .holding import READY_ROWS, Holding
 from .receive.received import numbers_of, write_messages
-from .show.among import among
 from .show.blades.draw import BladePainter
 from .show.blades.plant import record_of
+from .show.representation import RepresentationPainter
 from .site import Site
 from .wind.blow import ReceiverArrays, mean_yaw
 from .winds import Winds
@@ -271,7 +271,7 @@ class Painter(Holding):
         target.depth_mask = False
         for painter in list(self.painters.values())[-2::-1]:
             for part in self._doing["soft_left"]:
-                self.draw_calls += among(painter, part)
+                self.draw_calls += _among(painter, part)
             self.draw_calls += painter.draw(target)
             self._hand_over()
         if is_deep:
@@ -300,3 +300,12 @@ def _is_open(outlook: Outlook, site: Site | None) -> bool:
 def _receivers(outlook: Outlook, site: Site) -> ReceiverArrays:
     """Return all receivers of what a viewer is shown."""
     return receivers_shown(outlook, site.growths, patch=site.ground.patch, margin=site.margin)
+
+
+def _among(painter: RepresentationPainter, part: Part) -> int:
+    """Draw what a part has left of soft edges, and before each the grass behind it; return the number of draw calls."""
+    calls, left = 0, part.soft_left()
+    while left is not None:
+        calls += painter.draw_beyond(left) + part.draw_soft(left)
+        left = part.soft_left()
+    return calls

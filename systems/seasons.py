@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from ..engine.declared.grass import GrassKind
 from ..engine.declared.scene import Scene
 from ..engine.handed import NUMBERS
-from ..engine.scene.change import changed_kind
+from ..engine.scene.validate import changed_kind
 from .saved import SavedEase, SavedSeason, refuse
 
 EASED = "root", "tip", "variety", "translucency", "gloss", "understorey"

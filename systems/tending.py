@@ -9,7 +9,7 @@ from ..components.footprint import Footprint, Road
 from ..components.pose import HERE, Pose
 from ..components.shadow_map import ShadowMap
 from ..components.wind import WindPrimitive
-from ..engine.scene.change import changed
+from ..engine.scene.validate import changed
 from ..engine.terrain.change import set_heights
 from .answering import Answering
 from .features import one

@@ -9,10 +9,8 @@ from ..engine.world import private_world
 from .clock import FixedClock, fixed_clock
 from .golden import same_picture
 from .heard import Heard, receivers_of
-from .little import LITTLE, little_prairie, little_site, look, systems_on, viewer_on
-from .looking import looking
-from .stage import Stage, headless_context, stage
-from .step import step, watch
+from .little import LITTLE, little_prairie, little_site, look, step, systems_on, viewer_on, watch
+from .stage import Stage, headless_context, looking, stage
 from .twins import twin_problems
 from .winds import check_wind, wind_problems
 

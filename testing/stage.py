@@ -1,7 +1,9 @@
-"""A GL context without a window, and a framebuffer to draw pictures into, small enough for tests."""
+"""What tests draw with: a camera, a GL context without a window, and a framebuffer small enough for them."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from math import radians
+from reprlib import repr as shortened
 
 import moderngl
 import numpy as np
@@ -11,10 +13,24 @@ from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ..engine.gl.headless import standalone_context
 from ..engine.gl.stream import release_all
 from ..systems.prairie import Prairie
-from .looking import must_be_camera
 
 Picture = NDArray[np.float64]
 Matrix = NDArray[np.float32]
+
+
+def looking(x: float, y: float, z: float, *, yaw: float = 0.0, pitch: float = 0.0, view: float = 45.0) -> Camera:
+    """Return a camera at a place [m], y counted from 0 and not from the ground.
+
+    `yaw`, `pitch` and the vertical angle of `view` are in degrees: yaw 0 looks down -z and a positive one turns right;
+    a positive pitch looks up.
+    """
+    return Camera((x, y, z), radians(yaw), radians(pitch), radians(view))
+
+
+def must_be_camera(thing: object, /) -> None:
+    """Raise TypeError for what is no camera."""
+    if not isinstance(thing, Camera):
+        raise TypeError(f"a camera is made by looking(x, y, z), unlike {shortened(thing)}")
 
 
 @contextmanager

@@ -1,22 +1,26 @@
-"""From a scene's values to its `Scene`, or to every problem they have."""
+"""From a scene's values, or others for a part of it, to its `Scene`, or to every problem they have."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeGuard, get_origin
+from typing import Any, TypeGuard, TypeVar, get_origin
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from ...components.declaration import DeclarationError
 from ...components.field import Field, declared, inside
 from ...components.wind import WindPrimitive
-from ...components.words import found, sentence
+from ...components.words import found, sentence, told
+from ..declared.grass import GrassKind
 from ..declared.scene import FORMAT, Reading, Scene
 from ..plugins import wind_kinds
 from .document import Document, Node, Where
 from .problem import MOST_PROBLEMS, Problem, SceneError
+from .values import values_document
 from .version import FIRST, upgrade
+
+Part = TypeVar("Part", bound=BaseModel)
 
 
 def validate(document: Document, /, *, folder: Path | None = None, also: Iterable[Problem] = ()) -> Scene:
@@ -101,3 +105,29 @@ def _kind(node: Node) -> type[WindPrimitive]:
         return wind_kinds().find(kind) if isinstance(kind, str) else WindPrimitive
     except ValueError:
         return WindPrimitive
+
+
+def changed(part: Part, values: Mapping[str, object], /, *, name: str) -> Part:
+    """Return a part of a scene, called `name`, with other values.
+
+    Raises ValueError with a sentence for each that cannot be.
+    """
+    try:
+        return type(part).model_validate(part.model_dump() | dict(values))
+    except ValidationError as error:
+        raise ValueError(told(error, type(part), name)) from error
+
+
+def changed_kind(scene: Scene, name: str, values: Mapping[str, object], /) -> GrassKind:
+    """Return a kind of a scene's grass with other values; those of its `head` join those that it has.
+
+    Raises SceneError with a sentence for each that cannot be, by the path of its key.
+    """
+    kind = scene.grass[name]
+    said = {key: getattr(kind, key) for key in GrassKind.model_fields if key in kind.model_fields_set}
+    head = values.get("head")
+    if isinstance(head, Mapping) and kind.head is not None:
+        said["head"] = {key: getattr(kind.head, key) for key in kind.head.model_fields_set} | dict(head)
+        values = {key: value for key, value in values.items() if key != "head"}
+    whole = {"tallgrass": scene.tallgrass, "grass": {name: said | dict(values)}, "quality": scene.quality}
+    return validate(values_document(whole)).grass[name]

@@ -6,8 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...engine.gl.records import Records
-from ...engine.gl.stream import Stream, release_all
+from ...engine.gl.stream import Records, Stream, release_all
 from .bark import RUNS, SENT, ranges_of, sent
 from .lies import Lies
 from .model import Model

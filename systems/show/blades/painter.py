@@ -12,11 +12,9 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Floats
 from ....engine.declared.quality import Quality
-from ....engine.gl.records import Records
-from ....engine.gl.remembered import Remembered
+from ....engine.gl.remembered import Remembered, Shelves
 from ....engine.gl.shaders import Texts, tell
-from ....engine.gl.shelf import Shelves
-from ....engine.gl.stream import Stream, release_all
+from ....engine.gl.stream import Records, Stream, release_all
 from ...around.appearance import handed_over
 from ...around.outlook import Outlook
 from ...frame.block import room_for

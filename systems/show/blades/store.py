@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 
 from ....engine.gl.emit import emitted, looked_up
 from ....engine.gl.mipmaps import at_once
-from ....engine.gl.records import Records
-from ....engine.gl.stream import release_all
+from ....engine.gl.stream import Records, release_all
 from ..strips.stock import StripStock
 from .organs import organ_defines
 from .plant import BladeStock

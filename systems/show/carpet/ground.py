@@ -11,8 +11,8 @@ from ....components.viewer import Viewer
 from ....engine.gl.functions import NUMBERS, functions_of
 from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.rasteriser import anisotropy
+from ....engine.gl.remembered import Shelves
 from ....engine.gl.shaders import Texts
-from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import release_all
 from ...frame.block import EVERYWHERE, FrameBlock, joined
 from .layer import (

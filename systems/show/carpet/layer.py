@@ -4,8 +4,8 @@ from collections.abc import Callable, Mapping
 
 import moderngl
 
+from ....engine.gl.remembered import Shelves
 from ....engine.gl.shaders import Texts, tell
-from ....engine.gl.shelf import Shelves
 from ....engine.gl.stream import Stream, release_all
 from .pieces import ByLayer
 from .tiles import ORDERS, TILE

@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 from ....engine.declared.quality import StripRing
 from ....engine.gl.emit import emitted, looked_up
 from ....engine.gl.mipmaps import at_once
-from ....engine.gl.records import Records
+from ....engine.gl.remembered import Shelves
 from ....engine.gl.shaders import Texts, tell, tell_all
-from ....engine.gl.shelf import Shelves
-from ....engine.gl.stream import release_all
+from ....engine.gl.stream import Records, release_all
 from ...frame.block import filled, joined, room_for
 from ...grow.organs import any_heads
 from ...grow.record import Form

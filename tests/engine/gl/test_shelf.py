@@ -2,8 +2,7 @@
 
 import pytest
 
-from tallgrass.engine.gl.remembered import MOST_VIEWERS
-from tallgrass.engine.gl.shelf import Shelves
+from tallgrass.engine.gl.remembered import MOST_VIEWERS, Shelves
 
 
 class Viewer:

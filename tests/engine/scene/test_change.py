@@ -3,7 +3,7 @@
 import pytest
 
 from tallgrass.engine.declared.light import Light
-from tallgrass.engine.scene.change import changed
+from tallgrass.engine.scene.validate import changed
 
 
 def test_what_is_not_named_stays() -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix, view_of
 from tallgrass.engine.gl import emit
-from tallgrass.engine.gl.records import Records
+from tallgrass.engine.gl.stream import Records
 from tallgrass.systems.features import UNITS
 from tallgrass.systems.frame.block import BODY, FRAME, KIND, FrameBlock, aim, by_kind, rays
 from tallgrass.systems.show.blades.draw import MESSAGE, BladePainter
