@@ -2,7 +2,7 @@
 
 from ..engine.scene.read import read_scene
 from ..systems.prairie import Prairie
-from .display import need_display
+from .display import need_display, suited_preset
 from .grow import grow_ahead
 from .studio.errors import needed
 from .studio.progress import busy
@@ -29,7 +29,6 @@ def walk_in(
     need_display()
     import moderngl
 
-    from .suited import suited_preset
     from .window import Walk, open_window
 
     kind = Walk

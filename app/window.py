@@ -17,7 +17,7 @@ from ..engine.scene import SceneError
 from ..systems.overlay.layers import LAYERS, Layer
 from ..systems.overlay.overlay import Overlay
 from ..systems.prairie import Prairie
-from .display import no_window
+from .display import no_window, suited_rate
 from .overlay import HELP, Note, statistics_lines
 from .saucer import Flight
 from .studio.encode import picture_writer
@@ -26,7 +26,6 @@ from .studio.offscreen import Offscreen
 from .studio.studio import about, written
 from .studio.take import Take
 from .studio.walker import Ground, Move, moved, settled, start, toggled, turned
-from .suited import suited_rate
 from .watch import Watch
 from .weather import Raised, Weather
 

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
+from ...systems.light.color import luminance
 from ...systems.reference import Truth
 
 Picture = NDArray[np.uint8]
@@ -33,7 +34,7 @@ def tile_side(lines: int, /) -> int:
 
 def luma(picture: NDArray[np.generic], /) -> Doubles:
     """Return the luma of sRGB colours (..., 3), in display space and steps of 255, shape (...)."""
-    return np.asarray(picture.astype(np.float64) @ np.array([0.2126, 0.7152, 0.0722]))
+    return luminance(picture.astype(np.float64))
 
 
 def tiled(values: NDArray[np.generic], side: int, /) -> NDArray[np.generic]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ...engine.camera import View, view_of
 from ...engine.declared.quality import Quality
+from ...systems.light.color import luminance
 from ...systems.reference import (
     EveryBlade,
     Truth,
@@ -24,7 +25,7 @@ from ..studio.progress import Course, course
 from ..studio.studio import Studio, about
 from ..studio.take import SAMPLES, Take
 from .contrast import contrast
-from .flip import MOMENT, evaluator, flip, hue_between, luminance, mean_light
+from .flip import MOMENT, evaluator, flip, hue_between, mean_light
 from .machine import head
 from .many import Survey
 from .multisampled import Multisampled

@@ -6,10 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Mask
+from ...systems.light.color import luminance
 from ...systems.reference import Truth
 from ..studio.encode import Picture
 from .contrast import luma, relative_contrast, tile_side, tiled
-from .flip import flip_map, hue_between, luminance, mean_light
+from .flip import flip_map, hue_between, mean_light
 
 LEAST = 0.3
 """Part of a tile that trees cover at least, so that it is one of theirs."""
@@ -53,7 +54,7 @@ def trees_told(picture: Picture, truth: Truth, behind: Behind, /) -> dict[str, o
     return {
         "tiles": int(own.sum()),
         "flip": round(float(flip_map(picture, truth.picture)[inside].mean()), 4),
-        "luminance_ratio": round(luminance(drawn) / luminance(true), 4),
+        "luminance_ratio": round(float(luminance(drawn) / luminance(true)), 4),
         "hue_degrees": round(hue_between(drawn, true), 2),
         "contrast": round(float(np.median(grains)), 4) if grains.size else None,
         "roughness_ratio": round(rough[0] / rough[1], 4) if rough[0] is not None and rough[1] else None,

@@ -124,6 +124,12 @@ class Functions:
         setattr(self, name, found)
         return found
 
+    def number(self, name: str, /) -> int:
+        """Return one of the numbers of GL's state, by its name in `NUMBERS`."""
+        found = (c_int * 1)()
+        self.glGetIntegerv(NUMBERS[name], found)
+        return found[0]
+
     def living(self, sort: str, number: int, /) -> int:
         """Return an object's number, 0 where it is there no more: to bind it again would be an error."""
         return number if number and getattr(self, f"glIs{sort}")(number) else 0

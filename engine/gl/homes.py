@@ -40,7 +40,7 @@ class Home(Generic[Thing]):
         self._gl, self.thing = gl, thing
         self.place = None if thing.ctx.screen is None else pyglet_context()
         self.handle, self._token = current_handle(), next(_tokens)
-        self._mark, bound = (c_int * 1)(), self._bound()
+        self._mark, bound = (c_int * 1)(), gl.number("VERTEX_ARRAY_BINDING")
         gl.glGenVertexArrays(1, self._mark)
         gl.glBindVertexArray(*self._mark)
         gl.glVertexAttribDivisor(0, self._token)
@@ -51,7 +51,7 @@ class Home(Generic[Thing]):
         gl, found = self._gl, (c_int * 1)()
         if not current_handle() or not gl.glIsVertexArray(*self._mark):
             return False
-        bound = self._bound()
+        bound = gl.number("VERTEX_ARRAY_BINDING")
         gl.glBindVertexArray(*self._mark)
         gl.glGetVertexAttribiv(0, NUMBERS["VERTEX_ATTRIB_ARRAY_DIVISOR"], found)
         gl.glBindVertexArray(bound)
@@ -79,11 +79,6 @@ class Home(Generic[Thing]):
         self.thing.release()
         if self.is_here():
             self._gl.glDeleteVertexArrays(1, self._mark)
-
-    def _bound(self) -> int:
-        found = (c_int * 1)()
-        self._gl.glGetIntegerv(NUMBERS["VERTEX_ARRAY_BINDING"], found)
-        return found[0]
 
 
 class Homes(Generic[Thing]):

@@ -159,7 +159,9 @@ class State:
         for _, number, address, _ in WORDS.values:
             gl.glGetIntegerv(number, address)
         self._value: dict[str, list[int]] = {name: found[:] for name, _, _, found in WORDS.values}
-        self._clip = _numbers(gl, "CLIP_ORIGIN", "CLIP_DEPTH_MODE") if limits.clipped else AS_EVER
+        self._clip = AS_EVER
+        if limits.clipped:
+            self._clip = gl.number("CLIP_ORIGIN"), gl.number("CLIP_DEPTH_MODE")
         self._feedback = _feedback(gl)
         self._outputs = Outputs(gl, self.framebuffer, blends="BLEND" in self._on)
         self._viewports = Viewports(gl, limits.viewports)
@@ -294,14 +296,6 @@ class State:
         gl.glBindRenderbuffer(NUMBERS["RENDERBUFFER"], gl.living("Renderbuffer", *value["RENDERBUFFER_BINDING"]))
         self._units.restore()
         gl.glActiveTexture(*value["ACTIVE_TEXTURE"])
-
-
-def _numbers(gl: Functions, *names: str) -> tuple[int, ...]:
-    """Return one number of each name."""
-    found = (c_int * len(names))()
-    for place, name in enumerate(names):
-        gl.glGetIntegerv(NUMBERS[name], addressof(found) + 4 * place)
-    return tuple(found)
 
 
 def _feedback(gl: Functions) -> tuple[int, int, int]:

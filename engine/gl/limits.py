@@ -58,13 +58,13 @@ def limits_of(gl: Functions) -> Limits:
     return Limits(
         version=version,
         renderer=_told(gl.glGetString(NUMBERS["RENDERER"])),
-        layers=_number(gl, "MAX_ARRAY_TEXTURE_LAYERS"),
-        bindings=_number(gl, "MAX_UNIFORM_BUFFER_BINDINGS"),
-        side=_number(gl, "MAX_TEXTURE_SIZE"),
+        layers=gl.number("MAX_ARRAY_TEXTURE_LAYERS"),
+        bindings=gl.number("MAX_UNIFORM_BUFFER_BINDINGS"),
+        side=gl.number("MAX_TEXTURE_SIZE"),
         timed=bits[0] > 0,
         clipped=version >= (4, 5) or "GL_ARB_clip_control" in extensions,
         beside=next((by for by in ("KHR", "ARB") if f"GL_{by}_parallel_shader_compile" in extensions), ""),
-        viewports=_number(gl, "MAX_VIEWPORTS") if several else 1,
+        viewports=gl.number("MAX_VIEWPORTS") if several else 1,
     )
 
 
@@ -76,15 +76,9 @@ def version_of(gl: Functions, /) -> tuple[tuple[int, int], bool]:
 
 
 def _extensions(gl: Functions) -> frozenset[str]:
-    numbers = range(_number(gl, "NUM_EXTENSIONS"))
+    numbers = range(gl.number("NUM_EXTENSIONS"))
     return frozenset(_told(gl.glGetStringi(NUMBERS["EXTENSIONS"], number)) for number in numbers)
 
 
 def _told(text: bytes | None) -> str:
     return (text or b"").decode("utf-8", "replace")
-
-
-def _number(gl: Functions, name: str) -> int:
-    found = (c_int * 1)()
-    gl.glGetIntegerv(NUMBERS[name], found)
-    return found[0]

@@ -51,9 +51,7 @@ def is_of_another_sort(gl: Functions, /) -> bool:
     """Return whether the first colours of a host's framebuffer are a texture that could not be bound just now as 2D."""
     if _asked(gl, "COLOR_ATTACHMENT0", "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE") != NUMBERS["TEXTURE"]:
         return False
-    bound = (c_int * 1)()
-    gl.glGetIntegerv(NUMBERS["TEXTURE_BINDING_2D"], bound)
-    return bound[0] != _asked(gl, "COLOR_ATTACHMENT0", "FRAMEBUFFER_ATTACHMENT_OBJECT_NAME")
+    return gl.number("TEXTURE_BINDING_2D") != _asked(gl, "COLOR_ATTACHMENT0", "FRAMEBUFFER_ATTACHMENT_OBJECT_NAME")
 
 
 def _drawn(gl: Functions) -> list[int]:

@@ -3,7 +3,7 @@
 import logging
 from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from ctypes import c_float, c_int
+from ctypes import c_float
 from dataclasses import dataclass
 
 import moderngl
@@ -197,9 +197,9 @@ class Smaller:
         return obstacle is not None
 
     def _obstacle(self, host: moderngl.Framebuffer) -> str | None:
-        if self._number("SAMPLES"):
+        if self._gl.number("SAMPLES"):
             return "several samples a pixel"
-        if host.glo and self._number("DRAW_BUFFER0") == NUMBERS["NONE"]:
+        if host.glo and self._gl.number("DRAW_BUFFER0") == NUMBERS["NONE"]:
             return "no colour"
         return None if has_depth(self._gl, host.glo) else "no depth"
 
@@ -222,8 +222,3 @@ class Smaller:
                 for each in self._programs.values():
                     if name in each:
                         each[name] = value
-
-    def _number(self, name: str) -> int:
-        found = (c_int * 1)()
-        self._gl.glGetIntegerv(NUMBERS[name], found)
-        return found[0]

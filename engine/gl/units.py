@@ -39,7 +39,7 @@ class Units:
     def __init__(self, gl: Functions, scratch: int) -> None:
         self._gl, self._scratch = gl, scratch
         self._activate(scratch)
-        self._textures = {target: self._number(name) for target, name in LOADED.items()}
+        self._textures = {target: self._gl.number(name) for target, name in LOADED.items()}
         self._samplers = self._bound()
         self._borrowed: dict[int, tuple[int, int]] = {}
 
@@ -47,7 +47,7 @@ class Units:
         """Bind a 2D texture to a unit that the host has something else on, until all is brought back."""
         self._activate(unit)
         if unit not in self._borrowed:
-            self._borrowed[unit] = self._number("TEXTURE_BINDING_2D"), self._number("SAMPLER_BINDING")
+            self._borrowed[unit] = self._gl.number("TEXTURE_BINDING_2D"), self._gl.number("SAMPLER_BINDING")
         self._gl.glBindTexture(NUMBERS["TEXTURE_2D"], texture)
 
     def clear(self) -> None:
@@ -77,7 +77,3 @@ class Units:
 
     def _activate(self, unit: int) -> None:
         self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + unit)
-
-    def _number(self, name: str) -> int:
-        self._gl.glGetIntegerv(NUMBERS[name], _FOUND_AT)
-        return _FOUND[0]

@@ -128,15 +128,21 @@ def _below_crowns(density: Density, result: Floats, place: Floats) -> Floats:
     return result if left is None else result * left
 
 
-def _on_open_ground(density: Density, place: Floats) -> Floats:
+def _on_open_ground(density: Density, place: Floats, kind: NDArray[np.intp] | None = None) -> Floats:
+    """Return the densities of all kinds (kinds, n), or of a kind each (n,), wherever trees stand."""
     if not density.sown.any:
-        return natural_at(density, place)
-    on = _sown_on(density, place)
-    result, rest = np.empty((len(density.maps), len(place)), np.float32), np.ones(len(place), np.bool_)
+        return _limited(density, _painted(density, place, kind), place, kind)
+    on, rest = _sown_on(density, place), np.ones(len(place), np.bool_)
     rest[on.which] = False
-    result[:, on.which] = density.sown.between(on).T * _WHOLE
-    result[:, rest] = painted_at(density, place[rest])
-    return _limited(density, result, place)
+    sown, open_ = (None, None) if kind is None else (kind[on.which], kind[rest])
+    result = np.empty((len(density.maps), len(place)) if kind is None else len(place), np.float32)
+    result[..., on.which] = density.sown.between(on, sown).T * _WHOLE
+    result[..., rest] = _painted(density, place[rest], open_)
+    return _limited(density, result, place, kind)
+
+
+def _painted(density: Density, place: Floats, kind: NDArray[np.intp] | None) -> Floats:
+    return painted_at(density, place) if kind is None else _own_painted_at(density, place, kind)
 
 
 def density_on_lines(density: Density, x: Floats, z: Floats, /) -> Floats:
@@ -225,21 +231,10 @@ def own_density_at(density: Density, kind: NDArray[np.intp], place: Floats, /) -
 
     It is what `density_at` says of that kind, and takes no longer where kinds are many.
     """
-    return _below_crowns(density, _own_on_open_ground(density, kind, place), place)
+    return _below_crowns(density, _on_open_ground(density, place, kind), place)
 
 
-def _own_on_open_ground(density: Density, kind: NDArray[np.intp], place: Floats) -> Floats:
-    if not density.sown.any:
-        return _limited(density, _own_painted_at(density, kind, place), place, kind)
-    on = _sown_on(density, place)
-    result, rest = np.empty(len(place), np.float32), np.ones(len(place), np.bool_)
-    rest[on.which] = False
-    result[on.which] = density.sown.between(on, kind[on.which]) * _WHOLE
-    result[rest] = _own_painted_at(density, kind[rest], place[rest])
-    return _limited(density, result, place, kind)
-
-
-def _own_painted_at(density: Density, kind: NDArray[np.intp], place: Floats) -> Floats:
+def _own_painted_at(density: Density, place: Floats, kind: NDArray[np.intp]) -> Floats:
     if density.even is not None:
         return density.even[kind]
     flat, each = density.maps.reshape(-1), density.maps[0].size

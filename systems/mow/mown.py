@@ -39,13 +39,13 @@ class Mown:
         is not finite.
         """
         _check("cut", area, height, pose)
-        self._stroke(area, pose, partial(_lowered, height=np.float32(height)))
+        self._stroke(area, pose, partial(_limited, limit=np.minimum, height=np.float32(height)))
 
     def grow(self, area: Area, height: float, pose: Pose) -> None:
         """Let what was cut under a footprint or a road stand up to `height` [m] again; raises the errors of `cut`."""
         _check("grown", area, height, pose)
         if self.plots.any:
-            self._stroke(area, pose, partial(_raised, height=np.float32(height)))
+            self._stroke(area, pose, partial(_limited, limit=np.maximum, height=np.float32(height)))
 
     def tops(self, cells: NDArray[np.int32], *, patch: float) -> Floats:
         """Return up to which height the highest grass is left on patches of a side [m], shape (n,).
@@ -118,12 +118,8 @@ def _uncut(part: Part) -> Floats:
     return np.full((part.rows, part.columns), np.inf, np.float32)
 
 
-def _lowered(before: Floats, away: Floats, *, height: np.float32) -> Floats:
-    return np.where(away <= 0.0, np.minimum(before, height), before)
-
-
-def _raised(before: Floats, away: Floats, *, height: np.float32) -> Floats:
-    return np.where(away <= 0.0, np.maximum(before, height), before)
+def _limited(before: Floats, away: Floats, *, limit: np.ufunc, height: np.float32) -> Floats:
+    return np.where(away <= 0.0, limit(before, height), before)
 
 
 def _check(done: str, area: object, height: object, pose: object) -> None:
