@@ -82,14 +82,10 @@ def _made_from(loaded: LoadedScene, take: Take) -> dict[str, object]:
         "numpy": np.__version__,
         "scene": loaded.file.name,
         "seed": loaded.scene.seed,
-        "files": {name: _hash(path) for name, path in loaded.paths.items()},
+        "files": {name: sha256(path.read_bytes()).hexdigest() for name, path in loaded.paths.items()},
         "size": list(take.size),
         "quality": loaded.scene.numbers(take.preset).model_dump(mode="json"),
         "lod": take.lod,
         "reference": take.reference,
         "overlay": sorted(take.overlay),
     }
-
-
-def _hash(path: Path) -> str:
-    return sha256(path.read_bytes()).hexdigest()

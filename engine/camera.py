@@ -127,19 +127,19 @@ def view_matrix(camera: Camera, /) -> Floats:
     return matrix.astype(np.float32)
 
 
-def projection_matrix(view_angle: float, aspect: float, near: float = NEAR, far: float = FAR, /) -> Floats:
+def projection_matrix(view_angle: float, aspect: float, /) -> Floats:
     """Return the perspective matrix from the eye to clip space, shape (4, 4), for column vectors.
 
-    `view_angle` is the vertical angle of view [rad], `aspect` the image's width over its height, `near` and `far` are
-    distances along the view [m]. Depth follows OpenGL: -1 on the near plane, 1 on the far one.
+    `view_angle` is the vertical angle of view [rad], `aspect` the image's width over its height. Depth follows OpenGL:
+    -1 at `NEAR`, 1 at `FAR`.
     """
     scale = 1.0 / math.tan(view_angle / 2.0)
-    depth = far - near
+    depth = FAR - NEAR
     return np.array(
         [
             [scale / aspect, 0.0, 0.0, 0.0],
             [0.0, scale, 0.0, 0.0],
-            [0.0, 0.0, -(far + near) / depth, -2.0 * far * near / depth],
+            [0.0, 0.0, -(FAR + NEAR) / depth, -2.0 * FAR * NEAR / depth],
             [0.0, 0.0, -1.0, 0.0],
         ],
         np.float32,

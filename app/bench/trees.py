@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...components.arrays import Mask
 from ...systems.light.color import luminance
@@ -67,9 +66,5 @@ def _roughness(picture: Picture, behind: Behind) -> float | None:
     if (apart > 0.0).sum() < SMALL:
         return None
     covers = apart > 0.5 * np.percentile(apart[apart > 0.0], COVERED)
-    return _length(covers) / float(np.sqrt(max(covers.sum(), 1)))
-
-
-def _length(covers: NDArray[np.bool_]) -> float:
-    """Return how many sides of pixels are between what is covered (height, width) and what is not."""
-    return float(sum((np.diff(covers.astype(np.int8), axis=axis) != 0).sum() for axis in (0, 1)))
+    sides = sum((np.diff(covers.astype(np.int8), axis=axis) != 0).sum() for axis in (0, 1))
+    return float(sides) / float(np.sqrt(max(covers.sum(), 1)))

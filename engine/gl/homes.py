@@ -109,7 +109,9 @@ class Homes(Generic[Thing]):
 
     def check(self) -> None:
         """Raise RuntimeError where the pyglet window that something was drawn in is closed, and no other is there."""
-        if any(is_lost(home.place) for home in self._homes) and not has_windows() and _is_nowhere(pyglet_context()):
+        context = pyglet_context()
+        is_nowhere = not has_windows() and (context is None or is_hidden(context))
+        if is_nowhere and any(is_lost(home.place) for home in self._homes):
             raise RuntimeError("there is no window any more: create another one before the prairie is drawn again")
 
     def release(self) -> None:
@@ -122,8 +124,3 @@ class Homes(Generic[Thing]):
         self._homes.clear()
         last = list(dict.fromkeys(home.handle for home in reversed(_left)))[:MOST_LEFT]
         _left[:] = [home for home in _left if home.handle in last]
-
-
-def _is_nowhere(context: object) -> bool:
-    """Return whether a pyglet context is none, or that of the hidden window."""
-    return context is None or is_hidden(context)

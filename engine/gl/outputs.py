@@ -23,7 +23,7 @@ class Outputs:
         blend, self._blends = NUMBERS["BLEND"], blends
         self._unlike = [output for output in OTHERS if bool(gl.glIsEnabledi(blend, output)) != blends]
         self._drawn = _drawn(gl) if framebuffer else None
-        several = self._drawn is not None and (any(self._drawn[1:]) or _has_second(gl))
+        several = self._drawn is not None and (any(self._drawn[1:]) or _attached(gl, "COLOR_ATTACHMENT1"))
         self._masks = {output: _mask(gl, output) for output in OTHERS} if several else {}
 
     def narrow(self) -> None:
@@ -61,11 +61,6 @@ def _drawn(gl: Functions) -> list[int]:
     for output in range(COUNT):
         gl.glGetIntegerv(first + output, start + 4 * output)
     return found[:]
-
-
-def _has_second(gl: Functions) -> bool:
-    """Return whether there is an attachment beside the first, drawn or not."""
-    return _attached(gl, "COLOR_ATTACHMENT1")
 
 
 def _attached(gl: Functions, name: str) -> bool:

@@ -41,7 +41,7 @@ def clear(density: Density, area: Area, pose: Pose, /, *, soft: float) -> None:
     """Let nothing grow under an area, and over `soft` [m] beside it ever more of what does; raises what `sow` does."""
     must_be_area(area, pose, "cleared")
     _must_be_number(soft, "a verge is", SOFTEST, " m wide")
-    _stroke(density, area, pose, _cleared, soft, np.zeros((1, 1, len(density.maps)), np.uint8))
+    _stroke(density, area, pose, np.zeros_like, soft, np.zeros((1, 1, len(density.maps)), np.uint8))
 
 
 def wear(density: Density, area: Area, pose: Pose, part: float, /) -> None:
@@ -112,10 +112,6 @@ def _sown(before: Floats, *, kind: int, dense: float, apart: Mask) -> Floats:
 
 def _worn(before: Floats, *, part: np.float32) -> Floats:
     return np.asarray(np.maximum(np.minimum(before - before * part, before - 1.0), 0.0), np.float32)
-
-
-def _cleared(before: Floats) -> Floats:
-    return np.zeros_like(before)
 
 
 def _painted(density: Density, part: Part) -> Values:

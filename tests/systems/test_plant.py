@@ -21,8 +21,7 @@ from tallgrass.systems.show.blades.plant import (
 from tallgrass.systems.show.blades.pool import BLADE, BladePool
 from tallgrass.systems.show.strips.grow import strips_of, targets_on
 from tallgrass.systems.show.strips.plant import growing_on, plant_strips
-from tallgrass.systems.show.strips.pool import StripPool
-from tallgrass.systems.show.strips.stand import falls, strip_edges
+from tallgrass.systems.show.strips.pool import StripPool, falls, strip_edges
 from tallgrass.systems.show.strips.stock import stock_strips
 from tallgrass.systems.space.ground import Ground, turned
 

@@ -6,8 +6,8 @@ from numpy.typing import NDArray
 from ....components.arrays import Floats
 from ...around.outlook import Outlook
 from ..strips.gather import lies_ahead
+from ..strips.pool import falls
 from ..strips.representation import StripRepresentation
-from ..strips.stand import falls
 from .gather import Numbers, far_first
 from .pool import BladePool
 from .shown import Standing

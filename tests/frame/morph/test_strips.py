@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from tallgrass.components.arrays import Doubles
 from tallgrass.systems.grow.bend import bending
 from tallgrass.systems.light.draw import LightPart
+from tallgrass.systems.show.strips.pool import falls
 from tallgrass.systems.show.strips.shown import StripsShown
-from tallgrass.systems.show.strips.stand import falls
 
 FILTERED = 0.02
 """What places may differ by where cards filter heights: by 256 steps between two texels [m]."""

@@ -8,8 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.systems.grow.record import Growth
-from tallgrass.systems.show.strips.pool import StripPool
-from tallgrass.systems.show.strips.stand import falls
+from tallgrass.systems.show.strips.pool import StripPool, falls
 from tallgrass.systems.show.strips.stock import stock_strips
 from tallgrass.systems.site import Site
 
