@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...components.arrays import Floats, Mask
+from ...components.arrays import Floats
 from ...components.footprint import Footprint, Road
 from ...components.pose import Pose
 from ...engine.handed import SOMEWHERE, is_somewhere
@@ -62,11 +62,6 @@ def beside(area: Area, pose: Pose, place: Floats, /, *, least: float = 0.0, near
     half = np.float32(area.length / 2)
     off = np.hypot(own[:, 0], own[:, 1] - np.clip(own[:, 1], -half, half))
     return np.asarray(off - np.float32(max(area.radius, least)), np.float32)
-
-
-def inside(area: Area, pose: Pose, place: Floats, /, *, least: float = 0.0) -> Mask:
-    """Return which ground positions (n, 2) [m] lie under an area, shape (n,), a round one as wide as `least` [m]."""
-    return np.asarray(beside(area, pose, place, least=least) <= 0.0)
 
 
 def stroke(

@@ -241,40 +241,36 @@ class Memory:
         """The trail of a scene's own pressers and that of a game's, and how long a mark is remembered [s]."""
         self._kept: list[Listed] = []
         self._telling: Telling | None = None
-        self._settled, self._since = NOTHING, 0.0
+        self._settled, self.since = NOTHING, 0.0
+        """What has settled, and when it did last [s]."""
 
     def replace(self, trail: Trail) -> None:
         """Take another trail for that of the scene's own: what the old one has left is as if it had never been."""
         self.trails[0] = trail
         kept = self.kept
         self.trails[1].closed.append(kept[kept[:, SERIAL] >= 0.0])  # they settle again, among those of the other trail
-        self._kept, self._telling, self._since = [], None, -1.0
+        self._kept, self._telling, self.since = [], None, -1.0
 
     @property
     def kept(self) -> Stretches:
         """The stretches that have settled, in the order in which they count."""
         return np.concatenate([NO_STRETCHES, *(piece.stretches for piece in self._kept)])
 
-    @property
-    def since(self) -> float:
-        """When marks settled last [s]."""
-        return self._since
-
     def resume(self, kept: Stretches, since: float) -> None:
         """Remember just these stretches, in this order, which settled last at `since` [s]."""
         all_of_it = Listed(kept, *touched(kept))
-        self._kept, self._telling, self._since = [all_of_it], None, since
+        self._kept, self._telling, self.since = [all_of_it], None, since
         self._settled = all_of_it.marks(since=since) if len(kept) else NOTHING
 
     def at(self, time: float) -> Trodden:
         """Return what has been trodden by `time` [s], to which the trail has come."""
         now = float(floor(time))
-        if now != self._since:
+        if now != self.since:
             self._settle(now)
         self._due(now + 1.0).go_on((time - now) / READY)
         found = np.concatenate([part for trail in self.trails for part in (trail.over(), trail.open)])
-        fresh = Listed.of(found).marks(since=self._since) if len(found) else NOTHING
-        return Trodden(self._settled, fresh, self._since, time)
+        fresh = Listed.of(found).marks(since=self.since) if len(found) else NOTHING
+        return Trodden(self._settled, fresh, self.since, time)
 
     def _due(self, since: float) -> Telling:
         """Return what is kept, told for a second: as far as that has come, if it was begun."""
@@ -284,7 +280,7 @@ class Memory:
         return found
 
     def _settle(self, since: float) -> None:
-        self._since = since
+        self.since = since
         found = []
         for trail in self.trails:
             over = trail.over()

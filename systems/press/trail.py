@@ -78,7 +78,7 @@ class Trail:
     every: float = inf
     """At multiples of this each way begins a new stretch [s]: from there on nothing depends on what was before."""
 
-    _way: Doubles = field(default_factory=lambda: np.zeros(0))
+    way: Doubles = field(default_factory=lambda: np.zeros(0))
     """How far each has come on its stretch [m]."""
 
     def keep(self, before: NDArray[np.intp], after: NDArray[np.intp], discs: Discs, time: float) -> None:
@@ -88,17 +88,12 @@ class Trail:
         if gone.any():
             self.closed.append(self.open[gone])
         opened, way = self._begun(discs, np.arange(len(discs)), time), np.zeros(len(discs))
-        opened[after], way[after] = self.open[before], self._way[before]
-        self.open, self._way = opened, way
+        opened[after], way[after] = self.open[before], self.way[before]
+        self.open, self.way = opened, way
 
     def resume(self, opened: Stretches, way: Doubles, closed: Stretches, begun: int) -> None:
         """Go on from stretches that discs were on, how far each had come, those that are over, and their number."""
-        self.open, self._way, self.closed, self.begun = opened.copy(), way.copy(), [closed], begun
-
-    @property
-    def way(self) -> Doubles:
-        """How far each disc has come on its stretch [m]."""
-        return self._way
+        self.open, self.way, self.closed, self.begun = opened.copy(), way.copy(), [closed], begun
 
     def over(self) -> Stretches:
         """Return the stretches that have been closed, in one array."""
@@ -115,23 +110,23 @@ class Trail:
         stood = moved & ~jumped & (on[:, LEFT] - on[:, CAME] > STAYS)
         stood |= moved & ~jumped & (on[:, LEFT] % self.every == 0.0) & (on[:, BEGUN] < on[:, LEFT])
         self._close(jumped | stood)
-        on[stood, FIRST], on[stood, BEGUN], self._way[stood] = on[stood, LAST], on[stood, LEFT], 0.0
-        past = np.flatnonzero(moved & ~jumped & (self._way + far >= _length(on[:, REACH])))
+        on[stood, FIRST], on[stood, BEGUN], self.way[stood] = on[stood, LAST], on[stood, LEFT], 0.0
+        past = np.flatnonzero(moved & ~jumped & (self.way + far >= _length(on[:, REACH])))
         if len(past):
             self._mark(past, gone[past], far[past], time)
         moved &= ~jumped
         on[moved, LAST], on[moved, CAME] = discs.place[moved], time
         on[moved, HEADING] = gone[moved] / far[moved, None]
-        self._way[moved] += far[moved]
+        self.way[moved] += far[moved]
         on[:, LEFT] = time
         if jumped.any():
             rows = np.flatnonzero(jumped)
-            on[rows], self._way[rows] = self._begun(discs, rows, time), 0.0
+            on[rows], self.way[rows] = self._begun(discs, rows, time), 0.0
 
     def _mark(self, rows: NDArray[np.intp], gone: Doubles, far: Doubles, time: float) -> None:
         """Close the stretches of some discs (n,) on their way of one step (n, 2) [m]; the last ones stay open."""
         on, length = self.open, _length(self.open[rows, REACH])
-        start, since, at = on[rows, LAST], on[rows, LEFT], length - self._way[rows]
+        start, since, at = on[rows, LAST], on[rows, LEFT], length - self.way[rows]
         on[rows, HEADING] = gone / far[:, None]
         left = np.flatnonzero(at <= far)
         while len(left):
@@ -143,7 +138,7 @@ class Trail:
             on[these, FIRST], on[these, BEGUN] = place, then
             at[left] += length[left]
             left = left[at[left] <= far[left]]
-        self._way[rows] = -(at - length)  # `tread` adds the whole of the step
+        self.way[rows] = -(at - length)  # `tread` adds the whole of the step
 
     def _close(self, which: NDArray[np.bool_]) -> None:
         if which.any():
