@@ -1,9 +1,10 @@
 """The parts of a picture: what a game may have by itself, and leave out to draw its own."""
 
 from collections.abc import Iterable
-from difflib import get_close_matches
 from reprlib import repr as shortened
 from typing import Literal, cast
+
+from ...components.words import suggestion
 
 PartName = Literal["sky", "ground", "grass", "beyond"]
 
@@ -24,7 +25,5 @@ def as_parts(names: object, /) -> frozenset[PartName]:
     found = list(names)
     for name in found:
         if name not in PARTS:
-            near = get_close_matches(str(name), PARTS, n=1)
-            guess = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(PARTS)}"
-            raise ValueError(f"no part of a prairie is called {shortened(name)}; {guess}")
+            raise ValueError(f"no part of a prairie is called {shortened(name)}{suggestion(str(name), PARTS)}")
     return frozenset(cast("list[PartName]", found))

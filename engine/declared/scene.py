@@ -1,7 +1,6 @@
 """A whole scene, as a file declares it."""
 
 from collections.abc import Callable
-from difflib import get_close_matches
 from math import isqrt
 from pathlib import Path
 from typing import Annotated, Any, Literal, NotRequired, TypedDict
@@ -20,6 +19,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from ...components.declaration import Declaration, DeclarationError
 from ...components.wind import Mixing, WindPrimitive
+from ...components.words import suggestion
 from ..handed import MOST_SEED, must_be_known
 from .camera import CameraSource
 from .grass import MOST_KINDS, GrassKind
@@ -155,9 +155,8 @@ class Scene(Declaration):
     def _trees_grow_on_its_grass(self) -> "Scene":
         for name, kind in self.trees.items():
             if kind.among is not None and kind.among not in self.grass:
-                near = get_close_matches(kind.among, self.grass, n=1)
-                guess = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(self.grass)}"
-                raise DeclarationError(f"no kind of grass is called '{kind.among}'; {guess}", "trees", name, "among")
+                why = f"no kind of grass is called '{kind.among}'{suggestion(kind.among, self.grass)}"
+                raise DeclarationError(why, "trees", name, "among")
         return self
 
     @model_validator(mode="after")

@@ -1,14 +1,12 @@
 """Trees and bushes: what a scene declares of them."""
 
-from typing import Annotated, Literal, get_args
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
 from ...components.declaration import Color, Declaration, DeclarationError, Pair, rising
 
 HabitName = Literal["oak", "birch", "pine", "poplar", "willow", "hawthorn"]
-
-HABITS: tuple[HabitName, ...] = get_args(HabitName)
 
 LOWEST, HIGHEST = 0.5, 60.0
 """How high a tree may be at least and at most [m]: of the sorts that there are, none grows higher."""

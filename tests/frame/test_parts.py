@@ -222,8 +222,8 @@ def test_the_ground_ends_with_the_terrain_where_nothing_beyond_is_asked_for(
 @pytest.mark.parametrize(
     ("parts", "error", "said"),
     [
-        (("gras",), ValueError, r"no part of a prairie is called 'gras'; did you mean 'grass'\?"),
-        ((3,), ValueError, "no part of a prairie is called 3; there are sky, ground, grass, beyond"),
+        (("gras",), ValueError, r"no part of a prairie is called 'gras', did you mean 'grass'\?"),
+        ((3,), ValueError, "no part of a prairie is called 3; known: beyond, grass, ground, sky"),
         ("grass", TypeError, r"parts are given as a list of names such as \('ground', 'grass'\), unlike 'grass'"),
         (7, TypeError, "parts are given as a list of names"),
     ],

@@ -1,9 +1,10 @@
 """Trees grow as the habit says, from their seed alone (F3)."""
 
+from typing import get_args
+
 import numpy as np
 import pytest
 
-from tallgrass.engine.declared.tree import HABITS as NAMES
 from tallgrass.engine.declared.tree import HabitName
 from tallgrass.systems.trees.crown import leaf_area, shading
 from tallgrass.systems.trees.grow import MOST_TWIGS, PIPE, Tree, grown
@@ -18,7 +19,7 @@ from tallgrass.systems.trees.motion import (
     trunk_hertz,
 )
 
-EVERY = pytest.mark.parametrize("name", NAMES)
+EVERY = pytest.mark.parametrize("name", get_args(HabitName))
 
 
 def tree_of(name: HabitName, seed: int = 3) -> Tree:
