@@ -20,7 +20,7 @@ GROUP = "tallgrass.wind"
 
 log = logging.getLogger("tallgrass")
 
-_KIND = re.compile(r"[a-z][a-z0-9_-]*")
+KIND = re.compile(r"[a-z][a-z0-9_-]*")
 _W = TypeVar("_W", bound=WindPrimitive)
 
 
@@ -98,7 +98,7 @@ class WindKinds:
 
         Raises PluginError when the name is malformed, or is already another class's or a distribution's.
         """
-        if not _KIND.fullmatch(kind):
+        if not KIND.fullmatch(kind):
             raise PluginError(f"a kind is written in lower-case letters, digits, - and _, unlike '{kind}'")
         _must_be_primitive(primitive, f"the class for kind '{kind}'")
         if kind in self._entries:

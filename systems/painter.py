@@ -9,7 +9,7 @@ import moderngl
 from ..engine.camera import View, is_mirrored, light_from
 from ..engine.gl.guest import aside, colourless, depth_ends, guest
 from ..engine.gl.rasteriser import handing_over
-from ..engine.gl.smaller import Smaller
+from ..engine.gl.smaller import OVER, Smaller
 from ..engine.gl.stopwatch import Stopwatch
 from ..engine.gl.stream import release_all
 from .around.asked import Asked
@@ -26,8 +26,6 @@ from .show.representation import RepresentationPainter
 from .site import Site
 from .wind.blow import ReceiverArrays, mean_yaw
 from .winds import Winds
-
-OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 
 WHOLE = Asked()
 

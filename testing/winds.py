@@ -15,6 +15,7 @@ from ..components.arrays import Floats
 from ..components.body import Hover
 from ..components.wind import INTERFACE, Grass, WindPrimitive
 from ..engine.complaint import words_of
+from ..engine.plugins import KIND
 from ..systems.overlay.paint import is_color
 from ..systems.wind.quarantine import SLOW
 from .trial import FailedError, Report, crowd, flight, grass_at, timed, times_of, try_part
@@ -31,7 +32,6 @@ MOST_SEED = 2**32 - 1
 _CROWD = 10_000
 _TRIES = 5
 _TIMES = (0.0, 1 / 60, 0.5, 1.0, 2.7, 5.0, 9.3, 20.0, 61.7, 600.0, 3600.0, 35999.0)
-_KIND = re.compile(r"[a-z][a-z0-9_-]*")
 _RANGES = {
     "priority": (-1000, 1000),
     "weight": (0.0, 1.0),
@@ -112,7 +112,7 @@ def timeline(wind: WindPrimitive, /) -> list[float]:
 
 
 def _values(wind: WindPrimitive, report: Report) -> None:
-    if not isinstance(wind.kind, str) or not _KIND.fullmatch(wind.kind):
+    if not isinstance(wind.kind, str) or not KIND.fullmatch(wind.kind):
         report.add("kind", f"kind is {wind.kind!r}, not lower-case letters, digits, - and _")
     for name, (least, most) in _RANGES.items():
         value = getattr(wind, name)

@@ -6,8 +6,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles
 from ...systems.light.color import luminance
 from ...systems.reference import Truth
-
-Picture = NDArray[np.uint8]
+from ..studio.encode import Picture
 
 TILE, LINES = 40, 720
 """Pixels along a side of a tile, in a picture of so many lines; in others it is as much of the picture."""

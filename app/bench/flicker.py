@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Floats
-
-Picture = NDArray[np.uint8]
+from ..studio.encode import Picture
 
 TILE = 20
 """Pixels along a side of a tile: about as high as a patch that changes from blades to strips, in 360 lines."""

@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 
 from ..figures.page import STYLE, document
 from ..figures.plot import look
-from .plots import PLOTS, Plot, Told, color
+from .plots import PLOTS, Plot, color
+from .sent import Told
 
 TABLE = """\
 table { border-collapse: collapse; font-size: 0.92rem; font-variant-numeric: tabular-nums; }

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,8 +9,7 @@ from matplotlib.figure import Figure
 
 from ..figures.figure import Detail
 from ..figures.plot import FAINT, SERIES, sheet
-
-Told = dict[str, Any]
+from .sent import Told
 
 Row = tuple[str, Sequence[float | None]]
 """What is measured, and its value each time; None where there is none."""

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .flicker import LEAST, MARGIN, TILE, Picture, change_of_tile, low_passed, prominence, step
+from ..studio.encode import Picture
+from .flicker import LEAST, MARGIN, TILE, change_of_tile, low_passed, prominence, step
 from .stroll import Moment
 from .truth import Truth
 

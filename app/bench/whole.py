@@ -4,7 +4,6 @@ import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from time import perf_counter
-from typing import Any
 
 from ... import __version__
 from ...engine.scene import read_scene
@@ -19,9 +18,8 @@ from .machine import tell
 from .picture import measured
 from .pop import LIMITS, pop_measured
 from .scale import scale_measured
+from .sent import Told
 from .walk import walk_measured
-
-Told = dict[str, Any]
 
 Size = tuple[int, int]
 

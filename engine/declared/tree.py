@@ -5,11 +5,9 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from ...components.declaration import Color, Declaration, DeclarationError, Pair, rising
+from ...components.tree import HIGHEST, LOWEST
 
 HabitName = Literal["oak", "birch", "pine", "poplar", "willow", "hawthorn"]
-
-LOWEST, HIGHEST = 0.5, 60.0
-"""How high a tree may be at least and at most [m]: of the sorts that there are, none grows higher."""
 
 MOST = 20_000
 """Trees of a kind in a scene at most."""

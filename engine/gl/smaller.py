@@ -21,6 +21,7 @@ log = logging.getLogger("tallgrass")
 Size = tuple[int, int]
 
 OVER = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+"""How what is drawn lies over what was there: colours come multiplied by their opacity."""
 
 MOST_SIZES = 4
 """Sizes whose buffers are kept: a viewer's last and present one, and another viewer's."""

@@ -6,13 +6,13 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Bytes
 from ...engine.gl.shaders import program
+from ...engine.gl.smaller import OVER
 from ...engine.gl.stream import Stream, attributes, release_all
 from ...engine.gl.units import FIRST_UNIT
 from .marks import LINE, SHAPE, Marks
 
 Matrix = NDArray[np.float32]
 
-OVER = (moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA)
 ALONG = np.array([[0, -1], [1, -1], [0, 1], [1, 1]], np.float32)
 CORNERS = np.array([[0, 0], [1, 0], [0, 1], [1, 1]], np.float32)
 

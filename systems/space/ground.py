@@ -16,6 +16,9 @@ _SIN = np.array([0, 1, 0, -1], np.float32)
 PRESENT = 1.0 / 255.0
 """Density below which a kind is taken not to grow at all."""
 
+STEP, WITHIN = 0.35, 1.0 / 3.0
+"""At an edge in the grass a kind's density changes by so much at least, within this part of a patch's side."""
+
 GLSL = {"PRESENT": PRESENT}
 
 

@@ -20,7 +20,7 @@ from ...components.pose import Pose
 from ...components.wind import Extent, WindPrimitive, WindSource
 from ...engine.complaint import said
 from ...engine.plugins import wind_kinds
-from ...engine.schedule import has_waited
+from ...engine.schedule import PATIENCE, WINDOW, has_waited
 
 Answer = TypeVar("Answer")
 Called = tuple[str, type[WindPrimitive]]
@@ -37,9 +37,6 @@ For more of them it is `SLOW_EACH` for each.
 
 STALLED = 3.0
 """How long no single call may take [s]."""
-
-PATIENCE, WINDOW = 3, 16
-"""How many calls that are slow or wait, of how many of one method, are too many: one may import something."""
 
 WAIT, LONGEST_WAIT = 5.0, 60.0
 """How long a slow wind is left out, on the prairie's clock [s]: at first, and at most; the wait doubles every time."""
@@ -211,7 +208,7 @@ class Quarantine:
             raise self._leave_out_for_now(source, f"{what} waits for {waited:.1f} s at a time")
 
     def _is_often(self, source: WindSource, what: str, meaning: str, *, is_long: bool) -> bool:
-        """Return whether this call takes long, and so did enough of the method's latest ones."""
+        """Return whether this call takes long, and so did enough of the latest ones: one may import something."""
         call = _called(source), what, meaning
         latest = (self._slow.pop(call, 0) << 1 | is_long) & ((1 << WINDOW) - 1)
         if latest:

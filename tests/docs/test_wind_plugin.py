@@ -18,7 +18,8 @@ from PIL import Image
 from tallgrass.components.wind import INTERFACE, WindPrimitive
 from tallgrass.engine.installed import OURS
 from tallgrass.engine.plugins import wind_kinds
-from tallgrass.systems.wind.quarantine import PATIENCE, STALLED, WINDOW
+from tallgrass.engine.schedule import PATIENCE, WINDOW
+from tallgrass.systems.wind.quarantine import STALLED
 from tallgrass.testing.winds import MOST_COST
 
 pytestmark = pytest.mark.packaging

@@ -11,10 +11,11 @@ import pytest
 
 from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass, WindPrimitive, WindSource
+from tallgrass.engine.schedule import PATIENCE
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind import quarantine
-from tallgrass.systems.wind.quarantine import PATIENCE, WAIT
+from tallgrass.systems.wind.quarantine import WAIT
 from tallgrass.testing import LITTLE, little_prairie
 
 Load = Callable[..., Prairie]

@@ -9,15 +9,9 @@ from ....components.arrays import Floats, Mask
 from ....engine.handed import FARTHEST
 from ....engine.terrain.plots import CELLS, SIDE, Plots, Values
 from ...mow.mown import Mown
-from ...space.ground import Ground
+from ...space.ground import STEP, WITHIN, Ground
 from .found import Found
 from .holes import MOST_BLOCKS, Blocks, Holes, Stretches
-
-WITHIN = 1.0 / 3.0
-"""An edge is a step within this part of a patch's side: what is softer the mesh shows well enough."""
-
-STEP_OF_DENSITY = 0.35
-"""By how much a kind's density changes at least where there is an edge."""
 
 STEP_OF_HEIGHT = 0.05
 """By how much the height changes at least that grass is cut to where there is an edge [m]."""
@@ -37,7 +31,7 @@ class Edges:
         self._maps: Values | None = None
         self._painted: Blocks | None = None
         self._holes: Holes | None = None
-        self._sown, self._cut = _OnPlots(STEP_OF_DENSITY * 255.0), _OnPlots(STEP_OF_HEIGHT)
+        self._sown, self._cut = _OnPlots(STEP * 255.0), _OnPlots(STEP_OF_HEIGHT)
 
     def at(self, ground: Ground, mown: Mown | None, tallest: float, stretches: Stretches, /) -> Mask:
         """Return in which stretches of ground there are any, of the shape that they have together.
@@ -64,7 +58,7 @@ def _painted_edges(maps: Values, ground: Ground) -> Blocks | None:
     """Return where any kind's density, as painted (kinds, rows, columns), has edges; None is nowhere."""
     shape, size = np.array(maps.shape[1:]), np.array(ground.terrain.size)[::-1]
     within = ground.patch * WITHIN
-    step = STEP_OF_DENSITY / min(1.0, within * float((shape / size).max()))
+    step = STEP / min(1.0, within * float((shape / size).max()))
     down, across = np.maximum(np.ceil(np.maximum(within * shape / size, shape / MOST_BLOCKS)), 1).astype(int).tolist()
     uneven = [_uneven_blocks(values, down, across, step) for values in maps if np.ptp(values) > step]
     if not any(each.any() for each in uneven):

@@ -9,20 +9,14 @@ from numpy.typing import NDArray
 from ....components.arrays import Floats, Ints, Mask
 from ....engine.terrain.plots import CELL
 from ....engine.terrain.sample import density_on_lines, left_on_lines
-from ...space.ground import PRESENT, Ground
+from ...space.ground import PRESENT, STEP, WITHIN, Ground
 from .pool import StripPool
 
 MOST_PLACES = 13
 """Places along a side of a patch that are asked how densely grass grows there at most."""
 
-STEP_OF_DENSITY = 0.35
-"""By how much a kind's density changes at an edge, where pixels make out themselves how densely it grows."""
-
 SHADE = 1.5
 """Places that are so near to one another are about as shaded by trees [m]."""
-
-WITHIN = 1.0 / 3.0
-"""An edge is a step within this part of a patch's side."""
 
 
 class Growing(NamedTuple):
@@ -77,7 +71,7 @@ def _steps(dense: Floats, within: Floats, spacing: float, patch: float) -> Mask:
     Told is how much that of any changes `within` each, (m,).
     """
     apart = min(max(int(patch * WITHIN / spacing), 1), dense.shape[-1] - 1)
-    step = STEP_OF_DENSITY * max(spacing / (patch * WITHIN), 1.0)
+    step = STEP * max(spacing / (patch * WITHIN), 1.0)
     found, some = np.zeros(len(within), np.bool_), np.flatnonzero(within > step)
     if len(some):
         dense = dense[:, some]

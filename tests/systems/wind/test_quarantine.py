@@ -11,6 +11,7 @@ import pytest
 from tallgrass.components.arrays import Floats
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import Extent, Grass, Mixing, WindPrimitive, WindSource
+from tallgrass.engine.schedule import PATIENCE, WINDOW
 from tallgrass.systems.wind import quarantine as quarantine_module
 from tallgrass.systems.wind.blast import Blast
 from tallgrass.systems.wind.blow import blowing, hear, places_alone
@@ -18,9 +19,7 @@ from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.quarantine import (
     LONGEST_WAIT,
-    PATIENCE,
     WAIT,
-    WINDOW,
     Quarantine,
     QuarantinedError,
 )
