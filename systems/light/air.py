@@ -84,18 +84,6 @@ def sunlight(radius: Doubles, cosine: Doubles, turbidity: float, /) -> Doubles:
     return np.asarray(np.exp(met @ takes * -way[:, None]).reshape(*radius.shape, 3) * lit[..., None])
 
 
-def seen(
-    direction: Doubles, sun: Doubles, turbidity: float, /, *, around: Doubles | None = None, eye: float = EYE
-) -> Doubles:
-    """Return the radiance of the air along directions (n, 3), for sunlight of irradiance 1, shape (n, 3).
-
-    `sun` is the direction to it (3,). `around` is what comes from all sides to `HEIGHTS`, as `from_all_sides`
-    has it; without it light is scattered but once.
-    """
-    apart = direction @ sun
-    return seen_in_rows(direction[:, 1], apart[:, None], float(sun[1]), turbidity, around=around, eye=eye)[:, 0]
-
-
 def seen_in_rows(
     up: Doubles,
     apart: Doubles,
@@ -106,10 +94,12 @@ def seen_in_rows(
     around: Doubles | None = None,
     eye: Doubles | float = EYE,
 ) -> Doubles:
-    """Return what `seen` does of lines of sight in rows, each of one elevation, shape (r, c, 3).
+    """Return the radiance of the air along lines of sight in rows, for sunlight of irradiance 1, shape (r, c, 3).
 
-    `up` (r,) are the sines of the rows' elevations, `high` is that of the sun's, and `apart` (r, c) are the cosines of
-    the angles between the two. All are seen from one radius `eye`, or each row from its own, (r,) [km].
+    Each row is of one elevation. `up` (r,) are the sines of these, `high` is that of the sun's, and `apart` (r, c) are
+    the cosines of the angles between the two. All are seen from one radius `eye`, or each row from its own, (r,) [km].
+    `around` is what comes from all sides to `HEIGHTS`, as `from_all_sides` has it; without it light is scattered but
+    once.
     """
     eye = np.broadcast_to(eye, up.shape)
     ray = _rays(eye.tobytes(), up.tobytes(), turbidity)

@@ -114,19 +114,12 @@ def seen_from(
     return np.asarray(np.sqrt(away * away + up * up))
 
 
-def far_to_near(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int64]:
-    """Return the order that walks cells (n, 2) back to front from anywhere in `centre`, shape (n,).
+def nearness(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int32]:
+    """Return a number of each cell (n, 2) that rises from far to near for whoever is in `centre`, shape (n,).
 
     A ray leaves square rings from the inside out, and within a ring it moves away from the axis; so rings from the
-    outside in, and each from its corners to its axes, never draw a patch over one before it (paper, section 2.2).
-    """
-    return np.argsort(nearness(cell, centre), kind="stable")
-
-
-def nearness(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.int32]:
-    """Return a number of each cell (n, 2) that rises from far to near, in the order of `far_to_near`, shape (n,).
-
-    It is 0 for the viewer's own cell, and for one at the discrete distance d more than -(d + 1) * (d + 1).
+    outside in, and each from its corners to its axes, never draw a patch over one before it (paper, section 2.2). It is
+    0 for the viewer's own cell, and for one at the discrete distance d more than -(d + 1) * (d + 1).
     """
     aside, ahead = cells_apart(cell, centre)
     ring = np.maximum(aside, ahead)

@@ -16,7 +16,7 @@ from tallgrass.systems.cull import Cull
 from tallgrass.systems.show.blades.gather import may_be_seen
 from tallgrass.systems.show.blades.pool import BladePool
 from tallgrass.systems.show.registry import NAMES
-from tallgrass.systems.space.cone import discrete_distance, far_to_near, inside_cone, view_cone
+from tallgrass.systems.space.cone import discrete_distance, inside_cone, nearness, view_cone
 from tallgrass.systems.space.frustum import picture_sides
 
 PATCH = 2.5
@@ -178,7 +178,7 @@ def test_t5_a_ray_meets_patches_in_the_reverse_of_their_drawing_order(
     home = np.array(centre, np.int32)
     cell = AROUND + home
     rank = np.empty(len(cell), np.int64)
-    rank[far_to_near(cell, home)] = np.arange(len(cell))
+    rank[np.argsort(nearness(cell, home), kind="stable")] = np.arange(len(cell))
     place = np.array(start) + np.linspace(0.0, 17.0, 2000)[:, None] * (np.cos(azimuth), np.sin(azimuth))
     met = np.floor(place).astype(int)
     met = met[(np.abs(met) <= 12).all(axis=1)]
@@ -191,7 +191,7 @@ def test_t5_a_ray_meets_patches_in_the_reverse_of_their_drawing_order(
 def test_t5_the_viewers_own_patch_is_drawn_last() -> None:
     home = np.array([3, -4], np.int32)
     cell = AROUND + home
-    order = far_to_near(cell, home)
+    order = np.argsort(nearness(cell, home), kind="stable")
     assert sorted(order.tolist()) == list(range(len(cell)))
     assert (cell[order[-1]] == home).all()
 

@@ -15,7 +15,7 @@ from tallgrass.systems.show.blades.shown import BladesShown, Standing
 from tallgrass.systems.show.strips.pool import StripPool, StripsKept
 from tallgrass.systems.show.strips.shown import StripsOfRing, StripsShown
 from tallgrass.systems.site import Site
-from tallgrass.systems.space.cone import far_to_near
+from tallgrass.systems.space.cone import nearness
 from tallgrass.systems.wind.blow import ReceiverArrays, places_alone
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.grass import grass_of
@@ -88,7 +88,8 @@ def test_t5_every_list_of_patches_goes_from_far_to_near(laid: Laid, look: Look) 
     lists = [shown.rows for _, shown in pooled(outlook)] + [ring.rows for ring in blades(outlook)] + [together]
     for each in lists:
         assert len(each) > 0
-        np.testing.assert_array_equal(far_to_near(cell[each], centre), np.arange(len(each)))
+        order = np.argsort(nearness(cell[each], centre), kind="stable")
+        np.testing.assert_array_equal(order, np.arange(len(each)))
 
 
 def test_t2_only_patches_in_the_view_cone_are_shown(site: Site, look: Look) -> None:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tallgrass.engine.camera import Camera, forward, projection_matrix, view_matrix, view_of
 from tallgrass.engine.declared.light import Light
 from tallgrass.systems.frame.block import rays
-from tallgrass.systems.light.air import EYE, GROUND, from_all_sides, seen, sunlight
+from tallgrass.systems.light.air import EYE, GROUND, from_all_sides, seen_in_rows, sunlight
 from tallgrass.systems.light.billows import SIDE as BLOCK_SIDE
 from tallgrass.systems.light.billows import STEEPEST as STEEPEST_BILLOW
 from tallgrass.systems.light.billows import billow_levels
@@ -81,8 +81,8 @@ def test_from_outside_the_air_all_of_the_sun_is_seen() -> None:
 def test_light_that_is_scattered_again_makes_the_sky_brighter_and_never_endless() -> None:
     sun = np.array([0.0, 0.5, -np.sqrt(0.75)])
     up = np.array([[0.0, 1.0, 0.0], [0.0, 0.05, 1.0]])
-    once = seen(up, sun, 2.6)
-    often = seen(up, sun, 2.6, around=from_all_sides(sun, 2.6))
+    apart = (up @ sun)[:, None]
+    once, often = (seen_in_rows(up[:, 1], apart, 0.5, 2.6, around=each) for each in (None, from_all_sides(sun, 2.6)))
     assert (often > once).all()
     assert (often < 3.0 * once + 0.05).all()
     assert EYE > GROUND
