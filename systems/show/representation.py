@@ -2,7 +2,7 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self
 
 import moderngl
@@ -156,6 +156,7 @@ class RepresentationPainter(Part, ABC):
         return 0
 
 
+@dataclass(frozen=True, slots=True, eq=False)
 class Representation(ABC):
     """One way in which the same grass is kept and drawn (paper, section 2.1).
 
@@ -190,6 +191,9 @@ class Representation(ABC):
 
     record: ClassVar[type | None] = None
     """The dataclass of arrays that its pictures are records of, as they are kept on disk."""
+
+    quality: Quality
+    ground: Ground
 
     @staticmethod
     @abstractmethod
@@ -226,9 +230,9 @@ class Representation(ABC):
         `coming` gives what some kinds are to become, by their numbers.
         """
 
-    @abstractmethod
     def on(self, ground: Ground, /) -> Self:
         """Return it with the same grass, on another ground."""
+        return replace(self, ground=ground)
 
     def defines(self, grown: Grown, /) -> Mapping[str, str | int]:  # noqa: ARG002 - for those with something special
         """Return what all programs are told of what is special about a scene's kinds."""

@@ -1,7 +1,7 @@
 """3D: every blade a ribbon of segments (paper, section 2.1)."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import ClassVar, Self
 
 import numpy as np
@@ -39,8 +39,6 @@ class BladeRepresentation(Representation):
     asked: ClassVar[tuple[str, ...]] = ("blades", "standing", "slices")
 
     stock: BladeStock
-    quality: Quality
-    ground: Ground
 
     @staticmethod
     def reach(quality: Quality, /) -> int:
@@ -52,11 +50,7 @@ class BladeRepresentation(Representation):
         cls, growths: Sequence[Growth], quality: Quality, ground: Ground, coming: Mapping[int, Growth] = NOTHING, /
     ) -> Self:
         """Return it with all kinds' blades, ready to be planted on a ground."""
-        return cls(stock_blades(growths, quality.patch, coming), quality, ground)
-
-    def on(self, ground: Ground, /) -> Self:
-        """Return it with the same blades, on another ground."""
-        return replace(self, ground=ground)
+        return cls(quality, ground, stock_blades(growths, quality.patch, coming))
 
     def defines(self, grown: Grown, /) -> Mapping[str, str | int]:
         """Return which kinds have numbers of segments of their own, and whether any has leaves with teeth, or eyes."""

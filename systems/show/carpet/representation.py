@@ -1,7 +1,7 @@
 """2D: a textured carpet on the terrain (paper, sections 2.1 and 4.3)."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -35,8 +35,6 @@ class CarpetRepresentation(Representation):
     record: ClassVar[type | None] = Carpet
 
     stock: CarpetStock
-    quality: Quality
-    ground: Ground
 
     @staticmethod
     def reach(quality: Quality, /) -> int:
@@ -80,11 +78,7 @@ class CarpetRepresentation(Representation):
         cls, growths: Sequence[Growth], quality: Quality, ground: Ground, coming: Mapping[int, Growth] = NOTHING, /
     ) -> Self:
         """Return it with all kinds' images."""
-        return cls(CarpetStock.of(growths, coming), quality, ground)
-
-    def on(self, ground: Ground, /) -> Self:
-        """Return it with the same images, on another ground."""
-        return replace(self, ground=ground)
+        return cls(quality, ground, CarpetStock.of(growths, coming))
 
     def keep(self, patches: PatchTable, side: int, /) -> CarpetKept:
         """Return a receiver for each patch."""

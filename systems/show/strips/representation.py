@@ -1,7 +1,7 @@
 """2.5D: vertical strips with the blades painted on them (paper, section 2.1)."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -56,8 +56,6 @@ class StripRepresentation(Representation):
     record: ClassVar[type | None] = Strips
 
     stock: StripStock
-    quality: Quality
-    ground: Ground
     growths: Sequence[Growth]
 
     ready: list[Atlas] = field(default_factory=list)
@@ -112,11 +110,7 @@ class StripRepresentation(Representation):
         cls, growths: Sequence[Growth], quality: Quality, ground: Ground, coming: Mapping[int, Growth] = NOTHING, /
     ) -> Self:
         """Return it with all kinds' strips, ready to be planted on a ground."""
-        return cls(stock_strips(growths, coming), quality, ground, growths)
-
-    def on(self, ground: Ground, /) -> Self:
-        """Return it with the same strips, on another ground."""
-        return replace(self, ground=ground)
+        return cls(quality, ground, stock_strips(growths, coming), growths)
 
     def prepare(self) -> None:
         """Make the atlas for the next painter."""
