@@ -25,8 +25,8 @@ from .options import (
     Preset,
     Reference,
     Scene,
+    Scenes,
     Size,
-    bundled,
     camera_of,
     frames_of,
     overlay_of,
@@ -159,11 +159,7 @@ def film(
 
 
 @app.command()
-def check(
-    scenes: Annotated[
-        list[str], typer.Argument(metavar="SCENE...", help="Files or bundled names.", autocompletion=bundled)
-    ],
-) -> int:
+def check(scenes: Scenes) -> int:
     """Validate scenes, and tell every problem of each."""
     from .check import check
 
@@ -171,13 +167,7 @@ def check(
 
 
 @app.command()
-def grow(
-    scenes: Annotated[
-        list[str], typer.Argument(metavar="SCENE...", help="Files or bundled names.", autocompletion=bundled)
-    ],
-    preset: Preset = None,
-    on: On = None,
-) -> None:
+def grow(scenes: Scenes, preset: Preset = None, on: On = None) -> None:
     """Grow the grass of scenes beforehand, so that they open at once."""
     from .grow import grow
 

@@ -27,6 +27,9 @@ Scene = Annotated[
     str,
     typer.Argument(metavar="SCENE", help="A scene file, or the name of a bundled scene.", autocompletion=bundled),
 ]
+Scenes = Annotated[
+    list[str], typer.Argument(metavar="SCENE...", help="Files or bundled names.", autocompletion=bundled)
+]
 Size = Annotated[str, typer.Option(metavar="WxH", help="Width and height in pixels.")]
 Preset = Annotated[PresetName | None, typer.Option(help="Quality, in place of the scene's own.")]
 Reference = Annotated[bool, typer.Option("--reference", help="Draw every blade in 3D, supersampled.")]

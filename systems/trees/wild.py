@@ -35,7 +35,7 @@ class Wild:
     def __init__(self, world: World, forest: Forest, names: list[str], *, live: bool) -> None:
         self._world, self._forest, self._names = world, forest, names
         self._live = live
-        self._hands: ThreadPoolExecutor | None = None
+        self._hands = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")  # without a thread, until it is asked
         self._asked: dict[str, Future[None]] = {}
         self._eyes: dict[str, tuple[int, int]] = {}
         """The square that each viewer is on."""
@@ -123,8 +123,6 @@ class Wild:
 
     def _waits(self, viewer: str, eye: Eye) -> bool:
         """Return whether what a viewer comes to see is still growing; it begins to, where it was not asked for."""
-        if self._hands is None:
-            self._hands = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")
         if viewer not in self._asked:
             self._asked[viewer] = self._hands.submit(self._forest.grow_about, eye)
         if not self._asked[viewer].done():
@@ -177,8 +175,7 @@ class Wild:
 
     def release(self) -> None:
         """Let nothing grow any more."""
-        if self._hands is not None:
-            self._hands.shutdown(wait=False, cancel_futures=True)
+        self._hands.shutdown(wait=False, cancel_futures=True)
 
 
 def seedlings(rows: Rows, names: list[str], /) -> list[Seedling]:
