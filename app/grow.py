@@ -66,9 +66,18 @@ def _grown(seeds: list[Seed], on: str | None) -> Iterator[bytes]:
     if on is None or not seeds:
         yield from (packed_growth(kind, quality, seed=number) for kind, quality, number in seeds)
         return
-    from .farm.growth import grown_on
+    from .farm.hire import hired
 
-    yield from grown_on(on, seeds)
+    with hired(on, most=len(seeds)) as hands:
+        keys = [growth_key(kind, quality, seed=number) for kind, quality, number in seeds]
+        yield from hands.in_order(grown, ((*each, key) for each, key in zip(seeds, keys, strict=True)))
+
+
+def grown(kind: GrassKind, quality: Quality, seed: int, key: str, /) -> bytes:
+    """Grow a kind in a worker; raises MachineError where other code than that of who asks would grow it."""
+    if growth_key(kind, quality, seed=seed) != key:
+        raise MachineError("--on: a worker grows grass by other code than this machine; install the same there")
+    return packed_growth(kind, quality, seed=seed)
 
 
 def _keep(data: bytes, key: str, folder: Path) -> None:

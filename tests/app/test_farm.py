@@ -19,11 +19,11 @@ from tallgrass.app.bench.sent import Asked, found
 from tallgrass.app.cli import run
 from tallgrass.app.farm.dask import need_distributed
 from tallgrass.app.farm.film import LONGEST, MOST_BYTES, ranges, shot_on
-from tallgrass.app.farm.growth import grown
 from tallgrass.app.farm.hands import Hands
 from tallgrass.app.farm.hire import hired
 from tallgrass.app.farm.parcel import Parcel, packed, unpack
 from tallgrass.app.farm.worker import Order, codec, footage
+from tallgrass.app.grow import grown
 from tallgrass.app.manifest import Span
 from tallgrass.app.studio.errors import InputError, MachineError
 from tallgrass.app.studio.shooting import Shooting, Shot
