@@ -56,7 +56,7 @@ class KindOnCard:
         self.card: moderngl.TextureArray | None = None
         self.outline = self.core = pairs(BOX)
         """Corners about what its card shows, and about what it covers so that it is drawn as solid."""
-        self.solid, self._behind = SOLID, BEHIND
+        self.solid, self._behind = SOLID, BEHIND * self.habit.twigs.length
         """Coverage from which on it is so; how far behind its soft edges there is nothing [m]."""
         self._lies = Lies()
         self._hides: tuple[float, ...] = (1.0,) * OF_TWIGS
@@ -94,7 +94,6 @@ class KindOnCard:
             self.card = filtered(self.ctx, [on_cards(each) for each in twig])
             shown = [each[::2, ..., 3].max(axis=0) for each in twig]
             self.solid = solid_above(twig[1][0, ..., 3])  # about as large as such cards are at most
-            self._behind = BEHIND if self.solid == SOLID else self.habit.twigs.length
             solid = covered_at(shown, ONE * self.solid)
             self.outline = pairs(outline(shown[0] > FAINTEST))
             self.core = pairs(outline(solid, CLOSE)) if solid.any() else []

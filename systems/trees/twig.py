@@ -29,9 +29,9 @@ LEAST_KEPT = 0.04
 LEAF_PIXELS = 14.0, 22.0
 """Length of a leaf from which on twigs begin to be drawn leaf by leaf, and from which all are [pixels]."""
 
-BEHIND = 1.5
-"""How far behind them leaves must have nothing for their soft edges to be drawn [m]: others are of their colour. Of
-needles, which are more than an edge, it is the length of their own twig."""
+BEHIND = 0.5
+"""How far behind them leaves must have nothing for their soft edges to be drawn, of their twig's length: what is
+nearer is of their colour. And so far behind leaves are thin stems among them."""
 
 SHOOTS_OFF, SHOOTS_LONG = 0.85, 0.62
 """Angle of side shoots from their twig [rad]; length of the longest, of the twig's."""
