@@ -186,8 +186,10 @@ class Receiving:
         """Their slots, shape (m,)."""
         self._owner = np.zeros(pool.slots, np.int64)
         self._entity = np.zeros(pool.slots, np.int64)
-        self._listed: tuple[Rows | None, Rows] = None, self.slots
-        """The slots whose receivers are entities, and their patches' entities; None where it may be others."""
+        self._owned = 0
+        """How many slots have an owner: the entity of their patch."""
+        self._listed: Rows | None = None
+        """The slots whose receivers are entities; None where it may be others."""
 
     def show(self, rows: Rows, slots: Rows, /) -> None:
         """Let the receivers of these patches hear the wind in this frame."""
@@ -204,17 +206,18 @@ class Receiving:
     @property
     def is_listed(self) -> bool:
         """Whether those shown were entities, all of them, when that was last seen to."""
-        return self.slots is self._listed[0]
+        return self.slots is self._listed
 
     def enlist(self, world: World, patches: PatchTable, /) -> None:
         """Create and delete entities so that they are those of the patches shown now."""
         shown = patches.entity.take(self.rows)
-        if self.is_listed and np.array_equal(shown, self._listed[1]):
+        if np.array_equal(self._owner.take(self.slots), shown) and np.count_nonzero(shown) == self._owned:
+            self._listed = self.slots
             return
         owner = np.zeros_like(self._owner)
         owner[self.slots] = shown
         changed = np.flatnonzero(owner != self._owner)
-        self._listed = None if changed.size else self.slots, shown
+        self._listed = None if changed.size else self.slots
         gone = changed[self._entity[changed] != 0]
         left = self._entity[gone].tolist()
         for slot in gone.tolist():
@@ -222,6 +225,7 @@ class Receiving:
         self._owner[changed] = self._entity[changed] = 0
         fresh = changed[owner[changed] != 0][: self.BATCH]
         self._owner[fresh] = owner[fresh]
+        self._owned = int(np.count_nonzero(self._owner))
         for slot, entity in zip_longest(fresh.tolist(), left):  # in turn, as those of patches
             if slot is not None:
                 self._entity[slot] = world.create(self.component(slot, viewer=patches.viewer, patch=int(owner[slot])))
@@ -235,14 +239,16 @@ class Receiving:
     def lose(self) -> None:
         """Take note that all entities are gone."""
         self._owner[:] = self._entity[:] = 0
-        self._listed = None, self.slots
+        self._owned = 0
+        self._listed = None
 
     def release(self, world: World, /) -> None:
         """Delete all of its entities."""
         for slot in np.flatnonzero(self._entity).tolist():
             self._delete(world, slot)
         self._owner[:] = 0
-        self._listed = None, self.slots
+        self._owned = 0
+        self._listed = None
 
     def _delete(self, world: World, slot: int) -> None:
         world.delete(int(self._entity[slot]))
