@@ -80,7 +80,9 @@ def _few(normal: Doubles, area: Doubles) -> Lies:
 
 
 def _mean(normal: Doubles, area: Doubles) -> Doubles:
-    """Return the direction (3,) that faces (n, 3) have in the mean; out of the card where they have none."""
+    """Return the mean (3,) of directions that faces (n, 3) have: out of the card where they have none.
+
+    Where they differ it is shorter than 1, as less of them is seen from there, and less light falls on them.
+    """
     mean = (normal * area[:, None]).sum(axis=0)
-    length = np.linalg.norm(mean)
-    return np.asarray(mean / length if length > 0.0 else (0.0, 0.0, 1.0))
+    return np.asarray(mean / area.sum() if np.linalg.norm(mean) > 0.0 else (0.0, 0.0, 1.0))
