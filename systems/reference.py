@@ -140,8 +140,8 @@ class EveryBlade:
         """Draw sky, ground, all trees and all blades of `cells` (n, 2) into the framebuffer that is bound.
 
         With `reach` only blades up to this discrete distance are drawn; beyond them lies the prairie's own carpet.
-        Trees that are no higher than `leaves_from` from any place of `seen_at` are drawn as the prairie has them far
-        off [pixels, m]; without those, from the viewer's.
+        Trees whose own pictures are no higher than `leaves_from` from any place of `seen_at` are drawn as the prairie
+        has them far off [pixels, m]; without those, from the viewer's.
         """
         cover = None
         if reach is not None:

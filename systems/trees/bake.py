@@ -25,14 +25,10 @@ Draw = Callable[[int], None]
 """Draws the picture of a number into the viewport that is set."""
 
 
-def lines_of(height: float, /) -> int:
-    """Return the texels up of a tree's pictures where they are so high, of its height."""
-    return _whole(LINES * height)
-
-
-def wide_of(breadth: float, lines: int, /) -> int:
-    """Return those across where it is so broad, of their height."""
-    return _whole(lines * breadth)
+def lines_of(breadth: float, /) -> tuple[int, int]:
+    """Return the texels up and across of a tree's pictures where it is so broad, of their height."""
+    lines = _whole(LINES)
+    return lines, _whole(lines * breadth)
 
 
 def pictures(ctx: moderngl.Context, columns: int, rows: int, wide: int, tall: int, draw: Draw, /) -> Floats:
@@ -115,6 +111,23 @@ def on_cards(layers: Bytes, /) -> Bytes:
     """
     shows, faces = layers[::2], layers[1::2]
     return np.ascontiguousarray(np.concatenate([shows[..., :1], faces[..., :2], shows[..., 3:]], axis=-1))
+
+
+def evened(pictures: Bytes, solid: float, /) -> Bytes:
+    """Return pictures of cards (n, rows, columns, 4) with what covers so much, and more, no brighter than the rest.
+
+    That alone is seen where leaves are behind it, and coarse texels with a stem or an edge among leaves cover less.
+    """
+    result = pictures.copy()
+    for each in result:
+        tone, cover = (each[..., one].astype(np.float64) for one in (0, 3))
+        mean = tone.sum() / max(cover.sum(), 1.0)
+        for some in (cover >= solid, cover < solid):
+            own = tone[some].sum()
+            if own > 0.0:
+                tone[some] *= mean * cover[some].sum() / own
+        each[..., 0] = np.round(np.minimum(tone, cover))
+    return result
 
 
 def _whole(texels: float) -> int:

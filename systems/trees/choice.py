@@ -13,7 +13,7 @@ from .card import BACKS, CARDS, FAR, FIRST_OF, LEAVES, SHARES, SHELL_OF, STREAMS
 from .leafy import leaf_by_leaf, leafy
 from .model import MARGIN, Model
 from .shells import farthest_of, shells_of
-from .standing import PLACED, WIDEST, Standing, columns_of, come_near, shown, shows
+from .standing import BAREST, PLACED, WIDEST, Standing, columns_of, come_near, shown, shows
 from .twig import LEAF_PIXELS
 from .wood import AWAY, SWAYS, THINNEST, nearest_ahead
 
@@ -51,7 +51,8 @@ class Look(NamedTuple):
     """From where they count as seen for what is shown of each: from the nearest of these; without any, from the eye."""
 
     leaves_from: float | None = None
-    """Height from which on all are drawn leaf by leaf, and lower ones as they are far off [pixels], if any is."""
+    """Height of their own pictures from which on all are drawn leaf by leaf, if any is, and lower ones as they are far
+    off [pixels]."""
 
 
 class Lot(NamedTuple):
@@ -126,6 +127,8 @@ class Choice:
         numbers = np.array([_numbers(*each) for each in zip(models, variety, strict=True)])[self._model].T
         height, middle, half, radius, hertz, self._leaf, differs = numbers
         self._height, self._ring = rows["height"].copy(), rows["ring"].copy()
+        self._pictured = 2.0 * half / height / np.maximum(rows["foliage"], BAREST)
+        """How high the pictures of each one's model are, of its height, and as much more as it has fewer leaves."""
         self._scale = self._height.astype(np.float64) / height
         self._middle: Doubles = rows["root"].astype(np.float64)
         self._middle[:, 1] += self._scale * middle
@@ -174,11 +177,12 @@ class Choice:
         if look.seen_at:
             off = np.min([np.linalg.norm(middle - eye, axis=1) for eye in look.seen_at], axis=0)
         pixels = look.focal * self._height[number] / np.maximum(off, NEAREST)
+        pictured = self._pictured[number]
         if look.leaves_from is not None:
-            pixels = np.where(pixels <= look.leaves_from, 0.0, ANY_HEIGHT)
+            pixels = np.where(pixels * pictured <= look.leaves_from, 0.0, ANY_HEIGHT)
         pixels[ring > 1] = 0.0
         told, along = self._told.take(number), np.hypot(middle[:, 0] - look.eye[0], middle[:, 2] - look.eye[2])
-        come_near(told, pixels)
+        come_near(told, pixels, pixels * pictured)
         told["shows"] = shows(ring, along)
         reach = (1.0 + SWAYS) * scale[:, None] * self._ball.take(number, axis=0)
         ahead = nearest_ahead(look.clip, middle, look.eye, reach)

@@ -61,8 +61,8 @@ class TreePart(Part):
         self._air: Heard | None = None
         self._wind: MeanWind | None = None
         self.leaves_from: float | None = None
-        """Height from which all trees are drawn leaf by leaf [pixels], as a reference has them, and lower ones as they
-        are far off; None where that is for the size of their leaves to say."""
+        """Height of their own pictures from which all trees are drawn leaf by leaf [pixels], as a reference has them,
+        and lower ones as they are far off; None where that is for the size of their leaves to say."""
         self.leaves_seen_at: Sequence[Place] = ()
         """From where that height is seen: it is the greatest of all these places [m]; without any, the viewer's."""
         self.held = False

@@ -23,6 +23,7 @@ flat in vec4 shades;   // as far.vert has it
 flat in vec3 foot;
 #else
 flat in vec4 meets;
+flat in vec4 behind_meets;
 flat in vec4 sunlit;
 flat in vec4 wooden;
 flat in vec4 skylit;
@@ -108,36 +109,56 @@ vec2 blown_from(vec2 at) {
     return at + vec2(slim, 1.0) * aside;
 }
 
-const float PLAINER = 2.0;     // how much less is seen of what bark has on it on each coarser level, which is read sharper than pixels are
+const float PLAINER = 2.0;     // how much less is seen of what bark has on it on each coarser level, which is read sharper than pixels are,
+const float PLAIN_FROM = 0.5;  // from where on that is so: there, pictures have 180 texels up
 const float CLUMP = 7.0;       // a clump of leaves across [texels]
 const mat2 CLUMPS = mat2(0.857, 0.515, -0.515, 0.857) / CLUMP;  // of noise over texels: they lie askew, cells two ways
 const float CLUMPS_FINER = log2(CLUMP / NOISE_FINER);  // levels by which texels of noise are larger than a picture's
 const float EVENLY = 1.6;      // how far noise is spread, whose values lie about the middle: as many clumps give way at each step
 
-// How much of the second picture a place shows: clumps of leaves give way one after another, as two views blended are a blur.
-vec2 clump_by_clump(vec2 at) {
+// A number from 0 to 1 that a clump of leaves has.
+float clump_at(vec2 at) {
     vec2 cell = CLUMPS / NOISE_CELLS * (at * sides) + told.x;
     float noise = textureLod(tree_cards, vec3(cell, 0.0), max(told.w - CLUMPS_FINER, 0.0)).r;
-    return clamp(gives.xy - gives.z * clamp(0.5 - 0.5 * EVENLY + EVENLY * noise, 0.0, 1.0), 0.0, 1.0);
+    return clamp(0.5 - 0.5 * EVENLY + EVENLY * noise, 0.0, 1.0);
+}
+
+// How much of the second picture a clump shows: they give way one after another, as two views blended are a blur.
+vec2 gives_way(float clump) {
+    return clamp(gives.xy - gives.z * clump, 0.0, 1.0);
+}
+
+const float BARE = 0.15;  // how much of a crown is covered where clumps have gone, by stems that those hid, of what those cover
+
+const float UNCLUMPED = 2.5;  // where a clump is seen, so many times as many leaves are behind its first as light meets: 1 / CLUMPED
+
+// How much of a clump there is where a tree has few of its leaves: where many stand behind one another, one of them is seen.
+float left_of(float clump, vec4 shading) {
+    float meets_all = max(UNCLUMPED * sun_meets(shading, behind_meets), LEAST_PART);
+    float left = (1.0 - comes_through(foliage_of(meets) * meets_all)) / (1.0 - comes_through(meets_all));
+    return clamp((1.0 + gives.z) * left - gives.z * clump, 0.0, 1.0);
 }
 
 void main() {
     vec4 texel, shading;
     vec2 at = blown_from(on_own());
-    mix_pictures(within(at), clump_by_clump(at), texel, shading);
+    float clump = clump_at(at);
+    mix_pictures(within(at), gives_way(clump), texel, shading);
     float own = own_of(at);
     texel *= own;
     shading *= own;
-    float whole = 1.0 / max(texel.a, LEAST_COVER), wood = texel.g * whole, left = mix(foliage_of(meets), 1.0, wood);
-    float cover = 1.0 - pow(max(1.0 - texel.a * left, 0.0), sunlit.a);  // twigs that are left cover the rest of what all leaves do
-    wood /= max(left, LEAST_COVER);  // of what is left with fewer leaves
-    must_cover(cover);
+    float whole = 1.0 / max(texel.a, LEAST_COVER);
     shading *= whole;
+    float gone = 1.0 - left_of(clump, shading);
+    float leaves = texel.a - texel.g, stems = texel.g + BARE * gone * leaves, all = leaves * (1.0 - gone) + stems;
+    float cover = 1.0 - pow(max(1.0 - all, 0.0), sunlit.a), wood = stems / max(all, LEAST_COVER);  // twigs that are left cover the rest
+    must_cover(cover);
     float seen = comes_through(sun_meets(shading, meets)), open = comes_through(sky_meets(shading, meets));
     vec3 sky = sky_on(skylit.rgb, below, open, skylit.a * (1.0 - wood));
     Light light = Light((sunlit.rgb + wooden.rgb * wood) * seen, sky, hazy, 0.0, 0.0, vec2(0.0));
     float aged = aged_at(wooden.a * texel.b / max(texel.g, LEAST_COVER));
-    float tone = texel.r * whole, worn = mix(1.0, 2.0 * tone, wood / (1.0 + PLAINER * told.w));  // of bark too: 0.5 is the mean
+    float tone = texel.r * whole, plain = PLAINER * max(told.w - PLAIN_FROM, 0.0);
+    float worn = mix(1.0, 2.0 * tone, wood / (1.0 + plain));  // of bark too: 0.5 is the mean
     vec3 pigment = pigment_of(tone, wood, soiled_at(on.z * grasses) * worn * mix(young_bark, old_bark, aged));
     pixel = drawn(shade(Surface(pigment, 1.0, AMONG_LEAVES), light), cover);
 }

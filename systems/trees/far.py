@@ -8,9 +8,9 @@ COLUMNS, ROWS = 12, 3
 FIRST_ROW, EACH_ROW = radians(4.0), radians(38.0)
 """Elevation of the lowest ones, and how much higher each row is [rad]."""
 
-LINES = 180
-"""Texels of a picture over the tree's height: as many as there are pixels where it begins to be drawn so. The picture
-of a broad tree has more of them up, as that is broad from above too."""
+LINES = 256
+"""Texels of a picture up: as many as there are pixels where it begins to be drawn so. Of a broad tree, it is as high as
+that is broad, from above."""
 
 COARSER = 2
 """How many times as large texels are of how light has come to what a picture shows: that changes from twig to twig."""

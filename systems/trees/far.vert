@@ -27,6 +27,7 @@ uniform vec4 high;     // of the corners about what its pictures show: how high 
 uniform vec4 reaches[2 * COLUMNS * ROWS];  // by picture: how far out they are left and right, of half their height
 
 flat out vec4 meets;   // by how much of what pictures tell of light's way its leaves meet, along its axes and in all
+flat out vec4 behind_meets; // and by how much of that all leaves would which it may have are met behind what is seen of it
 flat out vec4 sunlit;  // what its leaves send of the sun's light; the share of them that is drawn so
 flat out vec4 wooden;  // how much more its wood sends of that; how thick THICKEST is, of it [m]
 flat out vec4 skylit;  // the sky's light; and how far up what is seen of its leaves looks, -1 to 1
@@ -139,6 +140,7 @@ void tell_pixels() {
 void light_up(vec3 middle_of, vec3 ray) {
     Light light = light_in_crown(middle_of, vec4(0.0), 1.0);
     meets = meets_by(turned_back(sun), foliage);
+    behind_meets = meets_by(turned_back(ray), 1.0);
     below = lawn_sends * (1.0 - haze_at(middle_of));
     Seen seen = seen_of(mat3(turned(vec3(1.0, 0.0, 0.0)), vec3(0.0, 1.0, 0.0), turned(vec3(0.0, 0.0, 1.0))), ray, light, below);
     sunlit = vec4(light.sun * seen.sends, gone * shows);

@@ -13,7 +13,7 @@ from ...engine.gl.shaders import Due, due, due_all, tell_asked, tell_due
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
 from . import told as told_of
-from .bake import CARD, covers, filtered, from_around, of_tree, on_card, on_cards, pictures, smaller
+from .bake import CARD, covers, evened, filtered, from_around, of_tree, on_card, on_cards, pictures, smaller
 from .card import LEAVES, PICTURED, QUAD, WOOD, ModelOnCard, Numbers
 from .far import COLUMNS, ROWS
 from .habit import HABITS, NEEDLES, Leaf
@@ -91,9 +91,9 @@ class KindOnCard:
     def _use(self, twig: list[Bytes]) -> None:
         """Show twigs as in this picture."""
         if self.card is None:
-            self.card = filtered(self.ctx, [on_cards(each) for each in twig])
             shown = [each[::2, ..., 3].max(axis=0) for each in twig]
             self.solid = solid_above(twig[1][0, ..., 3])  # about as large as such cards are at most
+            self.card = filtered(self.ctx, [evened(on_cards(each), ONE * self.solid) for each in twig])
             solid = covered_at(shown, ONE * self.solid)
             self.outline = pairs(outline(shown[0] > FAINTEST))
             self.core = pairs(outline(solid, CLOSE)) if solid.any() else []

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 from ...engine.declared.tree import HabitName
-from .bake import lines_of, wide_of
+from .bake import lines_of
 from .bark import Wood, bark_of
 from .crown import leaf_area, shade_of, shading
 from .grow import Tree, grown
@@ -89,9 +89,8 @@ def _model(habit: Habit, height: float, *, seed: int) -> Model:
     radius = float(np.hypot(ends[:, 0], ends[:, 2]).max())
     top = float(ends[:, 1].max())
     half = MARGIN * max(0.5 * top, radius)  # from above it is as high as it is broad
-    lines = lines_of(2.0 * half / height)
     return Model(
-        habit, height, twigs, vertices, wood, 0.5 * top, half, lines, wide_of(MARGIN * radius / half, lines), radius,
+        habit, height, twigs, vertices, wood, 0.5 * top, half, *lines_of(MARGIN * radius / half), radius,
         trunk_hertz(height, habit.slender * height), float(area.sum()),
     )  # fmt: skip
 

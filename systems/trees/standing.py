@@ -67,10 +67,16 @@ FEWEST = 0.08
 """Share of them that is drawn at least."""
 
 BEGINS = float(LINES)
-"""Height below which a tree begins to be drawn as it is far off: no texel of that is larger than a pixel [pixels]."""
+"""Height of its picture below which a tree begins to be drawn as it is far off: no texel of that is larger than a pixel
+[pixels]."""
 
 GONE = 0.75 * BEGINS
-"""Height at which it is all drawn so: the change takes a third of the way there [pixels]."""
+"""That at which it is all drawn so: the change takes a third of the way there [pixels]."""
+
+
+BAREST = 1.0 / 3.0
+"""Share of its leaves at which a tree is drawn as it is near by down to a third of such heights, and with three times
+as large a part of its twigs: pictures show no limbs that leaves hide. Barer ones are no further."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -140,10 +146,14 @@ def shown(rows: NDArray[np.void], height: Floats | np.float32, variety: Floats |
     return told
 
 
-def come_near(told: NDArray[np.void], pixels: Doubles, /) -> None:
-    """Write how much is drawn of trees, records of `SHOWN`, that stand so high in a picture, shape (n,) [pixels]."""
-    told["keep"] = np.clip((pixels / WHOLE) ** FEWER_BY, FEWEST, 1.0)
-    told["gone"] = np.clip((BEGINS - pixels) / (BEGINS - GONE), 0.0, 1.0)
+def come_near(told: NDArray[np.void], pixels: Doubles, pictured: Doubles, /) -> None:
+    """Write how much is drawn of trees, records of `SHOWN`, that stand so high in a picture, shape (n,) [pixels].
+
+    `pictured` is how high their own pictures are there.
+    """
+    leafy = np.maximum(told["foliage"], BAREST)
+    told["keep"] = np.clip((pixels / WHOLE) ** FEWER_BY / leafy, FEWEST, 1.0)
+    told["gone"] = np.clip((BEGINS - pictured) / (BEGINS - GONE), 0.0, 1.0)
 
 
 def shows(ring: NDArray[np.integer], off: Doubles, /) -> Doubles:

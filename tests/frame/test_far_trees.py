@@ -52,7 +52,7 @@ def prairie(ctx: moderngl.Context, stage: Stage) -> Iterator[Prairie]:
 @pytest.mark.parametrize("habit", HABITS)
 def test_where_a_tree_begins_to_be_a_picture_no_texel_is_larger_than_a_pixel(habit: str) -> None:
     for model in models_of(habit, 4):
-        assert model.lines * model.height / (2.0 * model.half) >= standing.BEGINS > standing.GONE
+        assert model.lines >= standing.BEGINS > standing.GONE
 
 
 def test_a_picture_is_as_blurred_as_the_mean_over_a_pixel() -> None:
@@ -69,11 +69,13 @@ def test_clumps_of_one_picture_give_way_to_those_of_another_in_no_lattice(
     monkeypatch.setattr(standing, "BEGINS", 2e5)
     between = math.pi / COLUMNS
     tree = esper.create_entity(Tree("thorn", height=HIGH), Pose(30.0, 0.0, between))
-    off = 0.5 * SIZE / math.tan(math.radians(5.0)) * HIGH / LINES
-    aim = looking(30.0, 2.0, off, view=10.0)
-    stage.shot(prairie, aim)
+    stage.shot(prairie, looking(30.0, 2.0, 50.0, view=10.0))
     assert prairie.painter is not None
     (thorn,) = vars(prairie.painter.part(TreePart))["_kinds"]
+    model = thorn.models[0].model
+    pictured = 2.0 * model.half / model.height * HIGH
+    aim = looking(30.0, 2.0, 0.5 * SIZE / math.tan(math.radians(5.0)) * pictured / LINES, view=10.0)
+    stage.shot(prairie, aim)
     kept = [model.far.read() for model in thorn.models]
     seen = []
     for bright in ((), range(0, COLUMNS, 2), range(COLUMNS)):
@@ -125,7 +127,7 @@ def test_a_bush_has_an_outline_and_grain_as_with_every_leaf(
     hidden = np.abs(truth.picture.astype(np.int32) - bare).max(axis=-1) > 12
     told = trees_told(drawn, truth, Behind(bare, np.ones_like(hidden), hidden))
     assert told is not None
-    assert float(str(told["contrast"])) > 0.91
+    assert float(str(told["contrast"])) > 0.85
     assert float(str(told["roughness_ratio"])) > 0.87
 
 

@@ -91,7 +91,7 @@ def test_a_tree_stands_before_the_sky_and_is_gone_to_the_bit_once_it_is_felled(
     with_tree = stage.shot(prairie, AHEAD)
     assert 0.05 < changed(bare, with_tree) < 0.6
     sky, crown = bare[20:60, 60:100].mean(axis=(0, 1)), with_tree[20:60, 60:100].mean(axis=(0, 1))
-    assert crown[1] - crown[2] > sky[1] - sky[2] + 40.0  # green, where it was blue
+    assert crown[1] - crown[2] > sky[1] - sky[2] + 35.0  # green, where it was blue
     esper.delete_entity(tree, immediate=True)
     assert np.array_equal(stage.shot(prairie, AHEAD), bare)
 
@@ -236,9 +236,9 @@ def test_far_off_it_looks_as_it_does_near_by(
     assert light[1] == pytest.approx(light[0], rel=0.2)
 
 
-@pytest.mark.parametrize("off", [12.0, 30.0, 90.0])
+@pytest.mark.parametrize(("off", "foliage"), [(12.0, 1.0), (30.0, 1.0), (90.0, 1.0), (60.0, 0.25), (90.0, 0.25)])
 def test_however_far_off_it_covers_as_much_of_the_sky_as_with_every_leaf(
-    ctx: moderngl.Context, prairie: Prairie, plant: Plant, off: float
+    ctx: moderngl.Context, prairie: Prairie, plant: Plant, off: float, foliage: float
 ) -> None:
     """Leaf by leaf and on cards, on cards alone, and as a picture: each beside the reference."""
     size = 96
@@ -251,16 +251,18 @@ def test_however_far_off_it_covers_as_much_of_the_sky_as_with_every_leaf(
         return drawn[..., 2], truth[..., 2].astype(np.float64)
 
     bare = seen()
-    plant(0.0, 0.0)
+    plant(0.0, 0.0, foliage=foliage)
     sky = bare[0] > 120.0  # blue, before which leaves are dark
     drawn, truth = ((before - now)[sky].mean() for before, now in zip(bare, seen(), strict=True))
     assert truth > 5.0
-    assert drawn == pytest.approx(truth, rel=0.08)  # cards cover a little less
+    assert drawn == pytest.approx(truth, rel=0.08 if foliage == 1.0 else 0.2)  # cards cover a little less
 
 
 def test_n3_held_a_tree_is_shown_as_in_the_frame_before_from_wherever_it_is_seen(
-    stage: Stage, prairie: Prairie, plant: Plant
+    stage: Stage, prairie: Prairie, plant: Plant, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    seen_far(monkeypatch, 1.0)
+
     def told() -> Any:
         assert prairie.painter is not None
         (ash,) = vars(prairie.painter.part(TreePart))["_kinds"]
@@ -350,7 +352,7 @@ def test_bare_trees_have_bark_alone_near_and_far(stage: Stage, prairie: Prairie,
 
     def green() -> int:
         sky = stage.shot(prairie, camera)[:60]
-        return int((sky[..., 1] > sky[..., [0, 2]].max(axis=-1) + 4.0).sum())
+        return int((sky[..., 1] > sky[..., [0, 2]].max(axis=-1) + 8.0).sum())
 
     none = stage.shot(prairie, camera)
     tree = plant(0.0, 0.0)

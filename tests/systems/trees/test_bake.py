@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from tallgrass.systems.trees.bake import WHOLE, lines_of, of_tree, spread, wide_of
+from tallgrass.systems.trees.bake import WHOLE, evened, lines_of, of_tree, spread
 from tallgrass.systems.trees.far import COARSER, LINES
 
 
 @pytest.mark.parametrize("breadth", [0.07, 0.31, 0.8, 1.0])
 def test_a_picture_is_hardly_broader_than_what_it_shows(breadth: float) -> None:
-    wide = wide_of(breadth, lines := lines_of(1.4))
+    lines, wide = lines_of(breadth)
     assert wide % WHOLE == lines % WHOLE == 0
-    assert 0 <= lines - 1.4 * LINES < WHOLE
+    assert 0 <= lines - LINES < WHOLE
     assert 0 <= wide - lines * breadth < WHOLE
 
 
@@ -38,3 +38,16 @@ def test_of_a_tree_texels_are_larger_that_tell_how_light_has_come() -> None:
     assert met[-1].shape == shows[-1].shape
     assert all((each == 255).all() for each in shows)
     assert all((each == 80).all() for each in met)
+
+
+def test_what_is_solid_of_a_card_is_as_bright_as_all_of_it() -> None:
+    draw = np.random.default_rng(4)
+    cover = draw.integers(0, 256, (2, 32, 32))
+    tone = np.stack([0.5 + 0.2 * (cover[0] > 150), 0.3 + 0.2 * (cover[1] > 150)]) * cover
+    pictures = np.stack([tone, cover, cover, cover], axis=-1).round().astype(np.uint8)
+    made = evened(pictures, 150.0).astype(np.float64)
+    for own, before, covered in zip(made, pictures, cover, strict=True):
+        for some in (covered >= 150, covered < 150):
+            mean = before[..., 0].sum() / covered.sum()
+            assert own[some, 0].sum() / covered[some].sum() == pytest.approx(mean, rel=0.01)
+    assert np.array_equal(made[..., 1:], pictures[..., 1:])

@@ -117,11 +117,22 @@ def test_what_is_placed_and_how_far_off_it_is_is_of_the_trees_of_each_stream(mod
 def test_trees_with_fewest_twigs_are_drawn_apart_only_where_they_are_many_of_a_model(models: list[Model]) -> None:
     counts = TOO_FEW - 1, TOO_FEW
     rows = a_wood(models, count=sum(counts))
-    rows["kind"], rows["model"] = 0, np.repeat((0, 1), counts)
-    rows["root"], rows["height"] = (0.0, 0.0, -60.0), 60.0 * 1.2 * GONE / PIXELS
+    rows["kind"], rows["model"], rows["foliage"] = 0, np.repeat((0, 1), counts), 1.0
+    pictured = np.array([2.0 * model.half / model.height for model in models[:2]])
+    rows["root"], rows["height"] = (0.0, 0.0, -60.0), 60.0 * 1.1 * GONE / PIXELS / pictured[rows["model"]]
     rows["root"][:, 0] = np.linspace(-3.0, 3.0, len(rows))
     names = [(lot.model, lot.name) for lot in chosen(rows, models, reach=40.0).lots if lot.name in CARDS]
     assert names == [(0, CARDS[len(SHARES) - 1]), (1, CARDS[len(SHARES)])]
+
+
+def test_the_fewer_leaves_a_tree_has_the_smaller_it_becomes_a_picture(models: list[Model]) -> None:
+    rows, high = a_wood(models, count=2), 0.9 * GONE / PIXELS * models[0].height / (2.0 * models[0].half)
+    rows["kind"] = rows["model"] = 0
+    rows["foliage"], rows["root"], rows["height"] = (1.0, 0.5), (0.0, 0.0, -60.0), 60.0 * high
+    rows["root"][:, 0] = -3.0, 3.0
+    found = chosen(rows, models)
+    assert roots(found, 0, FAR)[:, 0].tolist() == [-3.0]
+    assert roots(found, 0, *CARDS)[:, 0].tolist() == [3.0]
 
 
 def test_trees_among_the_grass_are_in_streams_by_shells_of_it_and_all_beyond_it_in_others(models: list[Model]) -> None:
