@@ -24,8 +24,8 @@ flat in vec3 foot;
 #else
 flat in vec4 meets;
 flat in vec4 behind_meets;
-flat in vec4 sunlit;
-flat in vec4 wooden;
+in vec4 sunlit;
+in vec4 wooden;
 flat in vec4 skylit;
 flat in vec3 below;
 flat in vec3 hazy;

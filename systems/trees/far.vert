@@ -28,8 +28,8 @@ uniform vec4 reaches[2 * COLUMNS * ROWS];  // by picture: how far out they are l
 
 flat out vec4 meets;   // by how much of what pictures tell of light's way its leaves meet, along its axes and in all
 flat out vec4 behind_meets; // and by how much of that all leaves would which it may have are met behind what is seen of it
-flat out vec4 sunlit;  // what its leaves send of the sun's light; the share of them that is drawn so
-flat out vec4 wooden;  // how much more its wood sends of that; how thick THICKEST is, of it [m]
+out vec4 sunlit;       // what its leaves send of the sun's light; the share of them that is drawn so
+out vec4 wooden;       // how much more its wood sends of that; how thick THICKEST is, of it [m]
 flat out vec4 skylit;  // the sky's light; and how far up what is seen of its leaves looks, -1 to 1
 flat out vec3 below;
 flat out vec3 hazy;
@@ -136,12 +136,12 @@ void tell_pixels() {
     on.xy = 0.5 + 0.5 * vec2(columns > 1.0 ? 1.0 : slim, 1.0) * on.xy;
 }
 
-// The crown is asked for its light in the middle of its sunny side.
-void light_up(vec3 middle_of, vec3 ray) {
-    Light light = light_in_crown(middle_of, vec4(0.0), 1.0);
+// What light comes there past other trees: to the top of its crown, more.
+void light_up(vec3 place, vec3 ray) {
+    Light light = light_in_crown(vec3(place.x, max(place.y, root.y), place.z), vec4(0.0), 1.0);
     meets = meets_by(turned_back(sun), foliage);
     behind_meets = meets_by(turned_back(ray), 1.0);
-    below = lawn_sends * (1.0 - haze_at(middle_of));
+    below = lawn_sends * (1.0 - haze_at(place));
     Seen seen = seen_of(mat3(turned(vec3(1.0, 0.0, 0.0)), vec3(0.0, 1.0, 0.0), turned(vec3(0.0, 0.0, 1.0))), ray, light, below);
     sunlit = vec4(light.sun * seen.sends, gone * shows);
     wooden = vec4(light.sun * wood_sends(ray) - sunlit.rgb, THICKEST * scale);
@@ -195,11 +195,12 @@ void main() {
         return;
     }
     float under = root.y - seen_at.y;
+    vec3 lit_at = mix(middle_of + half_tall * on.y * up, seen_at, 0.5);
     if (columns > 1.0)
         seen_at.y += height_at(seen_at.xz) - root.y;  // a row of trees goes up and down with the ground
     on.z = (seen_at.y - root.y) / (tall * scale);
     seen_at.xz += sways * (seen_at.y - root.y);  // its corners go along a line, and pixels from that to the trunk's
-    light_up(middle_of, -to);
+    light_up(lit_at, -to);
     tell_pixels();
     gl_Position = just_behind(over_ground(seen_at, under, half_tall));
 #endif
