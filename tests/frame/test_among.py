@@ -57,7 +57,7 @@ def test_n3_neither_grass_nor_wood_behind_leaves_hides_their_soft_edges(
     ctx: moderngl.Context, prairie: Prairie, eye: Camera
 ) -> None:
     red, blue = red_and_blue(ctx, prairie, eye)
-    assert red > 0.85
+    assert red > 0.8  # drawn before the grass behind them, they are 0.6
     if eye is NEAR:
         assert blue == pytest.approx(1.0, abs=0.25)
 
