@@ -34,11 +34,7 @@ FADES = 2.0, 4.0
 """Width from which on a stem's edges begin to fade, and from which on they do so over a whole pixel [pixels]."""
 
 LEAFY = 0.95
-"""Share of its leaves from which on a tree's thin stems are drawn as opaque or not at all: edges of those that are no
-wider than a few pixels are hardly seen among leaves, and to draw them costs as much as all stems."""
-
-STEM_FROM = 0.55
-"""Width from which on such stems are opaque [pixels]: as much is rounded up as `THINS` and below it down."""
+"""Share of its leaves from which on a tree's thin stems are left out."""
 
 FLAT = 1e-9
 """Determinant below which a matrix shows no perspective."""
@@ -48,7 +44,6 @@ SWAYS = 0.1
 
 GLSL = {
     "OPAQUE": OPAQUE, "FAINTEST": FAINTEST, "THINNEST": THINNEST, "AWAY": AWAY, "THINS": THINS, "FADES": FADES,
-    "LEAFY": LEAFY, "STEM_FROM": STEM_FROM,
 }  # fmt: skip
 
 
@@ -87,6 +82,4 @@ def parts(radii: Doubles, wide: float, foliage: float, /) -> Parts:
     def so_thick(radius: float) -> int:
         return len(radii) - int(np.searchsorted(radii, radius))
 
-    if foliage < LEAFY:
-        return Parts(so_thick(OPAQUE * wide), len(radii))
-    return Parts(so_thick(STEM_FROM * wide), so_thick(FADES[0] * wide))
+    return Parts(so_thick(OPAQUE * wide), so_thick(THINS[0] * wide) if foliage >= LEAFY else len(radii))

@@ -52,23 +52,6 @@ vec3 aside_of(vec3 middle_at) {
     return rounds > 0.0 ? sign(told.w) * normalize(cross(way, eye - middle_at)) : way;
 }
 
-#ifdef SOFT
-const float SOFT_FROM = FADES.x;  // width of a stem among leaves from which on it has soft edges [pixels]
-#else
-const float SOFT_FROM = 0.0;
-#endif
-
-// How much of a pixel is covered by a stem that is so many pixels wide, among as many leaves as its tree has, and where so much of it
-// is left to its picture: among leaves, thin stems go first.
-float covers_of(float wide) {
-    float left = 1.0 - smoothstep(0.0, 1.0, gone), cover = min(wide, 1.0);
-#ifndef SAMPLED
-    if (foliage >= LEAFY)
-        return wide < SOFT_FROM ? 0.0 : min(wide * left * (OPAQUE / STEM_FROM), 1.0);
-#endif
-    return cover * mix(1.0, smoothstep(THINS.x, THINS.y, cover), foliage) * left;
-}
-
 void main() {
     on_skin = own.xy;
     vec4 stem_at = stem_least + stem_range * (vec4(stem) / STEM_ONE), meets = vec4(2.0 * shading.xyz - 1.0, shading.w) * most_shading.xxxy;
@@ -87,8 +70,9 @@ void main() {
     facing = aside_of(middle_at);
     vec4 projected = clip * vec4(middle_at, 1.0);
     float pixel_at = THINNEST * max(projected.w, AWAY) / pixels_a_metre(), half_width = scale * stem_at.w;
-    thick = covers_of(half_width / pixel_at);
+    thick = min(half_width / pixel_at, 1.0);
     aged = aged_at(half_width);
+    thick *= mix(1.0, smoothstep(THINS.x, THINS.y, thick), foliage) * (1.0 - smoothstep(0.0, 1.0, gone));
     fading.x = smoothstep(FADES.x * pixel_at, FADES.y * pixel_at, half_width);
     float ends = max(half_width, pixel_at) + fading.x * pixel_at, corners = 1.0 + (1.0 - rounds) * fading.x * (2.0 * side.w - 1.0);
     fading.y = corners;
