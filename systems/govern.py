@@ -12,7 +12,7 @@ from time import perf_counter
 
 from ..engine.handed import NUMBERS
 from .around.outlook import Outlook
-from .around.pace import counted
+from .around.pace import change_step
 from .painter import Painter
 from .transition import FADE
 
@@ -181,7 +181,9 @@ class Governor:
         name, self._begun = outlook.viewer.name, perf_counter()
         if not self.resting and not goes_on:
             self._drawn[name] = 0 if self.hold is None else self._paces.setdefault(name, Pace()).rung
-            outlook.lens.range = eased(outlook.lens.range, RUNGS[self._drawn[name]].range, dt=counted(outlook.viewer))
+            outlook.lens.range = eased(
+                outlook.lens.range, RUNGS[self._drawn[name]].range, dt=change_step(outlook.viewer)
+            )
 
     def fineness(self, viewer: str, /) -> Fineness:
         """Return what is drawn of a viewer's picture now."""

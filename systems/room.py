@@ -5,7 +5,7 @@ from math import ceil, log2
 
 from ..engine.world import World
 from .around.appearance import Appearance
-from .around.lens import brought_near
+from .around.lens import reach_under
 from .around.outlook import Outlook
 from .lod import farthest
 from .show.representation import Representation
@@ -60,7 +60,7 @@ def make_room(outlook: Outlook, representations: Sequence[Representation], world
 
 def room_for(reach: tuple[int, ...], lens: float, /) -> tuple[int, ...]:
     """Return up to how far there has to be room for representations of such a reach with a lens, in doublings of it."""
-    return tuple(int(limit) for limit in brought_near(reach, 2.0 ** ceil(log2(lens))))
+    return tuple(int(limit) for limit in reach_under(reach, 2.0 ** ceil(log2(lens))))
 
 
 def _sides(outlook: Outlook) -> list[int]:

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from ..components.arrays import Floats, Rows
-from .around.appearance import Appearance, appearance, kept_near
+from .around.appearance import Appearance, appearance, strips_left
 from .around.outlook import Outlook
 from .around.transitions import SEAMLESS, Transitions
 from .lod import read_of
@@ -37,7 +37,7 @@ def strips_kept(
     (x, z), eye = outlook.patches.middle.T, outlook.viewer.eye
     along = np.maximum(np.abs(x[rows] - np.float32(eye[0])), np.abs(z[rows] - np.float32(eye[2]))) / np.float32(patch)
     away = seen_from(along, outlook.patches.height[rows], eye[1], patch=patch)
-    kept = kept_near(away, reach=drawn[number])
+    kept = strips_left(away, reach=drawn[number])
     if not choosy:
         return kept
     free = outlook.patches.hold[rows] < 0  # what a game holds is not asked whether it would do

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..components.arrays import Floats, Levels, Mask, Rows
 from .around.outlook import Outlook
-from .around.pace import counted
+from .around.pace import change_step
 from .around.patches import PatchTable
 from .around.transitions import SEAMLESS, Transitions
 from .lod import SLACK, farthest, read_of
@@ -223,7 +223,7 @@ class Transition:
     def _run(self, outlook: Outlook) -> None:
         patches, viewer = outlook.patches, outlook.viewer
         settled = patches.was_visible & patches.visible & (not viewer.jumped)
-        step = step_of_change(counted(viewer), way=viewer.way, patch=self.patch)
+        step = step_of_change(change_step(viewer), way=viewer.way, patch=self.patch)
         before = patches.representation.copy()
         reach = outlook.lens.room or self.reach
         wanted = held(patches, reach=reach)

@@ -1,1 +1,1 @@
-"""What is kept around each viewer: its patches, their receivers, the ground; and the kernels that all systems share."""
+"""State kept for each viewer: its patches, their receivers and its appearance; and kernels that all systems share."""

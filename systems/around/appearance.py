@@ -1,4 +1,4 @@
-"""Appearance: what a patch looks like on its way from one representation to another (paper, section 4)."""
+"""Appearance of patches during changes of representation: cross-fade, morph and growth (paper, section 4)."""
 
 from dataclasses import dataclass
 
@@ -9,62 +9,61 @@ from ...components.arrays import Doubles, Floats
 from .transitions import Transitions
 
 Three = tuple[int, int, int]
-"""The numbers of the representations whose changes into one another are more than a fade: the one that moves to its
-painted places on the next, this next one, and the one that this grows out of."""
+"""Numbers of the representations for blades, strips and carpet, in this order."""
 
 ARRIVED = 0.95
-"""Part of a change from blades to strips after which the blades are in their painted places."""
+"""Progress of a change from blades to strips at which the blades reach their painted places."""
 
-GENTLY = 1.6
-"""Exponent of the ease curve of that way: above 1, blades set off slowly and hurry at the end."""
+MORPH_POWER = 1.6
+"""Exponent of the morph's ease curve: above 1, blades set off slowly and hurry at the end."""
 
-NEARLY = 0.35
-"""Part of a change from blades to strips after which the blades begin to be handed over to the strips."""
+HANDED_FROM = 0.35
+"""Progress of a change from blades to strips at which the cross-fade from blades to strips begins."""
 
 OVERLAP = 0.7
-"""How much more than in a plain cross-fade blades and strips show in the midst of handing over, in quarters. Both cover
-the same place: with less, dark depths show through grass that covers all; with more, single blades look swollen."""
+"""Extra cover of blades and strips in their cross-fade, of which a quarter is added half way. Both cover the same place:
+with less, dark depths show through dense grass; with more, single blades look swollen."""
 
 BORDER = 0.3
-"""Part of the strips' reach over which they give way to the carpet: over a crest, their feet come out row by row."""
+"""Part of the strips' reach over which they fade into the carpet: over a crest, their feet come out row by row."""
 
 LEAST_BORDER = 4.0
-"""Over how many patches they do at least."""
+"""Least width of that fade [patches]."""
 
 GROWN = 0.6
-"""Part of a change from carpet to strips after which the strips stand at their full height."""
+"""Progress of a change from carpet to strips at which the strips reach their full height."""
 
 SINKS = 0.4
-"""Part of a change from carpet to strips after which the carpet begins to sink and fade."""
+"""Progress of a change from carpet to strips at which the carpet begins to sink and fade."""
 
 GLSL = {"GROWN": GROWN, "SINKS": SINKS}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Appearance:
-    """How each patch around a viewer appears in a frame."""
+    """Appearance of each patch around a viewer in a frame; rows are those of the patch table."""
 
     cover: Floats
-    """How much each representation shows, from 0 for nothing to 1 for all of it, shape (representations, rows)."""
+    """Opacity of each representation, 0 to 1, shape (representations, rows)."""
 
     morph: Floats
-    """How far blades have moved towards their painted places, shape (rows,)."""
+    """Progress of blades from their own places to their painted places, 0 to 1, shape (rows,)."""
 
     handed: Floats
-    """How far the blades have been handed over to the strips, shape (rows,)."""
+    """Progress of the cross-fade from blades to strips, 0 to 1, shape (rows,)."""
 
     growth: Floats
     """Height of the strips, as a part of their full height, shape (rows,)."""
 
     @classmethod
     def of_carpet(cls, representations: int, count: int, /) -> "Appearance":
-        """Return the appearance of `count` rows that have the last of so many representations alone, the carpet."""
+        """Return the appearance of `count` rows that show carpet alone, which is the last of the representations."""
         cover = np.zeros((representations, count), np.float32)
         cover[-1] = 1.0
         return cls(cover, *np.zeros((3, count), np.float32))
 
     def among(self, rows: NDArray[np.int64], count: int, /) -> "Appearance":
-        """Return this as the appearance of some rows among `count` of them; the others have carpet alone."""
+        """Spread the appearance of `rows` over a table of `count` rows; the other rows show carpet alone."""
         spread = Appearance.of_carpet(len(self.cover), count)
         spread.cover[:, rows] = self.cover
         spread.morph[rows], spread.handed[rows], spread.growth[rows] = self.morph, self.handed, self.growth
@@ -72,80 +71,81 @@ class Appearance:
 
 
 def smooth(progress: Floats, /) -> Floats:
-    """Return a step from 0 to 1 that starts and ends gently, where `progress` goes from 0 to 1."""
-    x = _part(progress)
+    """Return the smoothstep of `progress`, which is clamped to [0, 1]."""
+    x = _clamped(progress)
     return np.asarray(x * x * (np.float32(3.0) - np.float32(2.0) * x))
 
 
-def _part(value: Floats, /) -> Floats:
-    """Return what lies between 0 and 1 of some values; `np.clip` takes longer for few."""
+def _clamped(value: Floats, /) -> Floats:
+    """Clamp values to [0, 1]; faster than `np.clip` on short arrays."""
     return np.minimum(np.maximum(value, np.float32(0.0)), np.float32(1.0))
 
 
-def border_of(reach: float, /) -> float:
-    """Return over how many patches strips that reach so far give way to the carpet."""
+def border_width(reach: float, /) -> float:
+    """Return the width of the fade from strips with this `reach` into the carpet [patches]."""
     return max(BORDER * reach, LEAST_BORDER)
 
 
-def kept_near(away: Floats | Doubles, /, *, reach: float) -> Floats:
-    """Return how much of the strips the distance leaves, from 1 to 0 over the outermost patches, as `border_of` has it.
+def strips_left(away: Floats | Doubles, /, *, reach: float) -> Floats:
+    """Return the part of the strips that is left at a distance: 1 near by, falling to 0 over the `border_width`.
 
     `away` is the patches' distance from the viewer [patch sides]. So no line shows where the strips end, and a patch
     that changes between strips and carpet far away has next to nothing to change.
     """
-    return _part(((reach + 0.5 - away) / border_of(reach)).astype(np.float32))
+    return _clamped(((reach + 0.5 - away) / border_width(reach)).astype(np.float32))
 
 
 def appearance(weight: Floats, kept: Floats, /, *, transitions: Transitions, three: Three = (0, 1, 2)) -> Appearance:
-    """Return how each patch appears whose representations have these weights, (representations, rows).
+    """Return the appearance of patches from their representations' weights, shape (representations, rows).
 
-    `kept` (rows,) is how much of the strips the distance leaves. Between blades and strips, and between strips and
-    carpet, there are changes of their own (paper, sections 4.2 and 4.3): these are `three`, and all others fade.
+    `kept` (rows,) comes from `strips_left`. Blades morph into strips, and strips grow out of the carpet (paper,
+    sections 4.2 and 4.3); `three` has the numbers of these representations. All other representations cross-fade.
     """
     if not transitions.gradual:
         kept = np.ones_like(kept)
     blades, strips, carpet = (weight[number] for number in three)
     both = (blades > 0.0) & (strips > 0.0)
-    covers, growth, laid = _grown(np.where(carpet > 0.0, kept * strips, kept), transitions)
-    shown, morph, handed = _moved(blades, strips, transitions)
+    strip_cover, growth, carpet_cover = _grown(np.where(carpet > 0.0, kept * strips, kept), transitions)
+    blade_cover, morph, handed = _morphed(blades, strips, transitions)
     if not transitions.morph:
-        covers = np.where(both, covers * _early(strips, transitions), covers)
-    lies = np.where(strips > 0.0, np.where(both, laid * strips, laid), carpet)
+        strip_cover = np.where(both, strip_cover * _faded(strips, transitions), strip_cover)
+    carpet_cover = np.where(strips > 0.0, np.where(both, carpet_cover * strips, carpet_cover), carpet)
     cover = np.empty_like(weight)
     for number in (number for number in range(len(weight)) if number not in three):
-        cover[number] = _early(weight[number], transitions)
-        covers = np.where(weight[number] > 0.0, covers * _early(strips, transitions), covers)
-    for number, values in zip(three, (shown, np.where(strips > 0.0, covers, np.float32(0.0)), lies), strict=True):
+        cover[number] = _faded(weight[number], transitions)
+        strip_cover = np.where(weight[number] > 0.0, strip_cover * _faded(strips, transitions), strip_cover)
+    strip_cover = np.where(strips > 0.0, strip_cover, np.float32(0.0))
+    for number, values in zip(three, (blade_cover, strip_cover, carpet_cover), strict=True):
         cover[number] = values
     return Appearance(cover, morph, handed, growth)
 
 
-def _moved(blades: Floats, strips: Floats, transitions: Transitions) -> tuple[Floats, Floats, Floats]:
-    """Return how much blades cover, how far they have moved, and how much of them has been handed over."""
+def _morphed(blades: Floats, strips: Floats, transitions: Transitions) -> tuple[Floats, Floats, Floats]:
+    """Return cover, `morph` and `handed` of blades, each of shape (rows,)."""
     both = (blades > 0.0) & (strips > 0.0)
     if not transitions.morph:
-        gone = (strips > 0.0).astype(np.float32)
-        return _early(blades, transitions), np.zeros_like(blades), gone
+        handed = (strips > 0.0).astype(np.float32)
+        return _faded(blades, transitions), np.zeros_like(blades), handed
     morph = np.zeros_like(blades)
-    morph[both] = np.minimum(strips[both] / np.float32(ARRIVED), np.float32(1.0)) ** np.float32(GENTLY)
-    handed = _part((strips - np.float32(NEARLY)) / np.float32(1.0 - NEARLY))
-    shown = np.where(both, np.float32(1.0), _early(blades, transitions))
-    return shown, morph, np.where(both, handed, (strips > 0.0).astype(np.float32))
+    morph[both] = np.minimum(strips[both] / np.float32(ARRIVED), np.float32(1.0)) ** np.float32(MORPH_POWER)
+    handed = _clamped((strips - np.float32(HANDED_FROM)) / np.float32(1.0 - HANDED_FROM))
+    cover = np.where(both, np.float32(1.0), _faded(blades, transitions))
+    return cover, morph, np.where(both, handed, (strips > 0.0).astype(np.float32))
 
 
-def _early(weight: Floats, transitions: Transitions) -> Floats:
-    """Return how much a representation shows that fades in while the other is still there, and out after it has come.
+def _faded(weight: Floats, transitions: Transitions) -> Floats:
+    """Return the cover of a representation that cross-fades: 1 from a weight of 0.5 on.
 
-    So no ground shows through the change.
+    One of the two is always opaque, so no ground shows through the change.
     """
     if not transitions.fade:
         return (weight >= np.float32(0.5)).astype(np.float32)
-    early: Floats = np.minimum(weight * np.float32(2.0), np.float32(1.0))
-    return early
+    cover: Floats = np.minimum(weight * np.float32(2.0), np.float32(1.0))
+    return cover
 
 
 def _grown(progress: Floats, transitions: Transitions) -> tuple[Floats, Floats, Floats]:
-    """Return how much strips cover, how high they stand, and how much carpet there is, on the way from it to them."""
+    """Return cover and growth of the strips, and cover of the carpet, during a change from carpet to strips."""
     if transitions.growth:
         height = smooth(progress / np.float32(GROWN))
         sunk = smooth((progress - np.float32(SINKS)) / np.float32(1.0 - SINKS))
@@ -158,10 +158,10 @@ def _grown(progress: Floats, transitions: Transitions) -> tuple[Floats, Floats, 
 
 
 def handed_over(handed: Floats, /, *, fade: bool) -> tuple[Floats, Floats]:
-    """Return how much blades show, and the strips that they lie on, while they are handed over."""
+    """Return the cover of blades, and of the strips that they are painted on, at a progress `handed` of their fade."""
     if not fade:
-        painted = (handed >= np.float32(0.5)).astype(np.float32)
-        return np.float32(1.0) - painted, painted
+        strips = (handed >= np.float32(0.5)).astype(np.float32)
+        return np.float32(1.0) - strips, strips
     one = np.float32(1.0)
-    more = np.float32(OVERLAP) * handed * (one - handed)
-    return np.minimum(one - handed + more, one), np.minimum(handed + more, one)
+    extra = np.float32(OVERLAP) * handed * (one - handed)
+    return np.minimum(one - handed + extra, one), np.minimum(handed + extra, one)

@@ -1,4 +1,4 @@
-"""What a game asks to be drawn of a viewer's frame."""
+"""Parts of a frame that a game asks to be drawn."""
 
 from dataclasses import dataclass, replace
 from typing import Self
@@ -10,12 +10,12 @@ from ...engine.declared.parts import PARTS, PartName
 from ..space.grown import Grown
 
 ONCE = frozenset[PartName]({"sky", "ground", "grass"})
-"""The parts that a frame has once: who asks for one of them again begins the next frame."""
+"""Parts that are drawn at most once in a frame: asking for one of them again begins the next frame."""
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """What is drawn at a time."""
+    """Parts to draw in one call, and how."""
 
     parts: frozenset[PartName] = frozenset(PARTS)
 
@@ -23,44 +23,46 @@ class Asked:
     """Whether all grass writes depth, where it covers at least half a pixel."""
 
     is_alone: bool = False
-    """Whether nothing else has depth in the picture, before it or after it."""
+    """Whether nothing else reads or writes the picture's depth, before this call or after it."""
 
-    on_ours: bool = True
-    """Whether what the grass stands on has been drawn here, and is not the game's own."""
+    on_own_ground: bool = True
+    """Whether the ground under the grass was drawn in this frame; otherwise it is the game's."""
 
     @property
     def over_hosts(self) -> bool:
-        """Whether grass is laid over ground that the game has drawn, by how much of that it covers."""
-        return "grass" in self.parts and not self.on_ours
+        """Whether grass is blended over ground that the game has drawn, by its coverage."""
+        return "grass" in self.parts and not self.on_own_ground
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Frame:
-    """A viewer's frame as far as it has been drawn."""
+    """A viewer's frame, of which some parts have been drawn."""
 
     seen: View
-    """Before clip space was turned the usual way."""
+    """The game's matrices, before clip space is converted to OpenGL's usual one."""
 
     time: float
+    """The prairie's time [s]."""
+
     grown: Grown
     parts: frozenset[PartName] = frozenset()
-    """Those that have been drawn."""
+    """Parts that have been drawn."""
 
-    def goes_on(self, next_one: Self, /) -> bool:
-        """Return whether more parts of the same frame are asked for."""
-        if self.grown is not next_one.grown or self.time != next_one.time or not ONCE & next_one.parts:
+    def goes_on(self, asked: Self, /) -> bool:
+        """Return whether the parts of `asked` belong to this same frame."""
+        if self.grown is not asked.grown or self.time != asked.time or not ONCE & asked.parts:
             return False
         is_same = (
-            np.array_equal(one, other)
-            for one, other in (
-                (self.seen.view, next_one.seen.view), (self.seen.projection, next_one.seen.projection),
+            np.array_equal(before, now)
+            for before, now in (
+                (self.seen.view, asked.seen.view), (self.seen.projection, asked.seen.projection),
             )
         )  # fmt: skip
-        return not ONCE & self.parts & next_one.parts and all(is_same)
+        return not ONCE & self.parts & asked.parts and all(is_same)
 
     def after(self, before: Self | None, /, *, depth: str) -> "tuple[Frame, Asked, bool]":
-        """Return the frame as it is once this much is drawn, what that is, and whether it goes on from `before`."""
+        """Return the frame once these parts are drawn, what to draw for that, and whether it goes on from `before`."""
         is_next = before is None or not before.goes_on(self)
         drawn = self.parts if is_next or before is None else before.parts | self.parts
-        asked = Asked(self.parts, depth == "all", depth == "none", "ground" in drawn)
+        asked = Asked(self.parts, is_deep=depth == "all", is_alone=depth == "none", on_own_ground="ground" in drawn)
         return replace(self, parts=drawn), asked, not is_next

@@ -9,12 +9,12 @@ from ...components.patch import Cell
 
 
 class Clearings:
-    """The cells without grass, for every viewer alike, however far it has gone meanwhile."""
+    """The cells whose grass is taken away, for all viewers and at any distance from them."""
 
     def __init__(self) -> None:
         self._cells: set[Cell] = set()
         self.version = 0
-        """A number that is another one after every change."""
+        """A number that differs after every change."""
 
     def __contains__(self, cell: object) -> bool:
         return cell in self._cells
@@ -35,12 +35,12 @@ class Clearings:
         return frozenset(self._cells)
 
     def resume(self, cells: Iterable[Cell], /) -> None:
-        """Let just these cells be cleared."""
+        """Clear these cells and no others, as a saved state says."""
         self._cells = set(cells)
         self.version += 1
 
     def spare(self, cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
-        """Return whether grass grows on each of some cells (n, 2), shape (n,)."""
+        """Return which cells (n, 2) keep their grass, shape (n,)."""
         if not self._cells:
             return np.ones(len(cells), np.bool_)
         cleared = _keys(np.array(list(self._cells), np.int64))
@@ -48,5 +48,5 @@ class Clearings:
 
 
 def _keys(cells: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return a number for each cell (n, 2) that no other has, shape (n,)."""
+    """Return a unique number for each cell (n, 2), shape (n,)."""
     return cells[:, 0] << 32 ^ cells[:, 1] & 0xFFFFFFFF

@@ -1,4 +1,4 @@
-"""What a representation keeps for one viewer."""
+"""Pools and receivers that a representation keeps for one viewer."""
 
 from collections.abc import Sequence
 
@@ -12,41 +12,41 @@ from .receivers import Receiving
 
 
 class Kept:
-    """What a representation keeps for one viewer: the receivers that it stands on, of each pool."""
+    """What a representation keeps for one viewer; `receiving` has the receivers of each of its pools."""
 
     def __init__(self, receiving: Sequence[Receiving] = ()) -> None:
         self.receiving = list(receiving)
         self.planted = 0
-        """How often anything of it has been planted, or has come to stand elsewhere."""
+        """Number of times that patches have been planted or moved."""
 
     def enlist(self, world: World, patches: PatchTable, /) -> None:
-        """Let the receivers of what is shown be entities, and no others."""
+        """Create an entity for the receivers of each patch that is shown, and delete all others."""
         for receiving in self.receiving:
             receiving.enlist(world, patches)
 
     @property
     def is_listed(self) -> bool:
-        """Whether that is done: otherwise some more come in the next frame."""
+        """Whether all receivers shown have their entities; otherwise the next frame creates more."""
         return all(receiving.is_listed for receiving in self.receiving)
 
     def leave(self, rows: NDArray[np.int32], /) -> None:
-        """Take note that other patches are in some rows of the patch table now."""
+        """Handle that `rows` of the patch table hold other patches now."""
 
     def stand_on(self, first: Ints, last: Ints, span: tuple[float, float], /) -> None:
-        """Take note that the ground is another on the cells from `first` to `last`, each (i, j).
+        """Handle that the terrain has changed on the cells from `first` to `last`, each (i, j).
 
-        `span` has its lowest and its highest height [m].
+        `span` has the least and the largest height there [m].
         """
 
     def sow_on(self, cells: Ints, /) -> None:
-        """Take note that something else grows on these cells (n, 2)."""
+        """Handle that the densities have changed on these cells (n, 2)."""
 
     def lose(self) -> None:
-        """Take note that all entities are gone."""
+        """Handle that all entities of the world have been deleted."""
         for receiving in self.receiving:
             receiving.lose()
 
     def release(self, world: World, /) -> None:
-        """Delete its entities."""
+        """Delete the entities of all receivers."""
         for receiving in self.receiving:
             receiving.release(world)

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tallgrass.components.viewer import Viewer
-from tallgrass.systems.around.pace import IDLE, Pace, counted
+from tallgrass.systems.around.pace import IDLE, Pace, change_step
 from tallgrass.systems.transition import FADE
 
 PLAYED = [1.0 / 60.0] * 120
@@ -53,6 +53,6 @@ def test_x2_nobody_gets_used_to_a_pause_but_to_fast_frames_everybody_does() -> N
 
 def test_x2_two_changes_in_a_row_are_over_within_sixty_frames_of_idle_time() -> None:
     assert 2 * FADE / IDLE < 50
-    assert counted(Viewer(dt=0.001, idles=True)) == IDLE
-    assert counted(Viewer(dt=0.2, idles=True)) == 0.2
-    assert counted(Viewer(dt=0.001)) == 0.001
+    assert change_step(Viewer(dt=0.001, idles=True)) == IDLE
+    assert change_step(Viewer(dt=0.2, idles=True)) == 0.2
+    assert change_step(Viewer(dt=0.001)) == 0.001

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tallgrass.engine.world import World
-from tallgrass.systems.around.lens import LONG, brought_near
+from tallgrass.systems.around.lens import LONG, reach_under
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.lod import farthest, reach_of
 from tallgrass.systems.show.blades.pool import BladesKept
@@ -26,17 +26,17 @@ LENSES = st.floats(1.0, 30.0)
 def test_a_lens_brings_each_representation_near_as_far_as_the_next_one_reaches_without_it(
     reach: tuple[int, ...], lens: float
 ) -> None:
-    near = brought_near(reach, lens)
+    near = reach_under(reach, lens)
     assert near[-1] == reach[-1]
     for limit, farther, after in zip(reach[:-1], near[:-1], reach[1:], strict=True):
         assert farther == min(limit * lens, after)
-    assert brought_near(reach, 1.0) == reach
+    assert reach_under(reach, 1.0) == reach
 
 
 @given(LENSES, st.sampled_from([0, 1, 2]))
 def test_a_lens_brings_nothing_near_that_another_representation_stands_for(lens: float, forced: int) -> None:
     reach = reach_of((4, 20, 40), forced)
-    near = brought_near(reach, lens)
+    near = reach_under(reach, lens)
     assert list(near) == sorted(near)
     assert all(farther == limit for farther, limit in zip(near, reach, strict=True) if limit < 0)
     assert (near[1] == near[0]) == (reach[1] == reach[0])
@@ -60,7 +60,7 @@ def farthest_of(outlook: Outlook, level: int) -> int:
 def test_g3_blades_and_strips_reach_as_far_as_a_long_lens_brings_them(laid: Laid, look: Look, zoom: float) -> None:
     site = laid()
     outlook = far_look(look, site, zoom)
-    near = brought_near(site.reach, 1.0 if zoom <= LONG else zoom)
+    near = reach_under(site.reach, 1.0 if zoom <= LONG else zoom)
     assert outlook.lens.reach_in(site.reach) == pytest.approx(near)
     for level in (0, 1):
         unfit = outlook.patches.away > near[level]

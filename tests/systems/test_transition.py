@@ -14,7 +14,7 @@ from tallgrass.components.viewer import Viewer
 from tallgrass.engine.schedule import Phase
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
-from tallgrass.systems.around.appearance import Appearance, appearance, border_of, handed_over, kept_near
+from tallgrass.systems.around.appearance import Appearance, appearance, border_width, handed_over, strips_left
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.transitions import SEAMLESS, Transitions
 from tallgrass.systems.lod import SLACK
@@ -134,8 +134,8 @@ def test_x4_handing_over_begins_with_blades_alone_and_ends_with_strips_alone() -
 @pytest.mark.parametrize(("reach", "border"), [(8, 4.0), (20, 6.0)])
 def test_x5_towards_their_end_the_distance_leaves_less_and_less_of_strips(reach: int, border: float) -> None:
     away = np.linspace(0.0, 30.0, 121, dtype=np.float32)
-    kept = kept_near(away, reach=reach)
-    assert border_of(reach) == border
+    kept = strips_left(away, reach=reach)
+    assert border_width(reach) == border
     assert kept[away <= reach + 0.5 - border].min() == 1.0
     assert kept[away >= reach + 0.5].max() == 0.0
     assert (np.diff(kept) <= 0.0).all()

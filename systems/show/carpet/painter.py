@@ -14,7 +14,7 @@ from ....engine.gl.guest import let_pass
 from ....engine.gl.remembered import Remembered
 from ....engine.gl.shaders import Texts
 from ....engine.gl.stream import release_all
-from ...around.appearance import border_of
+from ...around.appearance import border_width
 from ...around.asked import Asked
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
@@ -57,7 +57,7 @@ class CarpetPainter(RepresentationPainter):
 
     def __init__(self, canvas: Canvas, stock: CarpetStock, ground: Ground, side: int, *, coarse: bool = False) -> None:
         self._ground, self._spacing = ground, finest_spacing(ground.terrain, ground.patch)
-        self._whole_to = canvas.reach[-2] - int(border_of(canvas.reach[-2])) - 1
+        self._whole_to = canvas.reach[-2] - int(border_width(canvas.reach[-2])) - 1
         self._units = canvas.units
         self._around, self._seen = Remembered[Tiles](), Remembered[ByLayer]()
         self._parted = Remembered[Parted]()
