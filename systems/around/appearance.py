@@ -21,7 +21,7 @@ HANDED_FROM = 0.35
 """Progress of a change from blades to strips at which the cross-fade from blades to strips begins."""
 
 OVERLAP = 0.7
-"""Extra cover of blades and strips in their cross-fade, of which a quarter is added half way. Both cover the same place:
+"""Extra cover of blades and strips in their cross-fade, of which a quarter is added half way. Both cover one place:
 with less, dark depths show through dense grass; with more, single blades look swollen."""
 
 BORDER = 0.3
