@@ -8,7 +8,7 @@ from typing import TypeVar
 import moderngl
 
 from ..components.wind import WindPrimitive
-from ..engine.gl.beside import Beside, makes_beside
+from ..engine.gl.background import BackgroundCompiler, compiles_in_background
 from ..engine.gl.stream import release_all
 from .features import UNITS
 from .frame.block import FrameBlock
@@ -52,7 +52,7 @@ class Holding:
         self.air: CardWinds
         self.site: Site | None = None
         self._staged: Staged | None = None
-        self._beside = Beside(ctx)
+        self._beside = BackgroundCompiler(ctx)
         self._later: Iterator[None] = iter(())
         """Makes programs that no frame has drawn with yet, a piece a frame."""
         self._special: dict[str, str | int] = {}
@@ -77,7 +77,7 @@ class Holding:
 
     def steps(self, site: Site) -> int:
         """Return how many steps `preparing` takes at most."""
-        times = 2 if makes_beside(self.ctx) else 1
+        times = 2 if compiles_in_background(self.ctx) else 1
         return 2 * len(self.parts) + 11 + sum(6 + times * each.programs for each in site.representations)
 
     def _making_ready(
@@ -86,7 +86,7 @@ class Holding:
         """Make room and programs for whatever winds will blow."""
         assert self._winds is not None
         painters = self.painters if painters is None else painters
-        yield from self._beside.waiting(chain.from_iterable(painter.texts() for painter in painters.values()))
+        yield from self._beside.compile_together(chain.from_iterable(painter.texts() for painter in painters.values()))
         for painter in painters.values():
             yield from painter.making()
             painter.make_ready(site)
@@ -136,7 +136,7 @@ class Holding:
         """Make what later frames will need: all that a game has asked for, or what no card makes beside frames."""
         if self._winds is not None:
             yield from self._making_ready(site)
-        elif not makes_beside(self.ctx):
+        elif not compiles_in_background(self.ctx):
             yield from self._later  # at once, as each program would hold a frame up
 
     def _fits(self, site: Site, before: Site) -> bool:
@@ -196,7 +196,7 @@ class Holding:
         self.block.defines = defines
         self.air = CardWinds(self.ctx, UNITS, site.growths)
         canvas = self._canvas(site, self.air)
-        is_ahead, is_beside = AHEAD and self.quarantine.live, makes_beside(self.ctx)
+        is_ahead, is_beside = AHEAD and self.quarantine.live, compiles_in_background(self.ctx)
         for each in site.representations:
             self.painters[each.name] = made = each.painter(canvas)
             yield
@@ -223,7 +223,7 @@ class Holding:
         """
         makers: list[RepresentationPainter | Part] = [*self.painters.values(), *self.parts]
         yield  # what the first frame draws with is made for it
-        yield from self._beside.making(chain.from_iterable(each.texts() for each in makers))
+        yield from self._beside.compile_in_turn(chain.from_iterable(each.texts() for each in makers))
         for each in makers:
             yield from each.making()
         if self._winds is None:

@@ -8,7 +8,7 @@ import moderngl
 
 from ..engine.camera import View, is_mirrored, light_from
 from ..engine.gl.guest import aside, colourless, depth_ends, guest
-from ..engine.gl.rasteriser import handing_over
+from ..engine.gl.rasteriser import early_flush
 from ..engine.gl.smaller import OVER, Smaller
 from ..engine.gl.stopwatch import Stopwatch
 from ..engine.gl.stream import release_all
@@ -41,7 +41,7 @@ class Painter(Holding):
     ) -> None:
         super().__init__(ctx, features, winds, linear=linear)
         self.smaller, self.stopwatch = Smaller(ctx, floats=linear), Stopwatch(ctx)
-        self._hand_over = handing_over(ctx)
+        self._hand_over = early_flush(ctx)
         self.draw_calls = self.blades = 0
         """Of the last frame; and the blades that were sent as geometry."""
         self._outlook: Outlook | None = None

@@ -12,7 +12,7 @@ import moderngl
 from ..engine.camera import View, as_origin, camera_at, projection_matrix, view_matrix, view_of
 from ..engine.declared.parts import DEPTHS, as_parts
 from ..engine.declared.quality import LodName
-from ..engine.gl.guest import unturned
+from ..engine.gl.guest import guest_view
 from ..engine.handed import must_be_a, must_be_flags, must_be_known, must_be_seed, must_be_viewer
 from ..engine.plugged import bring_systems
 from ..engine.scene import LoadedScene, SceneLike, must_be_read, read_again, read_scene
@@ -177,7 +177,7 @@ class Prairie(Tending):
         with self._assembly.screen.opened(self.site) as painter:
             if painter is None:
                 return
-            outlook = self._look(unturned(seen), viewer, goes_on=goes_on)
+            outlook = self._look(guest_view(seen), viewer, goes_on=goes_on)
             outlook.frame = frame
             outlook.note(asked)
             self.governor.begin(outlook, goes_on=goes_on)
@@ -207,7 +207,7 @@ class Prairie(Tending):
             return
         with self._assembly.screen.opened(self.site) as painter:
             if painter is not None:
-                painter.cast(unturned(seen), outlook)
+                painter.cast(guest_view(seen), outlook)
 
     @property
     def origin(self) -> tuple[float, float, float]:

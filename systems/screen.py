@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import moderngl
 import numpy as np
 
-from ..engine.gl.guest import arrive, guest, host_context, kept
+from ..engine.gl.guest import guest, host_context, saved_state, sync_framebuffer
 from ..engine.gl.homes import Homes
 from ..engine.gl.host import State
 from ..engine.gl.outputs import has_depth
@@ -90,13 +90,13 @@ class Screen:
     def _entered(self) -> Iterator[Painter | None]:
         """Give the painter of the host's context, whatever it has settled on."""
         self._painters.check()
-        with np.errstate(under="ignore"), kept(self.ctx) as state:
+        with np.errstate(under="ignore"), saved_state(self.ctx) as state:
             if 0 in state.viewport[2:]:
                 yield None
                 return
             self._must_have_depth(state)
             self.painter = self._painters.here(state.gl, self._made)
-            arrive(self.painter.ctx)
+            sync_framebuffer(self.painter.ctx)
             yield self.painter
 
     def _must_have_depth(self, state: State) -> None:
@@ -112,7 +112,7 @@ class Screen:
     def _made(self) -> Painter:
         """Return a new painter, in the context that is current."""
         ctx = host_context(self.ctx)
-        arrive(ctx)
+        sync_framebuffer(ctx)
         return Painter(ctx, self._features, self._winds, linear=self.linear)
 
     def current(self) -> Painter:

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 from ..components.wind import WindPrimitive
-from ..engine.gl.beside import Beside
+from ..engine.gl.background import BackgroundCompiler
 from ..engine.gl.stream import release_all
 from .frame.block import FrameBlock
 from .show.representation import Canvas, Representation, RepresentationPainter
@@ -32,7 +32,7 @@ class Staged:
     def making(
         self,
         canvas: Canvas,
-        beside: Beside,
+        beside: BackgroundCompiler,
         winds: Sequence[WindPrimitive],
         ready: Callable[[], Iterator[None]] | None,
         /,
@@ -46,7 +46,7 @@ class Staged:
             with _told(block, self.defines):
                 self.painters[each.name] = painter = each.painter(canvas)
             yield
-            yield from _telling(block, self.defines, beside.making(painter.texts()))
+            yield from _telling(block, self.defines, beside.compile_in_turn(painter.texts()))
             yield from _telling(block, self.defines, painter.making())
         with _told(block, self.defines):
             canvas.air.meet(winds)

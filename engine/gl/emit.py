@@ -51,7 +51,7 @@ def block(name: str, record: np.dtype[np.void], /) -> str:
     return f"{structs}layout(std140) uniform {name} {{\n{_members(record)}}};\n"
 
 
-def looked_up(name: str, record: np.dtype[np.void], sampler: str, per_row: int, /) -> str:
+def record_lookup(name: str, record: np.dtype[np.void], sampler: str, per_row: int, /) -> str:
     """Return GLSL that looks records up by number in a texture, `per_row` in a row: `name_of` returns a `Name`."""
     texels, values = record.itemsize // 16, []
     for field in record.names or ():

@@ -12,10 +12,10 @@ from .current import current_functions, is_own, own_context
 from .functions import NUMBERS, functions_of
 from .host import State, has_windows, is_hidden, loaded_gl, pyglet_context
 from .limits import limits_of
-from .outputs import is_of_another_sort
+from .outputs import is_not_plain_2d
 from .units import SCRATCH_UNIT
 
-_kept: list[State] = []
+_saved: list[State] = []
 
 TURNED = {"<": ">", "<=": ">=", ">": "<", "1": "1"}
 """Tests of depth, and what each is where less is farther off."""
@@ -45,14 +45,14 @@ def _must_have_window() -> None:
 
 
 @contextmanager
-def kept(ctx: moderngl.Context | None) -> Iterator[State]:
+def saved_state(ctx: moderngl.Context | None) -> Iterator[State]:
     """Leave the host's GL state exactly as it is, whatever is done inside; yields what it was.
 
     `ctx` is the host's context, None for the one that is current now; RuntimeError if there is none, or too old a one.
     Which textures are bound to units from `FIRST_UNIT` on is not kept, nor what is bound to the last uniform block.
     """
-    if _kept:
-        yield _kept[-1]
+    if _saved:
+        yield _saved[-1]
         return
     if ctx is None:
         _must_have_window()
@@ -64,35 +64,35 @@ def kept(ctx: moderngl.Context | None) -> Iterator[State]:
     if ctx is not None and gl.glGetString(NUMBERS["VERSION"]) is None:
         raise RuntimeError("no GL context is current in this thread: draw in that of the window, or make one current")
     unit = SCRATCH_UNIT if ctx is None else ctx.default_texture_unit
-    _kept.append(State(gl, limits_of(gl), unit))
+    _saved.append(State(gl, limits_of(gl), unit))
     try:
-        _kept[-1].clear()
-        yield _kept[-1]
+        _saved[-1].clear()
+        yield _saved[-1]
     finally:
-        _kept.pop().restore()
+        _saved.pop().restore()
 
 
-def unturned(seen: View) -> View:
+def guest_view(seen: View) -> View:
     """Return a view for clip space in which a guest draws, from the host's (`glClipControl`).
 
     That is OpenGL's own, but for depth that is reversed: it stays as the host has it.
     """
-    clip = _kept[-1].clip(keeps_depth=is_reversed(seen))
+    clip = _saved[-1].clip(keeps_depth=is_reversed(seen))
     return seen if clip is None else View(seen.view, clip @ seen.projection)
 
 
-def unturned_clip(matrix: Doubles, /) -> Doubles:
+def guest_clip(matrix: Doubles, /) -> Doubles:
     """Return a matrix to clip space as OpenGL has it, from one to the host's, (4, 4)."""
-    clip = _kept[-1].clip()
+    clip = _saved[-1].clip()
     return matrix if clip is None else np.asarray(clip @ matrix, np.float64)
 
 
 def borrow(unit: int, texture: int, /) -> None:
     """Bind a 2D texture to a unit before `FIRST_UNIT`, until the host's state is brought back."""
-    _kept[-1].borrow(unit, texture)
+    _saved[-1].borrow(unit, texture)
 
 
-def arrive(ctx: moderngl.Context) -> None:
+def sync_framebuffer(ctx: moderngl.Context) -> None:
     """Tell moderngl which framebuffer the host has bound.
 
     Whenever it makes one, it binds again what it knows of; of a host that does not draw with it, that is an old one,
@@ -110,7 +110,7 @@ def guest(ctx: moderngl.Context, seen: View | None = None) -> Iterator[moderngl.
     It runs as in `seen`, where that is given. On leaving, the host's state is as it was. Never touches uniform binding
     point 0, nor the texture units before `FIRST_UNIT`.
     """
-    with kept(ctx) as state:
+    with saved_state(ctx) as state:
         target = _bound(ctx)
         with _remembered(ctx, target, state):
             state.look(is_reversed=seen is not None and is_reversed(seen))
@@ -121,19 +121,19 @@ def guest(ctx: moderngl.Context, seen: View | None = None) -> Iterator[moderngl.
                 state.look(is_reversed=False)
 
 
-def let_pass(ctx: moderngl.Context, test: str, /) -> None:
+def set_depth_test(ctx: moderngl.Context, test: str, /) -> None:
     """Draw where a test of depth says so: "<" is nearer, however the host's depth runs."""
-    ctx.depth_func = TURNED[test] if _kept[-1].is_turned else test
+    ctx.depth_func = TURNED[test] if _saved[-1].is_turned else test
 
 
 def depth_ends() -> tuple[float, float]:
     """Return the depths of the near and the far end of the clip space that a guest draws in now."""
-    return _kept[-1].ends
+    return _saved[-1].ends
 
 
 def farthest_depth() -> float:
     """Return the depth that a framebuffer has where nothing has been drawn."""
-    return 0.0 if _kept[-1].is_turned else 1.0
+    return 0.0 if _saved[-1].is_turned else 1.0
 
 
 @contextmanager
@@ -142,26 +142,26 @@ def aside(ctx: moderngl.Context, target: moderngl.Framebuffer, *, alike: bool = 
 
     Depth is the usual one there, or as in `target` where it is `alike`.
     """
-    box, cut, was_reversed = target.viewport, target.scissor, _kept[-1].is_reversed
+    box, cut, was_reversed = target.viewport, target.scissor, _saved[-1].is_reversed
     ctx.enable_only(moderngl.NOTHING)
-    _kept[-1].look(is_reversed=was_reversed and alike)
-    let_pass(ctx, "<=")
+    _saved[-1].look(is_reversed=was_reversed and alike)
+    set_depth_test(ctx, "<=")
     try:
         yield
     finally:
-        _kept[-1].look(is_reversed=was_reversed)
-        let_pass(ctx, "<=")
+        _saved[-1].look(is_reversed=was_reversed)
+        set_depth_test(ctx, "<=")
         target.use()
         target.viewport = box
         target.scissor = cut if cut != (0, 0, *target.size) else None  # type: ignore[assignment]
-        if target.glo == _kept[-1].framebuffer:
-            _kept[-1].narrow()
+        if target.glo == _saved[-1].framebuffer:
+            _saved[-1].narrow()
 
 
 @contextmanager
 def colourless(target: moderngl.Framebuffer) -> Iterator[None]:
     """Write no colour meanwhile into the framebuffer that is drawn in."""
-    state = _kept[-1]
+    state = _saved[-1]
     state.gl.glColorMaski(0, 0, 0, 0, 0)
     try:
         yield
@@ -194,7 +194,7 @@ def _bound(ctx: moderngl.Context) -> moderngl.Framebuffer:
     leaves an error of GL, which the host would take for its own.
     """
     found = ctx.detect_framebuffer()
-    if found.glo and is_of_another_sort(functions_of(ctx)):
+    if found.glo and is_not_plain_2d(functions_of(ctx)):
         _ = ctx.error
     return found
 
@@ -213,7 +213,7 @@ def _begin(ctx: moderngl.Context, target: moderngl.Framebuffer, state: State) ->
     ctx.wireframe = False
     ctx.blend_equation = moderngl.FUNC_ADD, moderngl.FUNC_ADD
     ctx.front_face = "ccw"
-    let_pass(ctx, "<=")
+    set_depth_test(ctx, "<=")
     target.depth_mask = True
     target.use()
     state.narrow()

@@ -47,7 +47,7 @@ def has_depth(gl: Functions, framebuffer: int, /) -> bool:
     return _attached(gl, "DEPTH_ATTACHMENT" if framebuffer else "DEPTH")
 
 
-def is_of_another_sort(gl: Functions, /) -> bool:
+def is_not_plain_2d(gl: Functions, /) -> bool:
     """Return whether the first colours of a host's framebuffer are a texture that could not be bound just now as 2D."""
     if _asked(gl, "COLOR_ATTACHMENT0", "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE") != NUMBERS["TEXTURE"]:
         return False

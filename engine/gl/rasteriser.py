@@ -36,7 +36,7 @@ def anisotropy(ctx: moderngl.Context, /) -> float:
     return 1.0 if draws_in_software(ctx) else max(min(MOST_SAMPLES, float(ctx.max_anisotropy)), 1.0)
 
 
-def handing_over(ctx: moderngl.Context, /) -> Callable[[], None]:
+def early_flush(ctx: moderngl.Context, /) -> Callable[[], None]:
     """Return what lets a software rasteriser begin with all that has been drawn so far, while more is got ready.
 
     Left to itself it begins when a frame is whole, and its threads wait until then. A card needs no such hint, and one

@@ -22,7 +22,7 @@ Line = tuple[str, int, str]
 
 
 class Texts(NamedTuple):
-    """What a driver makes a program of."""
+    """Sources that a driver compiles and links to a program."""
 
     vertex: str
     fragment: str
@@ -36,7 +36,7 @@ class ShaderError(RuntimeError):
 def _read(name: str) -> tuple[str, ...]:
     """Return the lines of a shader file: one of `lib/`, or else one named by its path inside the package.
 
-    Of a module of Python they are its `GLSL`.
+    The lines of a Python module are its `GLSL`.
     """
     if name.endswith(".py"):
         return tuple(emitted(import_module(f"{PACKAGE}.{name[:-3].replace('/', '.')}").GLSL).splitlines())
@@ -47,36 +47,37 @@ def _read(name: str) -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=256)
-def _parts(name: str, made: frozenset[str]) -> tuple[tuple[str, str, tuple[Line, ...]], ...]:
-    """Return what a shader consists of: stretches of files, as text and lines, each after a file of `made` or none.
+def _parts(name: str, replaced: frozenset[str]) -> tuple[tuple[str, str, tuple[Line, ...]], ...]:
+    """Return a shader's source with its includes in place, split at each file of `replaced`.
 
-    It is the same for every context and all defines, and a scene needs many programs.
+    Each part is the name of the replaced file before it ("" for the first part), its text, and its lines. Parts depend
+    neither on the context nor on defines, so the many programs of a scene share them.
     """
-    places = [""]
-    stretches: list[list[Line]] = [[]]
+    preceding = [""]
+    parts: list[list[Line]] = [[]]
     seen: set[str] = set()
 
     def gather(file: str) -> None:
         seen.add(file)
-        if file in made:
-            places.append(file)
-            stretches.append([])
+        if file in replaced:
+            preceding.append(file)
+            parts.append([])
             return
         for number, text in enumerate(_read(file), 1):
             included = _INCLUDE.match(text)
             if included is None:
-                stretches[-1].append((file, number, text))
+                parts[-1].append((file, number, text))
             elif included[1] not in seen:
                 gather(included[1])
 
     gather(name)
-    return tuple((place, _text(lines), tuple(lines)) for place, lines in zip(places, stretches, strict=True))
+    return tuple((file, _text(lines), tuple(lines)) for file, lines in zip(preceding, parts, strict=True))
 
 
 @lru_cache(maxsize=256)
-def _words(name: str, made: frozenset[str]) -> frozenset[str]:
-    """Return every word of a shader."""
-    return frozenset(_WORD.findall("".join(text for _, text, _ in _parts(name, made))))
+def _words(name: str, replaced: frozenset[str]) -> frozenset[str]:
+    """Return every word of a shader's source, outside of the `replaced` files."""
+    return frozenset(_WORD.findall("".join(text for _, text, _ in _parts(name, replaced))))
 
 
 def _text(lines: Iterable[Line]) -> str:
@@ -88,25 +89,25 @@ def compose(
     defines: Mapping[str, str | int] | None = None,
     made: Mapping[str, Sequence[Line]] | None = None,
 ) -> tuple[str, list[Line]]:
-    """Return a shader's source with every include in place once, and where each of its lines comes from.
+    """Return a shader's source with each include in place once, and the origin of each of its lines.
 
-    `made` has lines that stand in place of some files, and in which nothing is included. Of `defines` the source has
-    those that it names: the driver knows it again, whatever others there are.
+    `made` maps file names to lines that replace the file; includes in these lines are not resolved. The source gets
+    only those `defines` whose names it contains, so that others do not miss the driver's cache.
     """
-    given = made or {}
-    words = _words(name, frozenset(given)).union(_WORD.findall(_text(line for each in given.values() for line in each)))
-    told = ((key, value) for key, value in (defines or {}).items() if key in words)
-    lines: list[Line] = [(name, 0, text) for text in (_VERSION, *(f"#define {key} {value}" for key, value in told))]
+    made = made or {}
+    words = _words(name, frozenset(made)).union(_WORD.findall(_text(line for each in made.values() for line in each)))
+    used = ((key, value) for key, value in (defines or {}).items() if key in words)
+    lines: list[Line] = [(name, 0, text) for text in (_VERSION, *(f"#define {key} {value}" for key, value in used))]
     source = _text(lines)
-    for place, text, stretch in _parts(name, frozenset(given)):
-        stands = given.get(place, ())
-        source += _text(stands) + text
-        lines += [*stands, *stretch]
+    for file, text, part in _parts(name, frozenset(made)):
+        replacement = made.get(file, ())
+        source += _text(replacement) + text
+        lines += [*replacement, *part]
     return source, lines
 
 
 def locate(message: str, lines: list[Line]) -> str:
-    """Return a driver's message with the places of its composed source put back to files and lines."""
+    """Return a driver's message with line numbers of the composed source replaced by file names and their lines."""
 
     def place(match: re.Match[str]) -> str:
         number = int(match[1] or match[2])
@@ -119,7 +120,7 @@ def locate(message: str, lines: list[Line]) -> str:
 
 
 def texts(vertex: str, fragment: str, defines: Mapping[str, str | int]) -> Texts:
-    """Return what a driver is given of a program of two shader files."""
+    """Return the composed sources of a program of two shader files."""
     return Texts(compose(vertex, defines)[0], compose(fragment, defines)[0])
 
 
@@ -132,9 +133,9 @@ def program(
     varyings: tuple[str, ...] = (),
     made: Mapping[str, Sequence[Line]] | None = None,
 ) -> moderngl.Program:
-    """Return the program of two shader files; raises `ShaderError` with the file and line of what fails.
+    """Return the program of two shader files; raises `ShaderError` with the file and line of an error.
 
-    `made` has lines that stand in place of some included files.
+    `made` maps names of included files to lines that replace them.
     """
     sources = {name: compose(name, defines, made) for name in (vertex, fragment) if name is not None}
     try:
@@ -143,7 +144,7 @@ def program(
             fragment_shader=None if fragment is None else sources[fragment][0],
             varyings=varyings,
         )
-        compiled.extra = {}  # by name, what it was told last and the uniform
+        compiled.extra = {}  # entries of uniforms by name: the value set last, and the uniform
     except moderngl.Error as error:
         stage = fragment if fragment is not None and "fragment_shader" in str(error) else vertex
         raise ShaderError(locate(str(error), sources[stage][1])) from error
@@ -151,73 +152,75 @@ def program(
 
 
 ALL = ""
-"""By what a program knows the names of all that it asks for."""
+"""Key in a program's `extra` of the names of all its uniforms."""
 
 
-def tell(program: moderngl.Program, name: str, *value: float) -> None:
-    """Tell a program a number or a vector, if it asks for it and was not told the same before."""
-    told = program.extra.get(name) or _asked(program, name)
-    if told[0] != value:
-        told[0] = value
-        if told[1] is not None:
-            told[1].value = value if len(value) > 1 else value[0]
+def set_uniform(program: moderngl.Program, name: str, *value: float) -> None:
+    """Set a uniform number or vector, if the program uses it and its value has changed."""
+    entry = program.extra.get(name) or _entry(program, name)
+    if entry[0] != value:
+        entry[0] = value
+        if entry[1] is not None:
+            entry[1].value = value if len(value) > 1 else value[0]
 
 
-def tell_asked(program: moderngl.Program, *numbers: Mapping[str, tuple[float, ...]]) -> frozenset[str]:
-    """Tell a program those of some numbers and vectors that it asks for, and return all names it asks for."""
-    asked = program.extra.get(ALL)
-    if asked is None:
+def set_used_uniforms(program: moderngl.Program, *numbers: Mapping[str, tuple[float, ...]]) -> frozenset[str]:
+    """Set those numbers and vectors that the program uses; return the names of all its uniforms."""
+    used = program.extra.get(ALL)
+    if used is None:
         uniforms = frozenset(name for name in program if isinstance(program[name], moderngl.Uniform))
-        asked = program.extra[ALL] = [uniforms, None]
+        used = program.extra[ALL] = [uniforms, None]
     for each in numbers:
-        for name in asked[0] & each.keys():
-            tell(program, name, *each[name])
-    return frozenset(asked[0])
+        for name in used[0] & each.keys():
+            set_uniform(program, name, *each[name])
+    return frozenset(used[0])
 
 
-Due = list[tuple[list[Any], object, bytes]]
-"""What a program is to be told: what it was told last and the uniform; what it is told, and that in bytes."""
+PackedUniforms = list[tuple[list[Any], object, bytes]]
+"""Values for uniforms of one program: the uniform's entry in `extra`, its value, and the value's bytes."""
 
 
-def due(program: moderngl.Program, *numbers: Mapping[str, tuple[float, ...]]) -> Due:
-    """Tell a program those of some numbers and vectors that it asks for, and return them for `tell_due`.
+def pack(program: moderngl.Program, *numbers: Mapping[str, tuple[float, ...]]) -> PackedUniforms:
+    """Set those numbers and vectors that the program uses; return them packed for `set_packed`.
 
-    So they are looked for and packed once.
+    So they are looked up and packed once.
     """
-    found = Due()
+    found = PackedUniforms()
     for each in numbers:
-        for name in sorted(tell_asked(program) & each.keys()):
-            tell(program, name, *each[name])
-            told = program.extra[name]
-            found.append((told, each[name], told[1].read()))
+        for name in sorted(set_used_uniforms(program) & each.keys()):
+            set_uniform(program, name, *each[name])
+            entry = program.extra[name]
+            found.append((entry, each[name], entry[1].read()))
     return found
 
 
-def due_all(program: moderngl.Program, name: str, values: Sequence[tuple[float, ...]]) -> Due:
-    """Tell a program an array of vectors, and return it likewise."""
-    tell_all(program, name, values)
-    told = program.extra[name]
-    return [] if told[1] is None else [(told, values, told[1].read())]
+def pack_array(program: moderngl.Program, name: str, values: Sequence[tuple[float, ...]]) -> PackedUniforms:
+    """Set an array of vectors, if the program uses it; return it packed for `set_packed`."""
+    set_uniform_array(program, name, values)
+    entry = program.extra[name]
+    return [] if entry[1] is None else [(entry, values, entry[1].read())]
 
 
-def tell_due(numbers: Due) -> None:
-    """Tell a program what it was not told the same before."""
-    for told, value, packed in numbers:
-        if told[0] != value:
-            told[0] = value
-            told[1].write(packed)
+def set_packed(numbers: PackedUniforms) -> None:
+    """Set those uniforms whose values have changed."""
+    for entry, value, packed in numbers:
+        if entry[0] != value:
+            entry[0] = value
+            entry[1].write(packed)
 
 
-def _asked(program: moderngl.Program, name: str) -> list[Any]:
-    """Return what a program was told last by a name, nothing yet, and what takes it, if it asks."""
-    asked = program.get(name, None)  # `in` would go through all of its names
-    program.extra[name] = found = [None, asked if isinstance(asked, moderngl.Uniform) else None]
-    return found
+def _entry(program: moderngl.Program, name: str) -> list[Any]:
+    """Add a uniform's entry to the program's `extra`; return it: no value yet, and the uniform, None if unused."""
+    member = program.get(name, None)  # `in` would go through all names of the program
+    program.extra[name] = entry = [None, member if isinstance(member, moderngl.Uniform) else None]
+    return entry
 
 
-def tell_all(program: moderngl.Program, name: str, values: Sequence[float] | Sequence[tuple[float, ...]]) -> None:
-    """Tell a program an array of numbers or vectors, as much of it as it asks for: what is never read is left out."""
-    told = program.extra.get(name) or _asked(program, name)
-    if told[1] is not None and told[0] != values:
-        told[0], room = values, told[1].array_length
-        told[1].value = [*values, *[values[-1]] * room][:room] if room > 1 else values[0]
+def set_uniform_array(
+    program: moderngl.Program, name: str, values: Sequence[float] | Sequence[tuple[float, ...]]
+) -> None:
+    """Set an array of numbers or vectors, if the program uses it; drivers drop elements that are never read."""
+    entry = program.extra.get(name) or _entry(program, name)
+    if entry[1] is not None and entry[0] != values:
+        entry[0], length = values, entry[1].array_length
+        entry[1].value = [*values, *[values[-1]] * length][:length] if length > 1 else values[0]

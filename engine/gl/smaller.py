@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import moderngl
 
 from .functions import NUMBERS, functions_of
-from .guest import aside, colourless, depth_ends, farthest_depth, let_pass
+from .guest import aside, colourless, depth_ends, farthest_depth, set_depth_test
+from .occlusion import OcclusionQuery
 from .outputs import has_depth
-from .question import Question
 from .shaders import program
 from .stream import release_all
 from .units import UNITS
@@ -86,7 +86,7 @@ class Smaller:
         self._programs: dict[str, moderngl.Program] = {}
         self._passes: dict[str, moderngl.VertexArray] = {}
         self._buffers: dict[tuple[Size, Size], Buffers] = {}
-        self._has_host = Question(ctx)
+        self._has_host = OcclusionQuery(ctx)
         self._told: dict[str, object] = {}
         """What the programs have been told last, by name."""
         self._warned: set[str] = set()
@@ -177,9 +177,9 @@ class Smaller:
         tested = moderngl.NOTHING if everywhere else moderngl.DEPTH_TEST
         ctx.enable_only(tested if blending is None else tested | moderngl.BLEND)
         ctx.blend_func = blending or (moderngl.ONE, moderngl.ZERO)
-        let_pass(ctx, PASSES[name])
+        set_depth_test(ctx, PASSES[name])
         self._passes[name].render(moderngl.TRIANGLES, 3)
-        let_pass(ctx, "<=")
+        set_depth_test(ctx, "<=")
 
     def make_ready(self) -> None:
         """Make its programs, unless they are there."""

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Bytes, Doubles, Floats
-from ...engine.gl.shaders import program, tell
+from ...engine.gl.shaders import program, set_uniform
 from ...engine.gl.stream import release_all
 from ...engine.noise import noise_grid, noise_table
 from ...engine.terrain.part import Part
@@ -262,7 +262,7 @@ class LieMap:
         left = half * self._columns
         laid.target.viewport = left, 0, self._columns, self._rows
         laid.target.scissor = left + column, row, width, height
-        tell(self._arrays[half].program, "corner", *laid.origin)
+        set_uniform(self._arrays[half].program, "corner", *laid.origin)
         self._arrays[half].render(moderngl.TRIANGLES, vertices=3)
         return 1
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...engine.camera import View, view_of
 from ...engine.gl.functions import functions_of
-from ...engine.gl.guest import guest, unturned
+from ...engine.gl.guest import guest, guest_view
 from ...engine.gl.homes import Homes
 from ..around.outlook import Outlook
 from ..prairie import Prairie
@@ -56,7 +56,7 @@ class Overlay:
         ctx, outlook = prairie.painter.ctx, prairie.viewers[viewer]
         seen, masks = view_of(view, projection, prairie.origin), self._masks(prairie, outlook)
         with guest(ctx) as target:
-            seen = unturned(seen)
+            seen = guest_view(seen)
             size = target.viewport[2:]
             painter = self._painters.here(functions_of(ctx), partial(MarkPainter, ctx))
             painter.begin(size)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Floats
-from ...engine.gl.shaders import tell
+from ...engine.gl.shaders import set_uniform
 from ...engine.terrain.sample import height_at, own_density_at
 from ..around.outlook import Outlook
 from ..around.receivers import Pool, Receiving
@@ -52,7 +52,7 @@ class Received:
         """Ask `count` receivers from the `first` on with the program of a vertex array; return the number of draws."""
         if not count:
             return 0
-        tell(array.program, "pool", first // ROW, count)
+        set_uniform(array.program, "pool", first // ROW, count)
         self._target.viewport = 0, first // ROW, ROW, -(-count // ROW)
         self._target.use()
         array.render(moderngl.TRIANGLES, vertices=3)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles
 from ...components.shadow_map import ShadowMap, texture_number
 from ...engine.gl.functions import functions_of
-from ...engine.gl.guest import borrow, unturned_clip
+from ...engine.gl.guest import borrow, guest_clip
 from ...engine.gl.units import BORROWED
 from ..around.outlook import Outlook
 from ..frame.block import MAPS, FrameBlock
@@ -83,7 +83,7 @@ class ShadowPart(Part):
         self._most = max(self._most, len(self._bound))
         record["maps_shown"] = len(self._bound)
         for into, (each, _) in zip(record["maps"][0], self._bound, strict=False):
-            into["clip_of"], into["bias"] = unturned_clip(each.matrix).T.reshape(16), each.bias
+            into["clip_of"], into["bias"] = guest_clip(each.matrix).T.reshape(16), each.bias
 
     def _is_there(self, given: ShadowMap) -> bool:
         texture, number = given.texture, texture_number(given.texture)

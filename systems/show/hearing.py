@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 
 import moderngl
 
-from ...engine.gl.shaders import tell
+from ...engine.gl.shaders import set_uniform
 from .representation import Canvas
 
 VERTEX = "engine/gl/fill.vert"
@@ -38,7 +38,7 @@ class Hearing:
         if self._array is None or self._array.program is not made:
             self.release()
             for name, unit in canvas.units.items():
-                tell(made, name, unit)
+                set_uniform(made, name, unit)
             self._tell(made)
             self._array = canvas.ctx.vertex_array(made, [])
         return self._array

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import moderngl
 
-from ...engine.gl.shaders import Due, due, due_all, tell_asked, tell_due
+from ...engine.gl.shaders import PackedUniforms, pack, pack_array, set_packed, set_used_uniforms
 from .card import BACKS, CARDS, FAR, IN_ROWS, LEAVES, NEAR, QUAD, WOOD, ModelOnCard, Numbers
 from .choice import Lot
 from .kind import KindOnCard, Read
@@ -40,7 +40,7 @@ class Call(NamedTuple):
     vertices: int
     """So many are drawn of each; of wood, that is another number every time."""
 
-    due: Due
+    due: PackedUniforms
     """What its program is told of its kind, its model and of itself."""
 
     reads: Sequence[Read]
@@ -140,8 +140,8 @@ def draw(calls: Sequence[Drawn], numbers: Numbers, /) -> int:
         program = call.array.program
         if program.glo not in programs:
             programs.add(program.glo)
-            tell_asked(program, numbers)
-        tell_due(call.due)
+            set_used_uniforms(program, numbers)
+        set_packed(call.due)
         for read in call.reads:
             if bound.get(read.unit) is not read.texture:
                 bound[read.unit] = read.texture
@@ -157,16 +157,16 @@ def told_of_call(
     solid_from: float,
     *,
     casts: bool,
-) -> Due:
+) -> PackedUniforms:
     """Return what a program is told of a call: how much of a pixel is opaque, and the corners of an outline, if any.
 
     What `casts` a shadow is nowhere but where it is.
     """
-    told = due(program, {"solid_from": (solid_from,)}) + (due(program, {"behind": (0.0,)}) if casts else [])
+    told = pack(program, {"solid_from": (solid_from,)}) + (pack(program, {"behind": (0.0,)}) if casts else [])
     if corners:
-        told += due_all(program, "corners", corners)
+        told += pack_array(program, "corners", corners)
     if around is not None and around.high:  # else its pictures show nothing so opaque, and nothing is drawn
-        told += due(program, {"high": around.high}) + due_all(program, "reaches", around.reaches)
+        told += pack(program, {"high": around.high}) + pack_array(program, "reaches", around.reaches)
     return told
 
 

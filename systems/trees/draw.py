@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 from ...engine.camera import Place
-from ...engine.gl.shaders import Texts, tell_asked
+from ...engine.gl.shaders import Texts, set_used_uniforms
 from ...engine.gl.stream import Stream, release_all
 from ..around.outlook import Outlook
 from ..frame.block import FrameBlock
@@ -239,7 +239,7 @@ class TreePart(Part):
         assert self._stood is not None
         if self._placed.count:
             array = programs.made(STAND, self._placed)
-            tell_asked(array.program, self._numbers)
+            set_used_uniforms(array.program, self._numbers)
             array.transform(self._stood.buffer, moderngl.POINTS, vertices=self._placed.count)
             calls = 1
         for lot in self._lots:

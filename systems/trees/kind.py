@@ -9,7 +9,7 @@ import numpy as np
 from ...components.arrays import Bytes, Doubles
 from ...engine.declared.tree import TreeKind
 from ...engine.gl.mipmaps import mipmapped
-from ...engine.gl.shaders import Due, due, due_all, tell_asked, tell_due
+from ...engine.gl.shaders import PackedUniforms, pack, pack_array, set_packed, set_used_uniforms
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
 from . import told as told_of
@@ -153,21 +153,21 @@ class KindOnCard:
 
     def tell(self, program: moderngl.Program, model: ModelOnCard, *numbers: Numbers, noise: bool = False) -> None:
         """Tell a program of the kind, a model, and what else it is to know; bind what it reads."""
-        tell_due(self.due(program, model))
-        tell_asked(program, *numbers)
+        set_packed(self.due(program, model))
+        set_used_uniforms(program, *numbers)
         for read in self.reads(program, model, noise=noise):
             read.texture.use(read.unit)
 
-    def due(self, program: moderngl.Program, model: ModelOnCard) -> Due:
+    def due(self, program: moderngl.Program, model: ModelOnCard) -> PackedUniforms:
         """Return what a program is told of the kind and a model."""
         key = id(model)
         if key not in program.extra:  # the model is kept with it: so no other one is taken for it
-            told = due(program, self._numbers, model.numbers)
-            lies = model.lies if "tree_far" in tell_asked(program) else self._lies
-            told += due(program, {"hides": self._hides, "behind": (self._behind,)})
-            told += due_all(program, told_of.NAME, self._told_of[key]) + due_all(program, "lies", lies)
+            told = pack(program, self._numbers, model.numbers)
+            lies = model.lies if "tree_far" in set_used_uniforms(program) else self._lies
+            told += pack(program, {"hides": self._hides, "behind": (self._behind,)})
+            told += pack_array(program, told_of.NAME, self._told_of[key]) + pack_array(program, "lies", lies)
             program.extra[key] = model, told
-        found: Due = program.extra[key][1]
+        found: PackedUniforms = program.extra[key][1]
         return found
 
     def reads(self, program: moderngl.Program, model: ModelOnCard, *, noise: bool = False) -> list[Read]:
@@ -179,7 +179,7 @@ class KindOnCard:
             "tree_met": model.met,
             "tree_cards": cards,
         }
-        asked = tell_asked(program)
+        asked = set_used_uniforms(program)
         return [
             Read(texture, self.units[name])
             for name, texture in textures.items() if texture is not None and name in asked

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...engine.gl.emit import emitted, looked_up
+from ...engine.gl.emit import emitted, record_lookup
 
 TWIG = np.dtype(
     [
@@ -46,7 +46,7 @@ TWIGS_EACH = FINER_EACH**2
 """How many times as many twigs each stands for: leaves are as far apart, of how large they are. Were they any closer
 together, cards of a tree near by would be seen as plates."""
 
-GLSL = looked_up("Twig", TWIG, "tree_twigs", ROW) + emitted(
+GLSL = record_lookup("Twig", TWIG, "tree_twigs", ROW) + emitted(
     {
         "ORDERS": ORDERS, "RANKS": RANKS, "LEAST_KEPT": LEAST_KEPT,
         "SHOOTS_LONG": SHOOTS_LONG, "PICTURES": PICTURES, "TWIGS_EACH": TWIGS_EACH,

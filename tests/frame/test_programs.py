@@ -12,8 +12,8 @@ import pytest
 from tallgrass import Blast, Footprint, Gust, Pose, Presser
 from tallgrass.components.shade import Shade
 from tallgrass.engine.camera import Camera
-from tallgrass.engine.gl import beside
-from tallgrass.engine.gl.beside import Beside
+from tallgrass.engine.gl import background
+from tallgrass.engine.gl.background import BackgroundCompiler
 from tallgrass.engine.gl.rasteriser import draws_in_software
 from tallgrass.engine.gl.shaders import Texts
 from tallgrass.systems.bodies.feature import BodiesPart
@@ -128,12 +128,12 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     asked: list[str] = []
     looks = count()
 
-    def ask(_: Beside, texts: Texts) -> None:
+    def ask(_: BackgroundCompiler, texts: Texts) -> None:
         asked.append(texts.vertex)
 
-    monkeypatch.setattr(beside, "draws_in_software", lambda _: False)
-    monkeypatch.setattr(Beside, "ask", ask)
-    monkeypatch.setattr(Beside, "left", property(lambda _: max(0, len(asked) - next(looks))))
+    monkeypatch.setattr(background, "draws_in_software", lambda _: False)
+    monkeypatch.setattr(BackgroundCompiler, "ask", ask)
+    monkeypatch.setattr(BackgroundCompiler, "left", property(lambda _: max(0, len(asked) - next(looks))))
     return asked
 
 

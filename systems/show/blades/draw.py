@@ -7,7 +7,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ....engine.gl.shaders import Texts, tell
+from ....engine.gl.shaders import Texts, set_uniform
 from ....engine.gl.stream import Stream, release_all
 from ...frame.block import FrameBlock, filled, joined, room_for
 from .organs import organ_defines
@@ -135,7 +135,7 @@ class Ribbons:
             return 0
         array = self.array(SHADED if self._block.casts else USUAL)
         if part is not None:
-            tell(array.program, "part", part)
+            set_uniform(array.program, "part", part)
         return self._draw(array)
 
     def draw_deep(self) -> int:

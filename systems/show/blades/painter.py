@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ....components.arrays import Floats
 from ....engine.declared.quality import Quality
 from ....engine.gl.remembered import Remembered, Shelves
-from ....engine.gl.shaders import Texts, tell
+from ....engine.gl.shaders import Texts, set_uniform
 from ....engine.gl.stream import Records, Stream, release_all
 from ...around.appearance import handed_over
 from ...around.outlook import Outlook
@@ -128,7 +128,7 @@ class BladesPainter(RepresentationPainter):
     def _tell(self, made: moderngl.Program) -> None:
         """Tell a program what it has to know of blades and of strips."""
         for name, value in (("near", self._near), ("models", self._models), ("each", self.store.count)):
-            tell(made, name, value)
+            set_uniform(made, name, value)
         tell_sizes(made, self._strips.stock.forms)
         tell_stacks(made, self._strips.quality.strip_rings)
 
@@ -287,7 +287,7 @@ class BladesPainter(RepresentationPainter):
         shelf.standing.texture.use(self._units["standing"])
         self.store.slices.use(self._units["slices"])
         for made in self.passes:
-            tell(made, "blades_from", self._first)
+            set_uniform(made, "blades_from", self._first)
         calls = first = 0
         for ribbons, count in zip((self.morph, *self.groups), shelf.counts, strict=True):
             calls += ribbons.fill(shelf.arrays[ribbons is self.morph], count, first=first)

@@ -6,7 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ....engine.gl.emit import emitted, looked_up
+from ....engine.gl.emit import emitted, record_lookup
 from ....engine.gl.mipmaps import at_once
 from ....engine.gl.stream import Records, release_all
 from ..strips.stock import StripStock
@@ -38,9 +38,9 @@ STANDING_ROW, BLADES_ROW, SLICES_ROW, TARGETS_ROW = 64, 256, 1024, 64
 
 
 GLSL = (
-    looked_up("Standing", STANDING, "standing", STANDING_ROW)
-    + f"#ifdef ORGANS\n{looked_up('Blade', ORGAN, 'blades', BLADES_ROW)}"
-    + f"#else\n{looked_up('Blade', BLADE, 'blades', BLADES_ROW)}#endif\n"
+    record_lookup("Standing", STANDING, "standing", STANDING_ROW)
+    + f"#ifdef ORGANS\n{record_lookup('Blade', ORGAN, 'blades', BLADES_ROW)}"
+    + f"#else\n{record_lookup('Blade', BLADE, 'blades', BLADES_ROW)}#endif\n"
     + emitted({"SLICES_ROW": SLICES_ROW, "TARGETS_ROW": TARGETS_ROW})
 )
 

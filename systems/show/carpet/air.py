@@ -4,7 +4,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ....engine.gl.shaders import program, tell
+from ....engine.gl.shaders import program, set_uniform
 from ....engine.gl.stream import release_all
 from ..hearing import VERTEX, Hearing
 from ..representation import Canvas
@@ -29,7 +29,7 @@ class Air:
         `first` is the number of the first of them among all receivers.
         """
         array = self.hearing.array()
-        tell(array.program, "around", int(centre[0]), int(centre[1]), self.side, first)
+        set_uniform(array.program, "around", int(centre[0]), int(centre[1]), self.side, first)
         self._target.use()
         array.render(moderngl.TRIANGLES, vertices=3)
         return 1

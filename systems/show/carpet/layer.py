@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 import moderngl
 
 from ....engine.gl.remembered import Shelves
-from ....engine.gl.shaders import Texts, tell
+from ....engine.gl.shaders import Texts, set_uniform
 from ....engine.gl.stream import Stream, release_all
 from .pieces import ByLayer
 from .tiles import ORDERS, TILE
@@ -104,7 +104,7 @@ class Layer:
             if not calls:
                 program, told["wider"] = self.program, wider
                 for name, value in told.items():
-                    tell(program, name, value)
+                    set_uniform(program, name, value)
             array, calls = self._array(stream, wider), calls + 1
             corners = array.vertices // ORDERS
             array.render(moderngl.TRIANGLES, corners, first=shelf.order * corners, instances=count)

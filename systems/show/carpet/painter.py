@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Floats
 from ....components.viewer import Viewer
-from ....engine.gl.guest import let_pass
+from ....engine.gl.guest import set_depth_test
 from ....engine.gl.remembered import Remembered
 from ....engine.gl.shaders import Texts
 from ....engine.gl.stream import release_all
@@ -295,9 +295,9 @@ class CarpetPainter(RepresentationPainter):
     def draw_thin(self, target: moderngl.Framebuffer, /) -> int:
         """Draw the rest, which writes no depth; return the number of draw calls."""
         self.ground.write_outlined()
-        let_pass(self.images.ctx, "<")  # where it is dense, it is itself in the way
+        set_depth_test(self.images.ctx, "<")  # where it is dense, it is itself in the way
         calls = self._draw(target, THIN)
-        let_pass(self.images.ctx, "<=")
+        set_depth_test(self.images.ctx, "<=")
         return calls
 
     def _draw(self, target: moderngl.Framebuffer, part: int) -> int:

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....engine.declared.quality import StripRing
-from ....engine.gl.emit import emitted, looked_up
+from ....engine.gl.emit import emitted, record_lookup
 from ....engine.gl.mipmaps import at_once
 from ....engine.gl.remembered import Shelves
-from ....engine.gl.shaders import Texts, tell, tell_all
+from ....engine.gl.shaders import Texts, set_uniform, set_uniform_array
 from ....engine.gl.stream import Records, release_all
 from ...frame.block import filled, joined, room_for
 from ...grow.organs import any_heads
@@ -29,7 +29,7 @@ STOOD_ROW, STRIPS_ROW = 64, 1024
 READY_ROWS = 256
 """Rows of both that there is room for once a game has prepared."""
 
-GLSL = looked_up("Stood", STOOD, "stood", STOOD_ROW) + emitted(
+GLSL = record_lookup("Stood", STOOD, "stood", STOOD_ROW) + emitted(
     {"STRIPS_ROW": STRIPS_ROW, "RUNS_ALONG": RUNS_ALONG, "LIES_AHEAD": LIES_AHEAD, "OF_RING": OF_RING}
 )
 
@@ -168,10 +168,10 @@ class StripPainter:
         held = self._held
         tell_stacks(made, self.rings)
         tell_sizes(made, held.forms)
-        tell_all(made, "pictures", held.pictures)
-        tell(made, "most", self.most)
-        tell(made, "turns", held.turns)
-        tell(made, "page_size", float(held.atlas.width), float(held.atlas.height))
+        set_uniform_array(made, "pictures", held.pictures)
+        set_uniform(made, "most", self.most)
+        set_uniform(made, "turns", held.turns)
+        set_uniform(made, "page_size", float(held.atlas.width), float(held.atlas.height))
 
     @property
     def most(self) -> int:
@@ -200,7 +200,7 @@ class StripPainter:
             return 0
         self.shelves.now.stood.texture.use(self.units["stood"])
         array = self.hearing.array()
-        tell(array.program, "of_ring", ring, patch)
+        set_uniform(array.program, "of_ring", ring, patch)
         return self.received.ask(array, first=first, count=count)
 
     @property
@@ -227,7 +227,7 @@ class StripPainter:
         is_shaded = bool(self._block.casts or frame["bodies"]["radius"].any())
         rare = 0 if deep else 2 if is_cut else int(is_shaded)
         array = self.array(WAYS * rare + thin, deep=deep)
-        tell(array.program, "first", first)
+        set_uniform(array.program, "first", first)
         array.render(moderngl.TRIANGLE_STRIP, vertices=2 * self.sections + 2, instances=count)
         return 1
 
@@ -290,7 +290,7 @@ def _holding(
 def tell_stacks(made: moderngl.Program, rings: Sequence[StripRing], /) -> None:
     """Tell a program how many columns, sections and strips each ring has."""
     stacks = [(ring.columns, ring.sections, ring.strips, 0) for ring in rings]
-    tell_all(made, "stacks", filled(stacks, room_for(len(rings))))
+    set_uniform_array(made, "stacks", filled(stacks, room_for(len(rings))))
 
 
 def tell_sizes(made: moderngl.Program, forms: Sequence[Form], /) -> None:
@@ -299,4 +299,4 @@ def tell_sizes(made: moderngl.Program, forms: Sequence[Form], /) -> None:
     for form in forms:
         strips = strips_of(form.growth.models[0])[0]
         sizes[form.number] = strips.margin, strips.height
-    tell_all(made, "sizes", sizes)
+    set_uniform_array(made, "sizes", sizes)

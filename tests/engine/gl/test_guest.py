@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from tallgrass.engine.gl import current
 from tallgrass.engine.gl.current import own_context
 from tallgrass.engine.gl.functions import NUMBERS, functions_of
-from tallgrass.engine.gl.guest import guest, kept
+from tallgrass.engine.gl.guest import guest, saved_state
 from tallgrass.engine.gl.host import LAYOUTS
 from tallgrass.engine.gl.units import FIRST_UNIT
 
@@ -201,7 +201,7 @@ def test_d6_a_guest_draws_its_first_frame_under_the_switches_of_all_others(ctx: 
     getattr(gl, sets)(switch)
     current._made.cache_clear()  # noqa: SLF001
     for _ in range(2):
-        with kept(None):
+        with saved_state(None):
             own_context()
             assert not gl.glIsEnabled(switch)
         assert bool(gl.glIsEnabled(switch)) is (sets == "glEnable")
@@ -381,13 +381,16 @@ def test_d6_pyglet_is_never_loaded_for_a_host_that_does_without(
 
 def test_n4_a_context_that_was_released_is_refused_in_a_sentence() -> None:
     released: Any = SimpleNamespace(mglo=moderngl.InvalidObject())
-    with pytest.raises(RuntimeError, match=r"^the moderngl context of this prairie was released"), kept(released):
+    with (
+        pytest.raises(RuntimeError, match=r"^the moderngl context of this prairie was released"),
+        saved_state(released),
+    ):
         pass
 
 
 def test_n4_a_thread_without_a_context_is_refused_in_a_sentence(ctx: moderngl.Context) -> None:
     def draw() -> None:
-        with kept(ctx):
+        with saved_state(ctx):
             pass
 
     with ThreadPoolExecutor(1) as other, pytest.raises(RuntimeError, match=r"^no GL context is current in this thread"):

@@ -15,7 +15,15 @@ from hypothesis import strategies as st
 
 from tallgrass.engine.gl import shaders
 from tallgrass.engine.gl.emit import emitted
-from tallgrass.engine.gl.shaders import ShaderError, compose, due, due_all, locate, program, tell_due
+from tallgrass.engine.gl.shaders import (
+    ShaderError,
+    compose,
+    locate,
+    pack,
+    pack_array,
+    program,
+    set_packed,
+)
 
 ROOT = Path(str(files("tallgrass")))
 STAGES = sorted(
@@ -268,16 +276,19 @@ def test_numbers_that_are_due_are_told_again_once_others_were_told(ctx: moderngl
     assert isinstance(high_told, moderngl.Uniform)
     assert isinstance(at_told, moderngl.Uniform)
     numbers = [
-        [*due(made, {"high": (high,), "unasked": (0.0,)}), *due_all(made, "at", [(0.0, 0.0), (high, 2.0)])]
+        [
+            *pack(made, {"high": (high,), "unasked": (0.0,)}),
+            *pack_array(made, "at", [(0.0, 0.0), (high, 2.0)]),
+        ]
         for high in (1.0, 3.0)
     ]
     for each, high in zip(numbers, (1.0, 3.0), strict=True):
-        tell_due(each)
+        set_packed(each)
         assert high_told.value == high
         assert list(at_told.value)[1] == (high, 2.0)
         high_told.value = 7.0  # it was told, so it is not told the same again
-        tell_due(each)
+        set_packed(each)
         assert high_told.value == 7.0
-    tell_due(numbers[0])
+    set_packed(numbers[0])
     assert high_told.value == 1.0
     made.release()

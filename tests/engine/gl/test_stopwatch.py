@@ -7,7 +7,7 @@ import pytest
 
 from tallgrass.engine.gl import rasteriser, stopwatch
 from tallgrass.engine.gl.functions import Functions
-from tallgrass.engine.gl.rasteriser import handing_over, is_software
+from tallgrass.engine.gl.rasteriser import early_flush, is_software
 from tallgrass.engine.gl.stopwatch import MOST_UNDERWAY, Stopwatch
 
 
@@ -87,7 +87,7 @@ def test_software_begins_before_a_frame_is_whole_and_a_card_is_left_alone(
     begun: list[bool] = []
     monkeypatch.setattr(rasteriser, "draws_in_software", lambda _: software)
     monkeypatch.setattr(rasteriser, "functions_of", lambda _: SimpleNamespace(glFlush=lambda: begun.append(True)))
-    handing_over(ctx)()
+    early_flush(ctx)()
     assert begun == [True] * software
 
 

@@ -81,7 +81,7 @@ def test_records_are_looked_up_by_their_fields_names(ctx: moderngl.Context, prob
     numbers = np.arange(7, dtype=np.float32)[:, None]
     for asked, field in (("vec3(one.cell, one.fade)", ["cell", "fade"]), ("one.root", ["root"])):
         lines = f"""#include "lib/frame.glsl"
-            {emit.looked_up("Standing", record, "standing", per_row)}
+            {emit.record_lookup("Standing", record, "standing", per_row)}
             in float row;
             out vec3 told;
             void main() {{ Standing one = standing_of(int(row)); told = {asked}; }}"""
@@ -89,7 +89,7 @@ def test_records_are_looked_up_by_their_fields_names(ctx: moderngl.Context, prob
         np.testing.assert_array_equal(told, np.column_stack([rows[name] for name in field]))
     texture.release()
     with pytest.raises(ValueError, match=r"Standing\.root lies in two texels"):
-        emit.looked_up("Standing", np.dtype([("cell", "2f4"), ("root", "3f4"), ("rest", "3f4")]), "standing", 4)
+        emit.record_lookup("Standing", np.dtype([("cell", "2f4"), ("root", "3f4"), ("rest", "3f4")]), "standing", 4)
 
 
 def test_matrices_arrive_for_column_vectors(probe: Probe, record: NDArray[np.void]) -> None:

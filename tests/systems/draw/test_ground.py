@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.engine.gl.shaders import program, tell
+from tallgrass.engine.gl.shaders import program, set_uniform
 from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.part import Part
 from tallgrass.engine.terrain.record import Terrain
@@ -172,7 +172,7 @@ def corners(
     def place(
         tiles: NDArray[np.void], eye: tuple[float, float, float], rims: Rims | None = None, wider: int = 1
     ) -> NDArray[np.float32]:
-        tell(made, "wider", float(wider))
+        set_uniform(made, "wider", float(wider))
         if rims is not None:
             textures["rims"].release()
             textures["rims"] = ctx.texture(rims.far.shape[::-1], 1, rims.far.tobytes(), dtype="f4")

@@ -10,7 +10,7 @@ from .functions import NUMBERS, functions_of
 from .rasteriser import draws_in_software
 
 
-class Question:
+class OcclusionQuery:
     """Whether any pixel of what was drawn last while `asking` has passed its tests of depth.
 
     A card holds up what is drawn `if_so` until it knows. A processor that draws goes on without it, and draws that too;

@@ -5,7 +5,7 @@ from time import monotonic, sleep
 import moderngl
 import pytest
 
-from tallgrass.engine.gl.beside import Beside, makes_beside
+from tallgrass.engine.gl.background import BackgroundCompiler, compiles_in_background
 from tallgrass.engine.gl.functions import functions_of
 from tallgrass.engine.gl.rasteriser import draws_in_software
 from tallgrass.engine.gl.shaders import Texts
@@ -20,7 +20,7 @@ def numbers(ctx: moderngl.Context) -> list[int]:
 
 
 def test_what_a_driver_was_asked_for_is_made_and_given_back_whatever_it_is(ctx: moderngl.Context) -> None:
-    before, beside = numbers(ctx), Beside(ctx)
+    before, beside = numbers(ctx), BackgroundCompiler(ctx)
     for texts in (DRAWN, WRONG):
         beside.ask(texts)
     assert len(numbers(ctx)) == len(before) + 2
@@ -31,7 +31,7 @@ def test_what_a_driver_was_asked_for_is_made_and_given_back_whatever_it_is(ctx: 
 
 
 def test_what_is_underway_is_given_back_with_it(ctx: moderngl.Context) -> None:
-    before, beside = numbers(ctx), Beside(ctx)
+    before, beside = numbers(ctx), BackgroundCompiler(ctx)
     beside.ask(DRAWN)
     beside.release()
     assert numbers(ctx) == before
@@ -40,4 +40,4 @@ def test_what_is_underway_is_given_back_with_it(ctx: moderngl.Context) -> None:
 def test_a_rasteriser_makes_nothing_beside_as_its_threads_draw(ctx: moderngl.Context) -> None:
     if not draws_in_software(ctx):
         pytest.skip("a card does")
-    assert not makes_beside(ctx)
+    assert not compiles_in_background(ctx)

@@ -1,4 +1,4 @@
-"""Programs that a driver makes beside the frames, in threads of its own."""
+"""Compiling programs in the driver's own threads, while frames go on."""
 
 from collections.abc import Iterable, Iterator
 from ctypes import addressof, c_char_p, c_int
@@ -12,32 +12,32 @@ from .rasteriser import draws_in_software
 from .shaders import Texts
 
 
-def makes_beside(ctx: moderngl.Context, /) -> bool:
-    """Return whether the driver makes programs in threads of its own; without a card these would hold the frames up."""
+def compiles_in_background(ctx: moderngl.Context, /) -> bool:
+    """Return whether the driver compiles in its own threads; without a card, these threads would hold frames up."""
     return bool(limits_of(functions_of(ctx)).beside) and not draws_in_software(ctx)
 
 
 AS_MANY = -1
-"""Threads that a driver may take, of its own choice. NVIDIA's takes none before it is told; others take some anyway."""
+"""Number of compiler threads: the driver's own choice. NVIDIA's starts none unless asked, other drivers do anyway."""
 
 WAITS = 0.002
-"""Time between two looks at whether a program is made [s]."""
+"""Time between two polls of a program's completion [s]."""
 
 
-class Beside:
-    """Lets a driver make programs that will be wanted, while frames go on.
+class BackgroundCompiler:
+    """Fills the driver's shader cache with programs that will be needed, while frames go on.
 
-    What it makes is thrown away: drivers keep the outcome by its texts, to the letter, so that to make the same program
-    soon after, or in another process, takes a moment. Where a driver keeps nothing, no harm is done.
+    The programs themselves are thrown away. Drivers cache by exact source text, so that compiling the same program
+    soon after, or in another process, takes a moment. Where a driver has no cache, no harm is done.
     """
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._ctx, self._gl = ctx, functions_of(ctx)
         self._underway: list[int] = []
 
-    def making(self, texts: Iterable[Texts], /) -> Iterator[None]:
-        """Let it make programs, one more at a time, and go on until it has; without such a driver it ends at once."""
-        if not makes_beside(self._ctx):
+    def compile_in_turn(self, texts: Iterable[Texts], /) -> Iterator[None]:
+        """Start one program a step, then go on until all are done; ends at once where the driver has no threads."""
+        if not compiles_in_background(self._ctx):
             return
         for each in texts:
             self.ask(each)
@@ -45,9 +45,9 @@ class Beside:
         while self.left:
             yield
 
-    def waiting(self, texts: Iterable[Texts], /) -> Iterator[None]:
-        """Let it make programs, all at once, and wait for one after the other; else it ends at once."""
-        if not makes_beside(self._ctx):
+    def compile_together(self, texts: Iterable[Texts], /) -> Iterator[None]:
+        """Start all programs, then wait for one a step; ends at once where the driver has no threads."""
+        if not compiles_in_background(self._ctx):
             return
         for each in texts:
             self.ask(each)
@@ -57,7 +57,7 @@ class Beside:
             yield
 
     def ask(self, texts: Texts, /) -> None:
-        """Let it make one more; whether that can be made is not looked at here."""
+        """Start one program; errors in it are not reported."""
         gl = self._gl
         getattr(gl, f"glMaxShaderCompilerThreads{limits_of(gl).beside}")(AS_MANY)
         made = gl.glCreateProgram()
@@ -73,7 +73,7 @@ class Beside:
 
     @property
     def left(self) -> int:
-        """How many of them are not made yet; asking does not wait."""
+        """Number of programs that are not done yet; reading it does not wait."""
         made = [number for number in self._underway if self._is_made(number)]
         for number in made:
             self._gl.glDeleteProgram(number)
@@ -81,7 +81,7 @@ class Beside:
         return len(self._underway)
 
     def release(self) -> None:
-        """Give back what is underway."""
+        """Delete the programs that are not done yet."""
         while self._underway:
             self._gl.glDeleteProgram(self._underway.pop())
 
