@@ -1,4 +1,4 @@
-"""Drawing 3D blades: a pass over the blades, then a ribbon for each."""
+"""Drawing 3D blades: a pass computes a record of each blade, then each record is drawn as a ribbon."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
@@ -14,23 +14,23 @@ from .organs import organ_defines
 from .pool import BLADE
 
 RIBBON = np.dtype([*((name, "4f4") for name in ("foot", "lie_of", "low", "high", "stands", "joints")), ("lit", "16f4")])
-"""What the pass over the blades finds out about each, as `blade.vert` says."""
+"""Record that the pass over blades writes of each: the varyings of `blade.vert`."""
 
 PAINTED = np.dtype([*RIBBON.descr, ("base", "4f4"), ("painted", "4f4")])
-"""The same for a blade that is on its way to its painted place."""
+"""The same of a morphing blade, with its painted place."""
 
 MESSAGE = np.dtype([("message", "2f4")])
 
 CORES, EDGES = 1, 2
-"""What is drawn of parted blades at a time: the pixels that hide what is behind them; the others."""
+"""The two passes over parted blades: the pixels that hide what is behind them, with depth; then the others."""
 
 ROUND = "0.35"
-"""How far the face normal turns towards a blade's edges, as if it were rounded."""
+"""Turn of the normal from the middle of a blade to its edges, as if it were rounded [rad]."""
 
 FILES = "systems/show/blades/ribbon.vert", "systems/show/blades/blades.frag"
 
 USUAL, SHADED, DEEP = SORTS = range(3)
-"""The programs of ribbons: of the usual, where a game has what casts shadows, and one that writes depth alone."""
+"""The programs of ribbons: without casters of shadows; with a game's casters; writing depth only."""
 
 Defines = Mapping[str, str | int]
 
@@ -38,7 +38,7 @@ Defines = Mapping[str, str | int]
 def blade_program(
     ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], record: np.dtype[np.void], defines: Defines
 ) -> moderngl.Program:
-    """Return the program of the pass over blades, which writes records of `RIBBON` or `PAINTED`."""
+    """Return the program of the pass over blades; `record` is `RIBBON` or `PAINTED`."""
     return joined(
         ctx, block, units, "systems/show/blades/blade.vert", None, {"ROUND": ROUND, **defines},
         varyings=tuple(record.names or ()),
@@ -46,25 +46,26 @@ def blade_program(
 
 
 def shader_record(record: np.dtype[np.void], /) -> np.dtype[np.void]:
-    """Return `BLADE` or `ORGAN` under the shader's names: `root` alone is a colour there."""
+    """Return `BLADE` or `ORGAN` named as vertex attributes: `root` is a colour in shaders, so it is `root_at`."""
     return np.dtype([(name if name != "root" else "root_at", record[name]) for name in record.names or ()])
 
 
 def own_segment_defines(own: Sequence[int | None], /) -> dict[str, str | int]:
-    """Return what shaders are told of kinds that say how many segments their blades have at the finest level.
+    """Return the defines of kinds that set the number of segments of their blades at the finest level.
 
-    `own` has a number for each kind, None where it says nothing; where none does, there is nothing to tell.
+    `own` has that number for each kind, or None. Without any, there are no defines.
     """
     counts = [count or 0 for count in own]
-    told = f"int[]({', '.join(map(str, counts))})"
-    return {"OWN_SEGMENTS": told, "MOST_OWN_SEGMENTS": max(counts)} if any(counts) else {}
+    listed = f"int[]({', '.join(map(str, counts))})"
+    return {"OWN_SEGMENTS": listed, "MOST_OWN_SEGMENTS": max(counts)} if any(counts) else {}
 
 
 class Ribbons:
-    """Ribbons of one number of segments or of several: joints slide from where one has them to where the next does.
+    """A stream of ribbons of one or several sub-levels: joints slide between those of a sub-level and of the next.
 
-    Soft ones have smooth edges and must come from far to near; the others are opaque and may come in any order. Those
-    that are parted besides are drawn in two goes. Of the finest level are the parted ones, and those that are opaque.
+    `counts` has the segments of each sub-level. Soft ribbons have antialiased edges and must come from far to near;
+    others are opaque and may come in any order. Parted ribbons are soft too, but drawn in two passes, `CORES` and
+    `EDGES`, so that depth sorts them. Parted and opaque ribbons include the finest sub-level.
     """
 
     def __init__(
@@ -83,19 +84,19 @@ class Ribbons:
         finest = parted or not soft
         own = int(block.defines.get("MOST_OWN_SEGMENTS", 0)) if finest else 0
         self.segments = max(*counts, own)
-        whole = {
+        shaded = {
             "SUBLEVELS": room_for(len(counts)), **({"SOFT": 1} if soft else {}), **({"PARTED": 1} if parted else {}),
             **({"FINEST": 1} if finest else {}), **(defines or {}),
         }  # fmt: skip
-        plain = {**whole, "PLAIN": 1}
+        plain = {**shaded, "PLAIN": 1}
         deep = {name: value for name, value in plain.items() if name != "PARTED"} | {"DEEP": 1}
-        self._make, self._defines = partial(joined, ctx, block, units, *FILES), (plain, whole, deep)
+        self._make, self._defines = partial(joined, ctx, block, units, *FILES), (plain, shaded, deep)
         self._texts, self._tell, self._counts = partial(block.texts, *FILES), tell, counts
         self._block, self.stream = block, Stream(ctx, record)
         self._arrays: dict[int, moderngl.VertexArray] = {}
 
     def array(self, sort: int) -> moderngl.VertexArray:
-        """Return what draws them as one of `SORTS`: depth where they cover half a pixel. It is made once asked for."""
+        """Return the vertex array of one of `SORTS`, made when first needed; `DEEP` needs a coverage of a half."""
         if sort not in self._arrays:
             made = self._make(self._defines[sort])
             made["segments"], made["counts"] = self.segments, len(self._counts)
@@ -105,32 +106,32 @@ class Ribbons:
         return self._arrays[sort]
 
     def texts(self) -> Iterator[Texts]:
-        """Return what the programs are made of that draw them and are not there yet."""
+        """Return the sources of the colour programs that are not made yet."""
         for sort in (USUAL, SHADED):
             if sort not in self._arrays:
                 yield self._texts(self._defines[sort])
 
     def making(self) -> Iterator[None]:
-        """Make these, one at a time."""
+        """Make the colour programs that are missing, one at a time."""
         for sort in (USUAL, SHADED):
             if sort not in self._arrays:
                 self.array(sort)
                 yield
 
     def tell_again(self) -> None:
-        """Tell what is there what it has to know, which is something else now."""
-        for each in self._arrays.values():
-            self._tell(each.program)
+        """Set the uniforms of the programs made so far anew."""
+        for array in self._arrays.values():
+            self._tell(array.program)
 
     def fill(self, blades: moderngl.VertexArray, count: int, *, first: int = 0) -> int:
-        """Let the pass over blades make out `count` of them, from the `first` on; return the number of draw calls."""
+        """Compute the stream of `count` blades from `first` on; return the number of draw calls."""
         self.stream.room(count)
         if count:
             blades.transform(self.stream.buffer, moderngl.POINTS, vertices=count, first=first)
         return int(count > 0)
 
     def draw(self, part: int | None = None) -> int:
-        """Draw what was filled in, of parted blades this part; return the number of draw calls."""
+        """Draw the stream, of parted ribbons only this `part`: `CORES` or `EDGES`; return the number of draw calls."""
         if not self.stream.count:
             return 0
         array = self.array(SHADED if self._block.casts else USUAL)
@@ -139,7 +140,7 @@ class Ribbons:
         return self._draw(array)
 
     def draw_deep(self) -> int:
-        """Write the depth of what was filled in; return the number of draw calls."""
+        """Write the depth of the stream; return the number of draw calls."""
         return self._draw(self.array(DEEP)) if self.stream.count else 0
 
     def _draw(self, array: moderngl.VertexArray) -> int:
@@ -153,7 +154,7 @@ class Ribbons:
 
 
 class BladePainter:
-    """Draws any blades as they are sent, opaque and in any order. They come as records of `BLADE` or of `ORGAN`."""
+    """Draws given blades, records of `BLADE` or `ORGAN`, opaque and in any order."""
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""Morphing: blades on their way between their own places and their painted places (paper, section 4.2)."""
+"""Morphing: drawing order of blades between their own places and their painted places (paper, section 4.2)."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,21 +13,22 @@ from .pool import BladePool
 from .shown import Standing
 
 AMONG = 0.02
-"""How much their own distances count among blades that lie on one strip, of the distances between strips."""
+"""Weight of a blade's own distance against its strip's: it orders the blades of one strip."""
 
 DIAGONAL = 1.6
-"""How much farther away than the next patch one counts where blades lie on strips, in sides: farther than any on it."""
+"""Distance added from one patch to the next farther one where blades lie on strips [patch sides]: more than any strip
+distance within a patch, so that they are drawn patch after patch."""
 
 HOME = 0.05
-"""Part of the way from its own place up to which a blade may count as standing there."""
+"""Morph up to which a blade may count as standing in its own place."""
 
 
 def at_home(outlook: Outlook, shown: Standing, away: Floats, /) -> NDArray[np.bool_]:
-    """Return which blades of patches that are on their way are in their own places, as good as, shape (m, blades).
+    """Return a mask of the blades of morphing patches that count as standing in their own places, shape (m, blades).
 
-    They take their turn among those that stand around them one by one: all in one frame, what hides what would change
-    along a whole border. The nearest come first, since what is still on its way is drawn behind what stands.
-    `away` is how far their own places are from the eye, of the same shape.
+    These are sorted among the standing blades around them, one by one: all in one frame, the order would flip along a
+    whole border. The nearest come first, since morphing blades are drawn behind standing ones. `away` has the
+    distances of their own places from the eye [m], shape (m, blades).
     """
     assert outlook.appearance is not None
     nearest, farthest = float(away.min(initial=np.inf)), float(away.max(initial=0.0))
@@ -46,12 +47,12 @@ def gather_morph(
     left: Floats,
     home: NDArray[np.bool_],
 ) -> Numbers:
-    """Return the numbers of the blades of patches that are on their way in this frame, in the order of drawing, (n,).
+    """Return the numbers of the blades of morphing patches in drawing order, shape (n,); numbers are `gather_blades`'.
 
-    They are counted as `gather_blades` does. Those that lie on strips come patch after patch and strip after strip,
-    those in their own places from far to near; in between, they change places one by one. `away` is how far their own
-    places are from the eye, shape (m, blades), and `left` how much each patch's blades still show, shape (m,). Those at
-    `home` (m, blades) are left out.
+    The sort key goes with the morph from the distance of the blade's own place, far to near, to patch after patch and
+    strip after strip, so that blades change places one by one. `away` has the distances of their own places from the
+    eye [m], shape (m, blades), `left` the remaining cover of each patch's blades, shape (m,). Blades of the mask `home`
+    (m, blades) are left out.
     """
     if not len(shown.rows):
         return np.zeros(0, np.uint32)
@@ -59,9 +60,9 @@ def gather_morph(
     ring, along = strips.ring_and_axis(outlook, rows)
     model, turn = patches.model[rows], patches.turn[rows]
     own = (along + turn) % 2
-    counts = np.array([each.strips for each in strips.quality.strip_rings])[ring]
+    counts = np.array([declared.strips for declared in strips.quality.strip_rings])[ring]
     plane = strips.stock.slices[ring, model, own]
-    # Strips are walked from the far side, planes in the order of the model.
+    # Strips are counted from the far side, planes in the order of the model.
     backwards = falls(own, along, turn) != lies_ahead(patches.cell[rows], outlook.viewer.centre, along)
     slices = np.where(backwards[:, None], counts[:, None] - 1 - plane, plane)
     assert outlook.appearance is not None
@@ -69,7 +70,7 @@ def gather_morph(
     behind = np.arange(len(rows), 0, -1)[:, None] * (DIAGONAL * side)
     on_strips = behind + (counts[:, None] - slices) * (side / counts[:, None]) + AMONG * away
     queue = far_first(((1.0 - moved) * away + moved * on_strips).astype(np.float32).reshape(-1))
-    each = pool.present.shape[1]
-    numbers = ((shown.places * each).astype(np.uint32)[:, None] + np.arange(each, dtype=np.uint32)).reshape(-1)
+    count = pool.present.shape[1]
+    numbers = ((shown.places * count).astype(np.uint32)[:, None] + np.arange(count, dtype=np.uint32)).reshape(-1)
     shows = (pool.present.take(shown.slots, axis=0) & (left > 0.0)[:, None] & ~home).reshape(-1)
     return np.asarray(numbers.take(queue[shows.take(queue)]), np.uint32)

@@ -1,4 +1,4 @@
-"""What shaders are told of organs, where a scene has plants other than grass."""
+"""The table of organs as defines of shaders, for scenes with plants other than grass."""
 
 from collections.abc import Mapping, Sequence
 
@@ -11,34 +11,34 @@ from .pool import ORGAN
 
 
 def organ_defines(record: np.dtype[np.void], /) -> Mapping[str, str | int]:
-    """Return what shaders need to draw records of `ORGAN`: the table of organs; nothing for those of `BLADE`."""
+    """Return the defines of shaders that draw `record`: the table of organs for `ORGAN`, nothing for `BLADE`."""
     if record != ORGAN:
         return {}
     return {
         "ORGANS": len(ORGANS),
         "KNOTS": KNOTS,
         "BLADE_ITSELF": BLADE,
-        "AT_TIPS": _bits(AT_TIPS),
-        "LEAVES": _bits(LEAVES),
-        "TONES": _literal("vec2", [f"vec2({_listed(row)})" for row in TONES]),
-        "DYED": _literal("vec2", [f"vec2({_listed(row)})" for row in DYED]),
-        "GIVES": _literal("float", [_listed(GIVES)]),
-        "WIDTHS": _literal("float", [_listed(WIDTHS.reshape(-1))]),
-        "TEETH": _literal("float", [_listed(TEETH)]),
-        "LIGULES": _literal("float", [_listed(LIGULES)]),
+        "AT_TIPS": _bit_set(AT_TIPS),
+        "LEAVES": _bit_set(LEAVES),
+        "TONES": _array("vec2", [f"vec2({_listed(row)})" for row in TONES]),
+        "DYED": _array("vec2", [f"vec2({_listed(row)})" for row in DYED]),
+        "GIVES": _array("float", [_listed(GIVES)]),
+        "WIDTHS": _array("float", [_listed(WIDTHS.reshape(-1))]),
+        "TEETH": _array("float", [_listed(TEETH)]),
+        "LIGULES": _array("float", [_listed(LIGULES)]),
     }
 
 
 def any_teeth(growths: Sequence[Growth], /) -> bool:
-    """Return whether any kind has organs with teeth along their sides, or slits between narrow petals."""
+    """Return whether any kind has organs with teeth or ligules."""
     return any((TEETH + LIGULES)[model.blades.organ].any() for growth in growths for model in growth.models)
 
 
-def _bits(organs: Sequence[int]) -> int:
+def _bit_set(organs: Sequence[int]) -> int:
     return sum(1 << organ for organ in organs)
 
 
-def _literal(kind: str, values: list[str]) -> str:
+def _array(kind: str, values: list[str]) -> str:
     return f"{kind}[]({', '.join(values)})"
 
 

@@ -1,4 +1,4 @@
-"""Painting blades: those on their way first, then all rings from far to near."""
+"""Painting blades: the morphing ones first, then all rings from far to near."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -34,54 +34,59 @@ from .shown import BladesShown, Standing, together
 from .store import STANDING, STANDING_ROW, BladeStore
 
 PARTED = 1
-"""Distance up to which blades hide one another by depth [patch sides]."""
+"""Distance up to which the depth buffer sorts blades [patch sides]."""
 
 HIDING = 400
-"""Blades of a patch from which on it pays to make out up to where each is hidden: with fewer that costs a graphics card
-as much as it saves (320), or more (160)."""
+"""Blades per patch from which on it pays to compute up to which height each is hidden. With 320 that costs a graphics
+card as much as it saves, with 160 more."""
 
 READY_ROWS = 256
-"""Rows of patches that there is room for once a game has prepared."""
+"""Rows of patch records that are allocated once a game has prepared."""
 
 NUMBER = np.dtype([("number", "u4")])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Gathered:
-    """The numbers of blades, group after group, and how many each has."""
+class _Order:
+    """Blades in drawing order: the morphing ones, then those of each group of rings."""
 
     numbers: Numbers
     counts: list[int]
+    """Number of morphing blades, then of those of each group."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Told:
-    """What is sent of a frame: the patches, and the numbers of the blades."""
+class _Upload:
+    """Data of a frame for the graphics card."""
 
     standing: NDArray[np.void]
-    numbers: "_Gathered"
+    """Patches with blades, records of `STANDING`."""
+
+    order: _Order
 
 
 class _Shelf:
-    """What is sent of one viewer's blades: the patches, in this many rows at first, and the blades' numbers."""
+    """Buffers of one viewer: records of patches, with room for `rows` rows at first, and numbers of blades."""
 
     def __init__(self, ctx: moderngl.Context, passes: Sequence[moderngl.Program], rows: int) -> None:
         self.standing, self.numbers = Records(ctx, STANDING, STANDING_ROW, rows=rows), Stream(ctx, NUMBER)
-        self.arrays = [ctx.vertex_array(made, [self.numbers.binding(made, each="/v")]) for made in passes]
+        self.arrays = [ctx.vertex_array(program, [self.numbers.binding(program, each="/v")]) for program in passes]
         self.counts: list[int] = []
-        self.sent: _Told | None = None
-        self._gathered: _Gathered | None = None
-        """What was sent last, and the numbers among it."""
+        """Number of morphing blades, then of those of each group, in `numbers`."""
+        self.sent: _Upload | None = None
+        """Data that `standing` and `numbers` hold, None if that is lost."""
+        self._order: _Order | None = None
+        """Blades that `numbers` holds."""
 
-    def send(self, told: _Told) -> None:
-        """Send what its viewer is shown."""
-        self.standing.write(told.standing)
-        if told.numbers is not self._gathered:
-            self.numbers.write(told.numbers.numbers.view(NUMBER))
-        self.counts, self.sent, self._gathered = [*told.numbers.counts], told, told.numbers
+    def send(self, upload: _Upload) -> None:
+        """Write a frame's data to the buffers."""
+        self.standing.write(upload.standing)
+        if upload.order is not self._order:
+            self.numbers.write(upload.order.numbers.view(NUMBER))
+        self.counts, self.sent, self._order = [*upload.order.counts], upload, upload.order
 
     def reserve(self, rows: int) -> None:
-        """Make room for so many rows of patches; those that were sent are lost."""
+        """Make room for `rows` rows of patches; records sent before are lost."""
         self.standing.reserve(rows)
         self.sent = None
 
@@ -91,89 +96,91 @@ class _Shelf:
 
 
 class BladesPainter(RepresentationPainter):
-    """Draws the blades of all rings, and those on their way to their strips."""
+    """Draws the blades of all rings and the blades that morph into strips."""
 
     def __init__(self, canvas: Canvas, stock: BladeStock, strips: StripRepresentation, quality: Quality) -> None:
         ctx, block, units, rings = canvas.ctx, canvas.block, canvas.units, quality.blade_rings
         self.ctx, self._stock, self.store = ctx, stock, BladeStore(ctx, stock, strips.stock)
-        self._beside: tuple[BladeStock, StripRepresentation, BladeStore] | None = None
-        """What is brought into GL beside them."""
+        self._staged: tuple[BladeStock, StripRepresentation, BladeStore] | None = None
+        """Stock, strips and store that `restock` takes over."""
         self._came: tuple[float, ...] = ()
+        """Fraction of each kind's plants that have become the next form; empty if no kind becomes another."""
         self._strips, self._units, self._received, self._models = strips, units, canvas.received, len(stock.rank)
         self._fade, self._patch, self._near = canvas.transitions.fade, quality.patch, PARTED * quality.patch
-        laid = {**self.store.defines, "STORED": 1, "RINGS": room_for(len(quality.strip_rings))}
+        defines = {**self.store.defines, "STORED": 1, "RINGS": room_for(len(quality.strip_rings))}
         hiding = {"HIDING": 1} if quality.blades >= HIDING else {}
-        self.hearing = Hearing(canvas, "systems/show/blades/receivers.frag", laid, self._tell)
+        self.hearing = Hearing(canvas, "systems/show/blades/receivers.frag", defines, self._tell)
         self.passes = [
-            blade_program(ctx, block, units, record, defines)
-            for record, defines in ((RIBBON, laid | hiding), (PAINTED, {**laid, **hiding, "MORPH": 1}))
+            blade_program(ctx, block, units, record, defines | hiding | morph)
+            for record, morph in ((RIBBON, {}), (PAINTED, {"MORPH": 1}))
         ]
-        for made in self.passes:
-            self._tell(made)
+        for program in self.passes:
+            self._tell(program)
         self._rows = 64
         self.shelves = Shelves(lambda: _Shelf(ctx, self.passes, self._rows))
         segments = [ring.segments for ring in rings]
-        self._parted = 1 + sum(ring.to < PARTED for ring in rings[:-1])
+        self._parted_rings = 1 + sum(ring.to < PARTED for ring in rings[:-1])
         self.groups = [
             Ribbons(ctx, block, counts, units, soft=True, parted=parted, defines=self.store.organs)
-            for parted, counts in ((True, segments[: self._parted + 1]), (False, segments[self._parted :]))
+            for parted, counts in ((True, segments[: self._parted_rings + 1]), (False, segments[self._parted_rings :]))
             if counts
         ]
         self.morph = Ribbons(
-            ctx, block, segments[-1:], units, soft=True, record=PAINTED, defines={**laid, "MORPH": 1}, tell=self._tell
-        )
-        self._gathered, self._told = Remembered[_Gathered](), Remembered[_Told]()
-        self._first = self._asked = 0
+            ctx, block, segments[-1:], units, soft=True, record=PAINTED, defines={**defines, "MORPH": 1},
+            tell=self._tell,
+        )  # fmt: skip
+        self._orders, self._uploads = Remembered[_Order](), Remembered[_Upload]()
+        self._first_receiver = self._receiver_count = 0
 
-    def _tell(self, made: moderngl.Program) -> None:
-        """Tell a program what it has to know of blades and of strips."""
+    def _tell(self, program: moderngl.Program) -> None:
+        """Set a program's uniforms about blades and strips."""
         for name, value in (("near", self._near), ("models", self._models), ("each", self.store.count)):
-            set_uniform(made, name, value)
-        tell_sizes(made, self._strips.stock.forms)
-        tell_stacks(made, self._strips.quality.strip_rings)
+            set_uniform(program, name, value)
+        tell_sizes(program, self._strips.stock.forms)
+        tell_stacks(program, self._strips.quality.strip_rings)
 
     def texts(self) -> Iterator[Texts]:
-        """Return what the programs of ribbons that are not there yet are made of."""
+        """Return the sources of the ribbons' programs that are not made yet."""
         for ribbons in (self.morph, *self.groups):
             yield from ribbons.texts()
 
     def making(self) -> Iterator[None]:
-        """Make the programs of ribbons that are not there yet, one at a time."""
+        """Make the ribbons' programs that are missing, one at a time."""
         for ribbons in (self.morph, *self.groups):
             yield from ribbons.making()
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
-        """Take over how much of each kind has become what it is to be."""
+        """Take over the fraction of each kind that has become its next form."""
         del record
         self._came = grown.came
 
     def fits(self, representation: Any, /) -> bool:
-        """Return whether blades of another stock are records of the same."""
+        """Return whether blades of another stock have records of the same fields."""
         return bool(representation.stock.records.dtype == self._stock.records.dtype)
 
     def staging(self, stocks: Sequence[Any], /) -> Iterator[None]:
-        """Bring the blades of another stock into GL beside its own."""
-        blades, strips = (next(each for each in stocks if each.name == name) for name in ("blades", "strips"))
+        """Send the blades of another stock to GL, a piece at a time; the current ones stay."""
+        blades, strips = (next(stock for stock in stocks if stock.name == name) for name in ("blades", "strips"))
         store = yield from BladeStore.beside(self.ctx, blades.stock, strips.stock)
-        self._beside = blades.stock, strips, store
+        self._staged = blades.stock, strips, store
 
     def restock(self) -> None:
-        """Draw what was staged."""
-        assert self._beside is not None
+        """Replace the stock by the staged one."""
+        assert self._staged is not None
         self.store.release()
-        (self._stock, self._strips, self.store), self._beside = self._beside, None
+        (self._stock, self._strips, self.store), self._staged = self._staged, None
         self.hearing.tell_again()
         self.morph.tell_again()
-        for made in self.passes:
-            self._tell(made)
-        self._gathered, self._told = Remembered[_Gathered](), Remembered[_Told]()
+        for program in self.passes:
+            self._tell(program)
+        self._orders, self._uploads = Remembered[_Order](), Remembered[_Upload]()
 
     def making_for_winds(self) -> Iterator[None]:
-        """Make the programs by which receivers hear whatever winds will blow, one at a time."""
+        """Make the programs of receivers for all winds that may blow, one at a time."""
         return self.hearing.making()
 
     def make_ready(self, grown: Grown, /) -> None:
-        """Make room for more patches than are usually shown."""
+        """Allocate more patch records than are usually shown, and make the programs that write depth."""
         del grown
         self._rows = READY_ROWS
         for shelf in self.shelves:
@@ -182,85 +189,78 @@ class BladesPainter(RepresentationPainter):
             ribbons.array(DEEP)
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
-        """Pretend that some are on their way, and that there are others of each ring."""
+        """Pretend that one blade morphs and one of each group stands, where fewer blades are shown."""
         del record
         shelf = self.shelves.now
         if sum(shelf.counts) >= len(shelf.counts):
             shelf.counts, shelf.sent = [1] * len(shelf.counts), None
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
-        """Return how many blades there are on the patches that are shown."""
+        """Return the number of blades on the patches shown, in a list of one."""
         shown = outlook.shows(BladesShown)
         return [len(shown.standing.rows) * self.store.count]
 
     def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
-        """Send the patches with blades, and the numbers of the blades that are shown; return how many."""
+        """Send the patches with blades and the numbers of the blades to draw; return the number of these."""
         kept, shown, strips = outlook.keeps(BladesKept), outlook.shows(BladesShown), outlook.shows(StripsShown)
-        stands = (
-            outlook.view,
-            shown,
-            strips,
-            outlook.appearance,
-            kept,
-            kept.planted,
-            outlook.keeps(StripsKept),
-            self._came,
-        )
-        made_of = *stands, *first["strips"], *first["blades"]
+        made_of = (
+            outlook.view, shown, strips, outlook.appearance, kept, kept.planted, outlook.keeps(StripsKept), self._came,
+            *first["strips"], *first["blades"],
+        )  # fmt: skip
         shelf = self.shelves.of(outlook.viewer.name, outlook)
-        told = self._told.of(outlook.viewer.name, made_of, partial(self._tell_of, outlook, first))
-        if told is not shelf.sent:
-            shelf.send(told)
-        (self._asked,), (self._first,) = self.receivers(outlook), first["blades"]
+        upload = self._uploads.of(outlook.viewer.name, made_of, partial(self._upload, outlook, first))
+        if upload is not shelf.sent:
+            shelf.send(upload)
+        (self._receiver_count,), (self._first_receiver,) = self.receivers(outlook), first["blades"]
         return sum(shelf.counts)
 
-    def _tell_of(self, outlook: Outlook, first: Mapping[str, list[int]]) -> "_Told":
-        """Return what a viewer is shown."""
+    def _upload(self, outlook: Outlook, first: Mapping[str, list[int]]) -> _Upload:
+        """Return the data of a viewer's frame; the order is kept while nothing morphs and eye and patches stay."""
         kept, shown, viewer = outlook.keeps(BladesKept), outlook.shows(BladesShown), outlook.viewer
         assert outlook.appearance is not None
         left, _ = handed_over(outlook.appearance.handed[shown.morphing.rows], fade=self._fade)
         slots, places = shown.standing.slots, (ring.places.tobytes() for ring in shown.rings)
         pool = kept.pool
-        planted = pool, slots, *(each.take(slots, axis=0) for each in (pool.stamp, pool.ground, pool.sown))
+        planted = pool, slots, *(column.take(slots, axis=0) for column in (pool.stamp, pool.ground, pool.sown))
         made_of = None if len(shown.morphing.rows) else (viewer.eye, viewer.sides, self._came, *planted, *places)
-        gather = partial(self._gather, outlook, kept.pool, shown, left)
-        numbers = self._gathered.of(viewer.name, made_of, gather)
-        return _Told(self._standing(outlook, shown, left, first["strips"]), numbers)
+        order = self._orders.of(viewer.name, made_of, partial(self._gather, outlook, pool, shown, left))
+        return _Upload(self._standing(outlook, shown, left, first["strips"]), order)
 
-    def _gather(self, outlook: Outlook, pool: BladePool, shown: BladesShown, left: Floats) -> _Gathered:
-        """Return the numbers of the blades that are on their way, and of those that stand, group after group."""
+    def _gather(self, outlook: Outlook, pool: BladePool, shown: BladesShown, left: Floats) -> _Order:
+        """Return the blades in drawing order; those that are almost home are sorted into the last group."""
         eye, moving = (outlook.viewer.eye[0], outlook.viewer.eye[2]), shown.morphing
         away = distances(pool, moving.slots, eye)
         home = at_home(outlook, moving, away)
         groups = [together(rings) for rings in self._grouped(shown.rings)]
         of_form = partial(self._of_form, outlook)
-        slots, ends = np.concatenate([each.slots for each in groups]), np.cumsum([len(each.slots) for each in groups])
+        slots = np.concatenate([group.slots for group in groups])
+        ends = np.cumsum([len(group.slots) for group in groups])
         seen = may_be_seen(pool, slots, outlook.viewer.sides, reach=self._stock.reach, patch=self._patch)
-        stand = np.split(seen, ends[:-1])
+        masks = np.split(seen, ends[:-1])
         if self._came:
-            stand = [seen & of_form(each) for seen, each in zip(stand, groups, strict=True)]
+            masks = [mask & of_form(group) for mask, group in zip(masks, groups, strict=True)]
         if home.any():
-            groups[-1], stand[-1] = together([groups[-1], moving]), np.concatenate([stand[-1], home & of_form(moving)])
-        found = [
+            groups[-1], masks[-1] = together([groups[-1], moving]), np.concatenate([masks[-1], home & of_form(moving)])
+        numbers = [
             gather_morph(outlook, pool, self._strips, moving, away=away, left=left, home=home | ~of_form(moving)),
-            *(gather_blades(pool, each, eye=eye, stand=those) for each, those in zip(groups, stand, strict=True)),
+            *(gather_blades(pool, group, eye=eye, stand=mask) for group, mask in zip(groups, masks, strict=True)),
         ]
-        return _Gathered(np.concatenate(found), [len(each) for each in found])
+        return _Order(np.concatenate(numbers), [len(part) for part in numbers])
 
     def _of_form(self, outlook: Outlook, shown: Standing) -> NDArray[np.bool_]:
-        """Return which blades of patches are of the form that plants of their rank have by now, shape (m, blades)."""
+        """Return a mask of the blades of the form that plants of their rank have now, shape (m, blades)."""
         least, most = standing_of(self._stock, self._came)
         rank = self._stock.rank[outlook.patches.model[shown.rows]]
         return np.asarray((rank >= least) & (rank < most))
 
     def _grouped(self, rings: list[Standing]) -> list[list[Standing]]:
-        """Return the rings whose blades depth parts, and the others: in each group, blades come from far to near."""
-        return [rings[: self._parted], rings[self._parted :]][: len(self.groups)]
+        """Return the parted rings, and the others; the blades of a group are drawn together."""
+        return [rings[: self._parted_rings], rings[self._parted_rings :]][: len(self.groups)]
 
     def _standing(self, outlook: Outlook, shown: BladesShown, left: Floats, first: list[int]) -> NDArray[np.void]:
         """Return the patches with blades as records of `STANDING`.
 
-        `left` is how much those on their way still show, `first` the number of each strip ring's first receiver.
+        `left` is the cover of the morphing patches, `first` the number of each strip ring's first receiver.
         """
         patches, rows = outlook.patches, shown.standing.rows
         standing = np.zeros(len(rows), STANDING)
@@ -269,25 +269,25 @@ class BladesPainter(RepresentationPainter):
             for number, ring in enumerate(rings):
                 standing["fade"][ring.places], standing["slide"][ring.places] = ring.fade, number + ring.slide
         if len(shown.morphing.rows):
-            _send_away(standing, outlook, shown.morphing, self._strips, first)
+            _set_morph(standing, outlook, shown.morphing, self._strips, first)
             standing["fade"][shown.morphing.places] = left
             standing["slide"][shown.morphing.places] = len(self._grouped(shown.rings)[-1]) - 1
         return standing
 
     def hear(self) -> int:
-        """Let all blades hear the wind; return the number of draw calls."""
+        """Write the wind's messages to all blades; return the number of draw calls."""
         self.store.blades.texture.use(self._units["blades"])
         self.shelves.now.standing.texture.use(self._units["standing"])
-        return self._received.ask(self.hearing.array(), first=self._first, count=self._asked)
+        return self._received.ask(self.hearing.array(), first=self._first_receiver, count=self._receiver_count)
 
     def look_anew(self) -> int:
-        """Make out all about each blade that is the same along its ribbon; return the number of draw calls."""
+        """Run the pass over blades, which computes what is the same along a ribbon; return the number of draw calls."""
         self.store.blades.texture.use(self._units["blades"])
         shelf = self.shelves.now
         shelf.standing.texture.use(self._units["standing"])
         self.store.slices.use(self._units["slices"])
-        for made in self.passes:
-            set_uniform(made, "blades_from", self._first)
+        for program in self.passes:
+            set_uniform(program, "blades_from", self._first_receiver)
         calls = first = 0
         for ribbons, count in zip((self.morph, *self.groups), shelf.counts, strict=True):
             calls += ribbons.fill(shelf.arrays[ribbons is self.morph], count, first=first)
@@ -301,7 +301,7 @@ class BladesPainter(RepresentationPainter):
         calls += self.morph.draw()
         near, *far = self.groups
         calls += sum(ribbons.draw() for ribbons in far)
-        # Around the viewer no order is right for every direction: there blades are parted by depth, and then edged.
+        # Around the viewer no order is right for all directions: depth sorts the blades, then their edges are blended.
         target.depth_mask = True
         calls += near.draw(CORES)
         target.depth_mask = False
@@ -315,22 +315,25 @@ class BladesPainter(RepresentationPainter):
     def release(self) -> None:
         """Give everything back."""
         release_all(*self.groups, self.morph, self.shelves, *self.passes, self.hearing)
-        release_all(self.store, *([] if self._beside is None else [self._beside[2]]))
+        release_all(self.store, *([] if self._staged is None else [self._staged[2]]))
 
 
-def _send_away(
+def _set_morph(
     standing: NDArray[np.void], outlook: Outlook, shown: Standing, strips: StripRepresentation, first: list[int]
 ) -> None:
-    """Tell the patches on their way where to: to which strips, and how far they have come."""
+    """Set the fields about morph and strips in the records of the morphing patches.
+
+    `first` has the number of each strip ring's first receiver.
+    """
     appears, rows, places = outlook.appearance, shown.rows, shown.places
     assert appears is not None
     ring, along = strips.ring_and_axis(outlook, rows)
     standing["morph"][places], standing["growth"][places] = appears.morph[rows], appears.growth[rows]
     standing["along"][places], standing["ring"][places] = along, ring
     for number in np.unique(ring).tolist():
-        here = ring == number
-        stands = np.zeros(len(appears.morph), np.int64)
-        of_ring = outlook.shows(StripsShown).rings[number].rows
-        stands[of_ring] = np.arange(len(of_ring))
-        each = prod(outlook.keeps(StripsKept).pools[number].shape)
-        standing["edges"][places[here]] = first[number] + stands[rows[here]] * each
+        in_ring = ring == number
+        index = np.zeros(len(appears.morph), np.int64)
+        strip_rows = outlook.shows(StripsShown).rings[number].rows
+        index[strip_rows] = np.arange(len(strip_rows))
+        receivers = prod(outlook.keeps(StripsKept).pools[number].shape)
+        standing["edges"][places[in_ring]] = first[number] + index[rows[in_ring]] * receivers

@@ -18,7 +18,7 @@ from .pool import BLADE, ORGAN, BladePool
 
 @dataclass(frozen=True, eq=False)
 class BladeStock:
-    """The blades of all patch models, those of all kinds together, ready to be stood on the terrain."""
+    """The blades of all kinds' patch models in all turns, ready to be planted."""
 
     records: NDArray[np.void]
     """Records at row model * 4 + quarter turns, shape (models * 4, n)."""
@@ -27,23 +27,23 @@ class BladeStock:
     """The blades' ranks, shape (models, n)."""
 
     forms: tuple[Form, ...]
-    """Whose blades they are, one form after another."""
+    """The forms that the blades belong to, in the order of their blades."""
 
     @cached_property
     def place(self) -> Floats:
-        """Where the roots are in a patch, (x, z) [m], shape (models * 4, n, 2)."""
+        """Roots in the patch, (x, z) [m], shape (models * 4, n, 2)."""
         return np.ascontiguousarray(self.records["root"][..., ::2])
 
     @cached_property
     def rows(self) -> Mapping[int, slice]:
-        """The blades of each form, by its number."""
+        """The columns of each form's blades, by its number."""
         counts = [len(form.growth.models[0].blades.height) for form in self.forms]
         ends = np.cumsum([0, *counts]).tolist()
-        return {form.number: slice(*ends[row : row + 2]) for row, form in enumerate(self.forms)}
+        return {form.number: slice(*ends[index : index + 2]) for index, form in enumerate(self.forms)}
 
     @cached_property
     def reach(self) -> float:
-        """How far any part of any blade may come from its root [m]."""
+        """Largest distance of any part of a blade from its root [m]."""
         records = self.records
         stem = records["stem"] if "stem" in (records.dtype.names or ()) else np.float32(0.0)
         return float((records["height"] + records["width"] + stem).max(initial=0.0))
@@ -60,8 +60,7 @@ def blade_records(
 ) -> NDArray[np.void]:  # fmt: skip
     """Return the records of a patch model's blades after quarter turns, roots relative to the patch, shape (n,).
 
-    They are of `BLADE`, or of `ORGAN`, without which nothing may stand on a stem. The postures are those of a `form`,
-    without it of the kind's own.
+    `record` is `BLADE`, or `ORGAN` if some stand on stems. Postures are those of the `form`, by default the kind's own.
     """
     records = np.zeros(len(blades.height), record)
     spun = turned(blades.root, np.asarray(turn, np.int32), patch=patch)
@@ -85,14 +84,14 @@ def _spun(lean: Floats, turn: int) -> Floats:
 
 
 def record_of(growths: Sequence[Growth], /) -> np.dtype[np.void]:
-    """Return what the graphics card has to be told of kinds: `BLADE`, unless there are other organs among them."""
+    """Return the record that holds the blades of all kinds: `ORGAN` if any has other organs, else `BLADE`."""
     return ORGAN if any(model.blades.organ.any() for growth in growths for model in growth.models) else BLADE
 
 
 def stock_blades(growths: Sequence[Growth], patch: float, coming: Mapping[int, Growth] = NOTHING, /) -> BladeStock:
-    """Return the blades of all kinds' patch models in all four turns, and after them those that are to come.
+    """Return the blades of all kinds' patch models in all four turns, and after them those of the kinds `coming`.
 
-    `patch` is a patch's side [m]. `coming` gives what some kinds are to become.
+    `patch` is a patch's side [m]. `coming` maps kinds to the growths that they are to become.
     """
     forms = forms_of(growths, coming)
     models, record = range(len(growths[0].models)), record_of([form.growth for form in forms])
@@ -116,22 +115,22 @@ def _turned(forms: Sequence[Form], model: int, turn: int, patch: float, record: 
 def standing_blades(
     stock: BladeStock, cell: Ints, model: Ints, turn: Ints, ground: Ground, /
 ) -> tuple[NDArray[np.void], NDArray[np.bool_]]:
-    """Return the blades of each cell (m, 2) where they stand, and which of them grow there, shape (m, n) each.
+    """Return the stock's records of each cell (m, 2) with their roots on the terrain, and a mask of those that grow.
 
-    They are the stock's records with their roots on the terrain.
+    Both have the shape (m, n).
     """
-    chosen = stock.records[model * 4 + turn]
-    corner = cell.astype(np.float32) * np.float32(ground.patch)
-    chosen["root"][..., ::2] += corner[:, None, :]
-    place = np.ascontiguousarray(chosen["root"][..., ::2])
-    chosen["root"][..., 1] = height_at(ground.terrain, place.reshape(-1, 2)).reshape(chosen.shape)
-    return chosen, _grown(stock, place, model, ground)
+    records = stock.records[model * 4 + turn]
+    records["root"][..., ::2] += _corners(cell, ground)
+    place = np.ascontiguousarray(records["root"][..., ::2])
+    records["root"][..., 1] = height_at(ground.terrain, place.reshape(-1, 2)).reshape(records.shape)
+    return records, _grown(stock, place, model, ground)
 
 
 def standing_of(stock: BladeStock, came: Sequence[float], /) -> tuple[Floats, Floats]:
-    """Return between which ranks blades stand where `came` (kinds,) of each kind have become another, (n,) each.
+    """Return the least rank and the bound above the largest of the blades that stand, shape (n,) each.
 
-    Of those that have not, these are the higher ones.
+    `came` (kinds,) is the fraction of each kind that has become its next form: blades of lower ranks are of the next
+    form, those of higher ranks still of the old one.
     """
     least, most = np.full(len(stock.kinds), -1.0, np.float32), np.full(len(stock.kinds), 2.0, np.float32)
     for form in stock.forms:
@@ -143,10 +142,9 @@ def standing_of(stock: BladeStock, came: Sequence[float], /) -> tuple[Floats, Fl
 def plant_blades(
     pool: BladePool, slots: NDArray[np.int64], cell: Ints, model: Ints, turn: Ints, stock: BladeStock, ground: Ground, /
 ) -> None:
-    """Stand the blades of each cell (m, 2) in its slot of the pool."""
+    """Plant the blades of each cell (m, 2) in its slot of the pool (m,)."""
     pool.stamp[slots] = cell
-    corner = cell.astype(np.float32) * np.float32(ground.patch)
-    place = stock.place[model * 4 + turn] + corner[:, None, :]
+    place = stock.place[model * 4 + turn] + _corners(cell, ground)
     pool.x[slots], pool.z[slots] = place[..., 0], place[..., 1]
     height = height_at(ground.terrain, place.reshape(-1, 2)).reshape(place.shape[:-1])
     pool.ground[slots] = np.stack([height.min(axis=1, initial=np.inf), height.max(axis=1, initial=-np.inf)], 1)
@@ -155,13 +153,13 @@ def plant_blades(
 
 
 def sow_blades(pool: BladePool, slots: NDArray[np.int64], model: Ints, stock: BladeStock, ground: Ground, /) -> None:
-    """Let blades stand in slots (m,) of the pool only where they grow by now."""
+    """Compute anew which blades grow in some slots of the pool (m,)."""
     pool.present[slots] = _grown(stock, pool.places(slots), model, ground)
     pool.sown[slots, 1] = pool.sown[slots, 0]
 
 
 def _grown(stock: BladeStock, place: Floats, model: Ints, ground: Ground) -> NDArray[np.bool_]:
-    """Return which blades grow at their places (m, n, 2), shape (m, n)."""
+    """Return a mask of the blades that grow at their places (m, n, 2), shape (m, n)."""
     kinds = np.tile(stock.kinds, len(place))
     own = own_density_at(ground.density, kinds, place.reshape(-1, 2)).reshape(place.shape[:-1])
     return np.asarray((stock.rank[model] < own) & (own > PRESENT))
@@ -170,7 +168,7 @@ def _grown(stock: BladeStock, place: Floats, model: Ints, ground: Ground) -> NDA
 def carry_blades(
     pool: BladePool, stock: BladeStock, old: BladePool, before: BladeStock, patches: PatchTable, ground: Ground, /
 ) -> None:
-    """Let blades stand in an empty pool where those of another stock did; of forms that are new, they are planted."""
+    """Fill an empty pool with the blades of `stock` on the slots of `old`; copy what `before` has, plant the rest."""
     pool.stamp[:], pool.ground[:], pool.sown[:] = old.stamp, old.ground, old.sown
     rows = window_rows(pool.stamp, side=patches.side)
     slots = np.flatnonzero((patches.cell[rows] == pool.stamp).all(axis=1) & (pool.stamp[:, 0] != NOWHERE))
@@ -191,11 +189,12 @@ def carry_blades(
 
 
 def _corners(cells: Ints, ground: Ground) -> Floats:
+    """Return the corners of cells (m, 2) on the ground [m], shape (m, 1, 2)."""
     return np.asarray(cells.astype(np.float32)[:, None] * np.float32(ground.patch), np.float32)
 
 
 def _alike(stock: BladeStock, here: slice, before: BladeStock, form: Form) -> slice | None:
-    """Return the blades of another stock that stand where those of a form do, if any."""
+    """Return the columns of `before` whose blades have the same roots and ranks as those of a form, None if none do."""
     for other in before.forms:
         there = before.rows[other.number]
         if other.kind != form.kind or there.stop - there.start != here.stop - here.start:

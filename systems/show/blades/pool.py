@@ -1,4 +1,4 @@
-"""Which blades are near enough to be 3D, and where: their places are those of their receivers."""
+"""The pool of the 3D blades around a viewer: each is a receiver, which stands at its root."""
 
 from dataclasses import dataclass
 
@@ -23,18 +23,19 @@ BLADE = np.dtype(
         ("organ", "f4"),
     ]
 )
-"""What the graphics card is told of a blade: root [m], length [m], lean, face normal (x, z), width at the root [m],
+"""Record of a blade on the graphics card: root [m], length [m], rest lean, face normal (x, z), width at the root [m],
 row of the posture table, kind, and organ. The field names are the shader's; it reads three texels."""
 
 ORGAN = np.dtype(
     [*((name, BLADE[name]) for name in BLADE.names or ()), ("stem", "f4"), ("part", "f4"), ("sways", "2f4")]
 )
-"""The same where some stand on stems: the stem's length [m], the place along it, and its lean; four texels."""
+"""Record of an organ, which may stand on a stem: a `BLADE`, its stem's length [m], its place along the stem, and the
+stem's rest lean; four texels."""
 
 
 @dataclass(slots=True, eq=False)
 class BladePool:
-    """The blades of all patches near enough to be 3D, one slot per patch; each is a receiver.
+    """The blades of all patches near enough for 3D, one slot per patch; each blade is a receiver.
 
     Slots form a window that wraps round, as the rows of a `PatchTable` do.
     """
@@ -46,31 +47,31 @@ class BladePool:
     """The kind of each of a patch's blades, shape (n,)."""
 
     present: NDArray[np.bool_]
-    """Whether the blade grows at its place's density, shape (side * side, n)."""
+    """Whether the density at its place lets each blade grow, shape (side * side, n)."""
 
     x: Floats
-    """Where the receivers are on the ground [m], shape (side * side, n)."""
+    """Receivers' x on the ground [m], shape (side * side, n)."""
 
     z: Floats
-    """The same along z."""
+    """Receivers' z on the ground [m], shape (side * side, n)."""
 
     ground: Floats
-    """What the ground that a slot's blades grow on lies between [m], shape (side * side, 2)."""
+    """Lowest and highest ground under each slot's blades [m], shape (side * side, 2)."""
 
     stamp: NDArray[np.int32]
-    """Cell (i, j) that each slot is planted for, shape (side * side, 2)."""
+    """Cell (i, j) that each slot is planted with, shape (side * side, 2)."""
 
     sown: NDArray[np.int64]
-    """How often each slot was sown, and how often of these its blades have been reckoned anew, (side * side, 2)."""
+    """Number of times each slot was sown, and that number when `present` was last computed, shape (side * side, 2)."""
 
     @property
     def slots(self) -> int:
-        """How many slots there are."""
+        """Number of slots."""
         return len(self.stamp)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How the receivers of a slot are laid out."""
+        """Shape of a slot's receivers, (n,)."""
         return self.kinds.shape
 
     def places(self, slots: NDArray[np.int64], /) -> Floats:
@@ -78,7 +79,7 @@ class BladePool:
         return np.stack([self.x[slots], self.z[slots]], axis=-1)
 
     def kind(self, slots: NDArray[np.int64], /) -> NDArray[np.intp]:
-        """Return the kind that each receiver of some slots is of, shape (len(slots) * n,)."""
+        """Return the kind of each receiver of some slots (m,), shape (m * n,)."""
         return np.tile(self.kinds, len(slots))
 
     def grows(self, slots: NDArray[np.int64], cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
@@ -109,26 +110,27 @@ class BladesKept(Kept):
         super().__init__([Receiving(pool, name)])
         self.pool = pool
         self.ahead: tuple[object, BladePool, NDArray[np.int64]] | None = None
-        """What it is to hold next: for whose blades, that pool, and what stood in which slots when it was made."""
+        """What `carry_ahead` prepared: the representation it is for, its pool, and the `slot_states` at that time."""
 
     def hold(self, pool: BladePool, /) -> None:
-        """Have the blades of another pool in place of its own, for as many slots: they keep their entities."""
+        """Take over the blades of another pool with as many slots; the entities of the slots stay."""
         self.pool.kinds, self.pool.present, self.pool.x, self.pool.z = pool.kinds, pool.present, pool.x, pool.z
         self.pool.ground, self.pool.stamp, self.pool.sown = pool.ground, pool.stamp, pool.sown
         self.ahead = None
         self.receiving[0].letters.forget_all()
 
-    def planted_with(self) -> NDArray[np.int64]:
-        """Return what tells in which state each slot is, shape (slots, 4)."""
+    def slot_states(self) -> NDArray[np.int64]:
+        """Return each slot's cell and sowing counts, shape (slots, 4): they change whenever its blades do."""
         return np.concatenate([self.pool.stamp, self.pool.sown], axis=1)
 
     def stand_on(self, first: Ints, last: Ints, span: tuple[float, float], /) -> None:
-        """Let the ground of these cells reach as low and as high: planting all blades again would take far longer."""
+        """Widen the ground range of these cells by `span`: planting all their blades again would take far longer."""
         stamp, ground = self.pool.stamp, self.pool.ground
-        on = between(stamp, first, last)
-        ground[on] = np.stack([np.minimum(ground[on, 0], span[0]), np.maximum(ground[on, 1], span[1])], axis=1)
+        inside = between(stamp, first, last)
+        lowest, highest = np.minimum(ground[inside, 0], span[0]), np.maximum(ground[inside, 1], span[1])
+        ground[inside] = np.stack([lowest, highest], axis=1)
 
     def sow_on(self, cells: Ints, /) -> None:
-        """Let the blades of these cells be reckoned anew once they are shown."""
+        """Mark the slots of these cells, so that `present` is computed again once they are shown."""
         slots = window_rows(cells, side=self.pool.side)
         self.pool.sown[slots[(self.pool.stamp[slots] == cells).all(axis=1)], 0] += 1

@@ -28,7 +28,7 @@ from .shown import BladesShown, show_blades
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BladeRepresentation(Representation):
-    """Blades near the viewer: each is a receiver."""
+    """Blades near the viewer, each a receiver."""
 
     name: ClassVar[str] = "blades"
     label: ClassVar[str] = "3D blades"
@@ -42,38 +42,38 @@ class BladeRepresentation(Representation):
 
     @staticmethod
     def reach(quality: Quality, /) -> int:
-        """Return where its last ring ends."""
+        """Return the discrete distance at which the last ring ends."""
         return quality.blade_rings[-1].to
 
     @classmethod
     def stocked(
         cls, growths: Sequence[Growth], quality: Quality, ground: Ground, coming: Mapping[int, Growth] = NOTHING, /
     ) -> Self:
-        """Return it with all kinds' blades, ready to be planted on a ground."""
+        """Return the representation with all kinds' blades, ready to be planted on a ground."""
         return cls(quality, ground, stock_blades(growths, quality.patch, coming))
 
     def defines(self, grown: Grown, /) -> Mapping[str, str | int]:
-        """Return which kinds have numbers of segments of their own, and whether any has leaves with teeth, or eyes."""
+        """Return the defines of kinds with segment counts of their own, and of kinds with teeth, ligules or eyes."""
         growths = [*grown.growths, *grown.coming.values()]
         special = {"TOOTHED": any_teeth(growths), "EYED": any_eyes(growths)}
-        return {**own_segment_defines(grown.own_segments), **{name: 1 for name, is_so in special.items() if is_so}}
+        return {**own_segment_defines(grown.own_segments), **{name: 1 for name, needed in special.items() if needed}}
 
     def rings(self) -> int:
-        """Return how many rings it has."""
+        """Return the number of rings."""
         return len(self.quality.blade_rings)
 
     def keep(self, patches: PatchTable, side: int, /) -> BladesKept:
-        """Return an empty pool."""
+        """Return an empty pool of `side` by `side` patches."""
         del patches
         return BladesKept(BladePool.allocate(side, self.stock.kinds), self.name)
 
     def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:
-        """Return the ring that is due on patches (n,)."""
+        """Return the ring that is due on patches (n,) that hold the rings `held`, shape (n,)."""
         limits = np.array(outlook.lens.rings_in(tuple(ring.to for ring in self.quality.blade_rings[:-1])), np.float32)
         return blade_ring(outlook.patches.away[rows], held, limits, slack=slack)
 
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> BladesShown:
-        """Return the patches with blades, by ring, and those on their way."""
+        """Return the patches with blades, by ring, and the morphing ones."""
         kept = outlook.keeps(BladesKept)
         level = outlook.patches.names.index(self.name)
         shown = show_blades(outlook, cover, level=level, side=kept.pool.side, rings=self.rings())
@@ -81,7 +81,7 @@ class BladeRepresentation(Representation):
         return shown
 
     def plant(self, outlook: Outlook, /) -> None:
-        """Plant the blades of patches whose slot holds another's."""
+        """Plant the patches whose slot holds another cell, and update the slots that were sown."""
         patches, kept, shown = outlook.patches, outlook.keeps(BladesKept), outlook.shows(BladesShown).standing
         pool = kept.pool
         differs = pool.stamp.take(shown.slots, axis=0) != patches.cell.take(shown.rows, axis=0)
@@ -92,31 +92,32 @@ class BladeRepresentation(Representation):
             cell, model, turn = patches.cell[rows], patches.model[rows], patches.turn[rows]
             plant_blades(pool, shown.slots[stale], cell, model, turn, self.stock, self.ground)
         sown = pool.sown.take(shown.slots, axis=0)
-        if (sown[:, 0] != sown[:, 1]).any():
+        stale = sown[:, 0] != sown[:, 1]
+        if stale.any():
             kept.planted += 1
-            anew = sown[:, 0] != sown[:, 1]
-            sow_blades(pool, shown.slots[anew], patches.model[shown.rows[anew]], self.stock, self.ground)
+            sow_blades(pool, shown.slots[stale], patches.model[shown.rows[stale]], self.stock, self.ground)
 
     def carry_ahead(self, before: Representation, kept: Kept, patches: PatchTable, /) -> bool:
-        """Make the pool that `carry` is to hold, as that takes as long as a frame."""
+        """Prepare the pool of `carry`, which takes as long as a frame; return whether it had been prepared."""
         assert isinstance(kept, BladesKept)
         if kept.ahead is not None and kept.ahead[0] is self:
             return True
-        kept.ahead = self, self._carried(before, kept, patches), kept.planted_with()
+        kept.ahead = self, self._carried(before, kept, patches), kept.slot_states()
         return False
 
     def carry(self, before: Representation, kept: Kept, patches: PatchTable, /) -> None:
-        """Let blades stand where the others did; only what is new is planted."""
+        """Replace the blades of `before` by these on all slots; only new forms are planted."""
         assert isinstance(kept, BladesKept)
         if kept.ahead is None or kept.ahead[0] is not self:
             kept.hold(self._carried(before, kept, patches))
             return
-        _, pool, had = kept.ahead
+        _, pool, states = kept.ahead
         pool.ground[:] = kept.pool.ground
-        pool.stamp[(kept.planted_with() != had).any(axis=1)] = NOWHERE
+        pool.stamp[(kept.slot_states() != states).any(axis=1)] = NOWHERE
         kept.hold(pool)
 
     def _carried(self, before: Representation, kept: BladesKept, patches: PatchTable) -> BladePool:
+        """Return a pool of these blades on the slots where those of `before` stand."""
         assert isinstance(before, BladeRepresentation)
         pool = BladePool.allocate(kept.pool.side, self.stock.kinds)
         carry_blades(pool, self.stock, kept.pool, before.stock, patches, self.ground)
@@ -129,6 +130,6 @@ class BladeRepresentation(Representation):
 
 
 def blade_ring(distance: Ints, current: Levels, limits: Floats, /, *, slack: int) -> Levels:
-    """Return the ring of 3D patches (n,): by discrete distance; a finer one is kept for `slack` patches longer."""
+    """Return the ring of 3D patches (n,) by discrete distance; a finer current one is kept `slack` patches longer."""
     coarse, fine = limits.searchsorted(distance), limits.searchsorted(distance - slack)
     return np.where(current < 0, coarse, np.minimum(np.maximum(current, fine), coarse)).astype(np.int8)

@@ -1,4 +1,4 @@
-"""The blades of all patch models on the graphics card, and what is told of the patches that they stand on."""
+"""The blades of all patch models on the graphics card, and the records of the patches that they stand on."""
 
 from collections.abc import Generator
 
@@ -28,13 +28,13 @@ STANDING = np.dtype(
         ("unused", "2f4"),
     ]
 )
-"""A patch with blades: its cell; four times its model plus its quarter turns; how much shows; the ring, of those that
-are drawn together, plus how far joints have slid to those of the next. For one on its way to its strips besides: how
-far its blades have moved, the height of the strips, of their full one; the axis that these run along; their ring, and
-their first receiver. The shader reads three texels."""
+"""Record of a patch with blades: its cell; 4 * model + quarter turns; cover; number of the ring within its group of
+draws, plus the slide of joints to the next ring. For a morphing patch also: the morph of its blades; the relative
+height of its strips, the axis that they run along, their ring, and their first receiver. The shader reads three
+texels."""
 
 STANDING_ROW, BLADES_ROW, SLICES_ROW, TARGETS_ROW = 64, 256, 1024, 64
-"""Records in a row of the textures that hold patches, blades, the strips and the painted places of blades."""
+"""Records per row of the textures of patches, blades, the strips that blades are painted on, and painted places."""
 
 
 GLSL = (
@@ -46,7 +46,7 @@ GLSL = (
 
 
 class BladeStore:
-    """What of all patch models' blades never changes."""
+    """Textures of everything about all patch models' blades that is the same in every frame."""
 
     def __init__(self, ctx: moderngl.Context, blades: BladeStock, strips: StripStock) -> None:
         at_once(self.sending(ctx, blades, strips))
@@ -55,13 +55,13 @@ class BladeStore:
     def beside(
         cls, ctx: moderngl.Context, blades: BladeStock, strips: StripStock, /
     ) -> Generator[None, None, "BladeStore"]:
-        """Make one a piece at a time."""
+        """Return a store whose data is sent to GL a piece at a time."""
         made = cls.__new__(cls)
         yield from made.sending(ctx, blades, strips)
         return made
 
     def sending(self, ctx: moderngl.Context, blades: BladeStock, strips: StripStock) -> Generator[None, None, None]:
-        """Bring all into GL, a piece at a time."""
+        """Send all data to GL, a piece at a time."""
         self.count = blades.records.shape[1]
         self.organs = organ_defines(blades.records.dtype)
         self.blades = Records(ctx, blades.records.dtype, BLADES_ROW, rows=-(-blades.records.size // BLADES_ROW))
@@ -74,11 +74,8 @@ class BladeStore:
 
     @property
     def defines(self) -> dict[str, str | int]:
-        """What shaders are told of how it is laid out."""
-        return {
-            "POINTS": self.points,
-            **self.organs,
-        }
+        """Defines of the layout, for shaders that read it."""
+        return {"POINTS": self.points, **self.organs}
 
     def release(self) -> None:
         """Give everything back."""
@@ -86,7 +83,7 @@ class BladeStore:
 
 
 def _texture(ctx: moderngl.Context, values: NDArray[np.generic], per_row: int) -> moderngl.Texture:
-    """Return a texture of values, shape (n, texels, channels), `per_row` of the first in a row."""
+    """Return a texture of records (n, texels, channels), with `per_row` records in a row."""
     count, texels, channels = values.shape
     rows = -(-count // per_row)
     padded = np.zeros((rows * per_row, texels, channels), np.float32)
