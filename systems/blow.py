@@ -63,7 +63,7 @@ class Blow:
             for receiving in hearing(outlook):
                 receiving.letters.blow(partial(self._tell, receiving, time))
                 if not receiving.still:
-                    heard += len(receiving.slots) * receiving.each
+                    heard += len(receiving.slots) * receiving.per_slot
             outlook.note(Blown(winds, time, heard))
 
     def _tell(self, receiving: Receiving, time: float, slots: NDArray[np.int64]) -> Floats:
@@ -88,7 +88,7 @@ def receivers_shown(outlook: Outlook, growths: Sequence[Growth], /, *, patch: fl
     told = [receiving.told for receiving in order]
     places = [receiving.pool.places(slots).reshape(-1, 2) for receiving, (_, slots) in zip(order, told, strict=True)]
     rows = np.concatenate([rows for rows, _ in told])
-    each = [np.full(len(slots), receiving.each) for receiving, (_, slots) in zip(order, told, strict=True)]
+    each = [np.full(len(slots), receiving.per_slot) for receiving, (_, slots) in zip(order, told, strict=True)]
     kind = np.concatenate([receiving.pool.kind(slots) for receiving, (_, slots) in zip(order, told, strict=True)])
     return ReceiverArrays(
         place=np.concatenate(places),

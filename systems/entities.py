@@ -44,13 +44,13 @@ class PatchEntities:
         if outlook.generation != self.world.generation:
             outlook.generation = self.world.generation
             patches.entity[:] = 0
-            outlook.peopled += 1
-            outlook.left.clear()
+            outlook.entity_changes += 1
+            outlook.left_behind.clear()
             for kept in outlook.kept.values():
                 kept.lose()
         for row in np.flatnonzero(np.isin(patches.entity, lost)).tolist() if lost else ():
             patches.entity[row] = 0
-            outlook.peopled += 1
+            outlook.entity_changes += 1
             self.clearings.clear(_cell(patches, row))
 
     def go_on(self, outlook: Outlook, fresh: NDArray[np.int32], /) -> None:
@@ -61,9 +61,9 @@ class PatchEntities:
         patches = outlook.patches
         if fresh.size:
             left = patches.entity[fresh]
-            outlook.left.extend(left[left != 0].tolist())
+            outlook.left_behind.extend(left[left != 0].tolist())
             patches.entity[fresh] = 0
-            outlook.peopled += 1
+            outlook.entity_changes += 1
             for kept in outlook.kept.values():
                 kept.leave(fresh)
         if fresh.size or outlook.cleared != self.clearings.version:
@@ -76,22 +76,22 @@ class PatchEntities:
 
         Python's collector sets in when many more objects have been made than deleted, and goes through the whole game.
         """
-        if outlook.whole == outlook.peopled:
+        if outlook.complete_at == outlook.entity_changes:
             return
         patches = outlook.patches
         without = (patches.alive & (patches.entity == 0)).nonzero()[0]
-        if not (without.size or outlook.left):
-            outlook.whole = outlook.peopled
+        if not (without.size or outlook.left_behind):
+            outlook.complete_at = outlook.entity_changes
             return
         rows = without[np.argsort(patches.distance[without], kind="stable")[:BATCH]].tolist()
-        left, outlook.left[:] = outlook.left[:BATCH], outlook.left[BATCH:]
+        left, outlook.left_behind[:] = outlook.left_behind[:BATCH], outlook.left_behind[BATCH:]
         for _, entity in zip_longest(self._make(outlook, rows), left):
             if entity is not None:
                 self.world.delete(entity)
 
     def _make(self, outlook: Outlook, rows: list[int]) -> Iterator[int]:
         """Make the entities of the patches in some rows, one after another, and give each."""
-        patches, outlook.peopled = outlook.patches, outlook.peopled + len(rows)
+        patches, outlook.entity_changes = outlook.patches, outlook.entity_changes + len(rows)
         carried = components(outlook, self.representations, rows)
         stand = zip(patches.cell[rows].tolist(), patches.model[rows].tolist(), patches.turn[rows].tolist(), strict=True)
         for row, ((i, j), model, turn), parts in zip(rows, stand, carried, strict=True):

@@ -64,7 +64,7 @@ def read_of(outlook: Outlook, /) -> tuple[object, ...]:
     viewer, lens, mown = outlook.viewer, outlook.lens, outlook.noted(Mown, None)
     looks = viewer.eye, viewer.cone, viewer.jumped, viewer.centre.tobytes()
     sees = lens.zoom, lens.range, lens.reach, lens.room
-    return *looks, *sees, outlook.bent, outlook.heights, outlook.sown, mown and mown.strokes
+    return *looks, *sees, outlook.mean_index, outlook.heights, outlook.sown, mown and mown.strokes
 
 
 @dataclass(slots=True)
@@ -89,7 +89,7 @@ class ChooseLevels:
     def run(self) -> None:
         """Choose for every viewer that looks."""
         for outlook in self.outlooks:
-            outlook.bent = self.bent(outlook.viewer.time)
+            outlook.mean_index = self.bent(outlook.viewer.time)
             outlook.unless_at_rest(self, read_of(outlook), partial(self._run, outlook))
 
     def _run(self, outlook: Outlook) -> None:

@@ -46,5 +46,5 @@ class Plant:
 
     def _due(self, outlook: Outlook) -> _Planted:
         kept = [*outlook.kept.values()]
-        counts = outlook.peopled, len(kept), len(outlook.shown), *(each.planted for each in kept)
+        counts = outlook.entity_changes, len(kept), len(outlook.shown), *(each.planted for each in kept)
         return _Planted((self, *kept, *outlook.shown.values()), counts)

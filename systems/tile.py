@@ -113,8 +113,8 @@ class Tile:
             self._follow(outlook)
             fresh = tile(patches, viewer.centre, terrain, patch=patch, seed=self.seed, models=self.models)
             seen = viewer.eye[1], viewer.centre.tobytes(), outlook.heights
-            if fresh.size or outlook.away_for != seen:
-                outlook.away_for = seen
+            if fresh.size or outlook.away_inputs != seen:
+                outlook.away_inputs = seen
                 patches.away[:] = seen_from(patches.distance, patches.height, viewer.eye[1], patch=patch)
             self.entities.go_on(outlook, fresh)
 

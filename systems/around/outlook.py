@@ -1,4 +1,4 @@
-"""Outlooks: what is kept for each viewer of a prairie."""
+"""Outlooks: state kept for each viewer of a prairie."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -24,17 +24,17 @@ Other = TypeVar("Other")
 
 @dataclass(slots=True, eq=False)
 class _Rest:
-    """What a system found when it last ran for a viewer, and left just as it was: so long it is left out."""
+    """Inputs and result of a system's last run for a viewer; while they stay the same, the system is skipped."""
 
     system: object = None
     seen: object = None
-    """What it read beside the patch table."""
+    """Inputs beside the patch table."""
 
     table: bytearray = field(default_factory=bytearray)
-    """What may change of the patch table as it found it, where it left it so; otherwise nothing."""
+    """Copy of `PatchTable.changing` before the run; empty if the run changed it."""
 
     made: object = None
-    """What it made of that, if it makes something anew in each frame."""
+    """Result of the run, of a system that makes a new one in each frame."""
 
 
 @dataclass(slots=True, eq=False, weakref_slot=True)
@@ -44,86 +44,87 @@ class Outlook:
     viewer: Viewer
 
     entity: int
-    """The viewer's entity."""
+    """Entity of the viewer."""
 
     patches: PatchTable
 
     view: View | None = None
-    """The matrices that it looked with last; None before the first time."""
+    """Matrices of the last frame; None before the first."""
 
     frame: Frame | None = None
-    """What it has been drawn of its frame."""
+    """Parts of the current frame that have been drawn; None before the first, and where time has leapt."""
 
     lens: Lens = field(default_factory=Lens)
-    """How far it sees each representation."""
+    """Scale of the representations' reaches."""
 
     kept: dict[str, Kept] = field(default_factory=dict)
-    """What each representation keeps for it, by its name."""
+    """Pools of each representation for this viewer, by its name."""
 
     shown: dict[str, object] = field(default_factory=dict)
-    """What each representation shows it in this frame, by its name."""
+    """Grass that each representation shows in this frame, by its name."""
 
     appearance: Appearance | None = None
-    """How each patch appears in this frame."""
+    """Cover, morph and growth of all patches in this frame."""
 
-    bent: float = 0.0
-    """Posture index that the winds of this frame bring grass to everywhere, in the mean, in [0, 1]."""
+    mean_index: float = 0.0
+    """Mean posture index that the winds of this frame bend grass to everywhere, in [0, 1]."""
 
     changing: int = 0
-    """Patches that were seen to change their representation in this frame, or to be changing it."""
+    """Number of patches in the picture whose representation is changing in this frame."""
 
     drawn_at: float | None = None
-    """The instant that it saw last [s]; None before the first, and where time has leapt."""
+    """Time of the last frame [s]; None before the first, and where time has leapt."""
 
     pace: Pace = field(default_factory=Pace)
-    """How fast the viewer's time goes."""
+    """Pace of the viewer's time."""
 
-    left: list[int] = field(default_factory=list)
-    """Entities of patches that were left behind, and are still to be deleted."""
+    left_behind: list[int] = field(default_factory=list)
+    """Entities of patches that have left the window, still to be deleted."""
 
     cleared: int = -1
-    """Version of the clearings that the patches stand for."""
+    """Version of the clearings that `patches.grows` is of."""
 
-    away_for: tuple[object, ...] = ()
-    """Where the viewer was, and what the ground was, for whom the patches' discrete distances are reckoned."""
+    away_inputs: tuple[object, ...] = ()
+    """Place of the viewer and version of the heights that `patches.away` is computed from."""
 
     heights: int = 0
-    """Changes of the terrain's heights that the patches stand for."""
+    """Number of changes of the terrain's heights that are in the patch table."""
 
-    peopled: int = 0
-    """How often entities of its patches have come or gone."""
+    entity_changes: int = 0
+    """Number of times that entities of patches have been created or deleted."""
 
-    whole: int = -1
-    """What that was when each of its patches had one, and none was left behind."""
+    complete_at: int = -1
+    """Value of `entity_changes` when every patch had its entity and none was left behind."""
 
     sown: int = 0
-    """Changes of what is sown and cleared that the patches stand for."""
+    """Number of changes of sown and cleared grass that are in the patch table."""
 
     generation: int = 0
-    """Generation of the world that the patches' entities are of."""
+    """Generation of the world that the patches' entities belong to."""
 
     _noted: dict[type, object] = field(default_factory=dict)
+    """Last record that systems have noted, by its class."""
 
     _rests: dict[type, _Rest] = field(default_factory=dict)
-    """By the class of a system, how it ran last."""
+    """Last run of each system, by its class."""
 
     def note(self, record: object, /) -> None:
-        """Keep what a system has found out for this viewer, in place of the last record of the same class."""
+        """Keep a system's result for this viewer, in place of the last record of the same class."""
         self._noted[type(record)] = record
 
     def noted(self, record: type[Record], default: Other, /) -> Record | Other:
-        """Return what was noted last of a class, or else `default`."""
+        """Return the last noted record of a class, or else `default`."""
         return self._noted.get(record, default)  # type: ignore[return-value]
 
     def keeps(self, kept: type[Record], /) -> Record:
-        """Return what is kept by the representation whose stores are of a class."""
-        for each in self.kept.values():  # quicker than `next`, as it is asked many times a frame
+        """Return the pools of this class, of whichever representation; raises LookupError where there are none."""
+        for each in self.kept.values():  # faster than `next`, which counts at many calls a frame
             if type(each) is kept:
                 return each
         raise LookupError(kept)
 
     def shows(self, shown: type[Record], /) -> Record:
-        """Return what is shown by the representation that shows a class of things."""
+        """Return the shown grass of this class, of whichever representation; raises LookupError where there is none."""
         for each in self.shown.values():
             if type(each) is shown:
                 return each
@@ -138,10 +139,10 @@ class Outlook:
         made: Callable[[], object] = lambda: None,
         settled: Callable[[], bool] = lambda: True,
     ) -> None:
-        """Run a system, unless it would change nothing: it finds all as it left it when it last ran, and found it then.
+        """Run a system, unless its last run changed nothing and its inputs are still the same.
 
-        `seen` is what it reads beside the patch table, to be compared, and `made` gives what it makes anew. While it
-        has not `settled`, the next frame may be another one though it finds the same.
+        `seen` has its inputs beside the patch table, to be compared. `made` returns its result, if it makes a new one in
+        each frame. Until `settled`, the system also runs on the same inputs.
         """
         rest = self._rests.setdefault(type(system), _Rest())
         is_same, rest.system = rest.system is system, system
@@ -157,13 +158,13 @@ class Outlook:
         rest.table, rest.made = found if found == table and settled() else bytearray(), made()
 
     def settle(self) -> None:
-        """End the frame: what a game has written into messages holds no longer."""
+        """End the frame: messages that a game has written are dropped."""
         for kept in self.kept.values():
             for receiving in kept.receiving:
                 receiving.letters.settle()
 
     def look(self, view: View, /, *, time: float, leap: float) -> None:
-        """Look from where two matrices say, at an instant [s]; who comes farther than `leap` [m] has jumped."""
+        """Take the view and time [s] of a new frame; a viewer that moves farther than `leap` [m] has jumped."""
         before, self.view, viewer, eye = self.view, view, self.viewer, view.eye
         viewer.way = float(np.hypot(eye[0] - viewer.eye[0], eye[2] - viewer.eye[2]))
         viewer.jumped = viewer.way > leap or self.drawn_at is None
@@ -175,7 +176,7 @@ class Outlook:
 
 
 class Outlooks:
-    """The outlooks of a prairie by their viewers' names. Iterating gives those that look in this frame."""
+    """The outlooks of a prairie, by their viewers' names. Iterating yields the one that looks in this frame."""
 
     def __init__(self, world: World) -> None:
         self._world = world
@@ -195,13 +196,13 @@ class Outlooks:
         return found is not None and self._world.find(found.entity, Viewer) is found.viewer
 
     def values(self) -> list[Outlook]:
-        """Return those whose viewers are still there, in the order in which these first looked."""
+        """Return the outlooks whose viewers still exist, in the order of their first look."""
         return [self._all[name] for name in self._all if name in self]
 
     def looking(self, name: str, make: Callable[[Viewer, int], Outlook], /) -> Outlook:
-        """Let the viewer of this name be the one that looks, and return its outlook; a new name is a new viewer.
+        """Make the viewer of this name the one that looks, and return its outlook; a new name is a new viewer.
 
-        `make` gives the empty outlook of a viewer and its entity. One whose entity has been deleted begins anew.
+        `make` returns the empty outlook of a viewer and its entity. A viewer whose entity has been deleted begins anew.
         """
         for gone in [each for each in self._all if each not in self]:
             self.forget(gone)
@@ -213,17 +214,17 @@ class Outlooks:
         return found
 
     def begin_anew(self) -> None:
-        """Let all viewers see what they see next as if they came from somewhere else: time has leapt."""
+        """Treat the next frame of each viewer as its first, because time has leapt."""
         for outlook in self.values():
             outlook.drawn_at, outlook.pace, outlook.frame = None, Pace(), None
 
     def forget(self, name: str, /) -> None:
-        """Forget a viewer, and delete the entities that were its own."""
+        """Forget a viewer, and delete its entities."""
         gone = self._all.pop(name, None)
         self._looking = None if self._looking is gone else self._looking
         if gone is None or gone.generation != self._world.check():
-            return  # what the whole world was cleared of: its numbers may be others' by now
-        for entity in (*gone.patches.entity[gone.patches.entity != 0].tolist(), *gone.left):
+            return  # the whole world was cleared, and its numbers may be other entities' by now
+        for entity in (*gone.patches.entity[gone.patches.entity != 0].tolist(), *gone.left_behind):
             self._world.delete(entity)
         for kept in gone.kept.values():
             kept.release(self._world)

@@ -10,117 +10,117 @@ import numpy as np
 from numpy.typing import NDArray
 
 WORD = 8
-"""Columns begin at multiples of this [bytes]."""
+"""Alignment of columns in memory [bytes]."""
 
 NOWHERE = np.iinfo(np.int32).min
-"""Cell of a row, and of a slot, on which nothing stands."""
+"""Cell of an empty row or slot, along x and z."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PatchTable:
-    """The patches around one viewer, one row for each.
+    """The patches around one viewer, a row each.
 
     The rows form a square window around the viewer that wraps round: the patch of cell (i, j) is always at
-    row (j mod side) * side + (i mod side), so that a step of the viewer replaces one line of rows. Representations go
-    by their numbers, from the finest to the coarsest; -1 is none.
+    row (j mod side) * side + (i mod side), so that a step of the viewer replaces one line of rows. Representations are
+    numbered from the finest to the coarsest; -1 is none.
     """
 
     viewer: str
     """The viewer's name."""
 
     names: tuple[str, ...]
-    """The names of the representations."""
+    """Names of the representations."""
 
     side: int
-    """Patches along the window's side."""
+    """Number of patches along the window's side."""
 
     changing: NDArray[np.uint8]
-    """All that may change while the viewer stands in a cell, as it lies in memory: so it can be told whether it has."""
+    """Memory of all columns that may change while the viewer stays in its cell; comparing it finds whether any did."""
 
     cell: NDArray[np.int32]
-    """Shape (rows, 2)."""
+    """Cell (i, j), shape (rows, 2)."""
 
     middle: NDArray[np.float64]
-    """Ground position (x, z) of its middle [m], shape (rows, 2)."""
+    """Ground position (x, z) of the patch's middle [m], shape (rows, 2)."""
 
     alive: NDArray[np.bool_]
     """Whether the row's cell lies on the terrain, shape (rows,)."""
 
     grows: NDArray[np.bool_]
-    """Whether a game has left its grass there, shape (rows,)."""
+    """Whether the cell is no clearing, shape (rows,)."""
 
     model: NDArray[np.int32]
-    """Which patch model stands there, shape (rows,)."""
+    """Index of the patch model, shape (rows,)."""
 
     turn: NDArray[np.int32]
     """Quarter turns of the model, shape (rows,)."""
 
     distance: NDArray[np.int32]
-    """Discrete distance, shape (rows,)."""
+    """Discrete distance along the ground, shape (rows,)."""
 
     away: NDArray[np.int32]
-    """Discrete distance of what is seen there: from high above it is farther away than on the ground, shape (rows,)."""
+    """Discrete distance with the eye's height counted, shape (rows,)."""
 
     nearness: NDArray[np.int16]
-    """A number that rises in the order in which patches are drawn, from far to near, shape (rows,)."""
+    """Sort key of the drawing order: it rises from far to near, shape (rows,)."""
 
     visible: NDArray[np.bool_]
-    """Whether it is inside the view cone, shape (rows,)."""
+    """Whether the patch is inside the view cone, shape (rows,)."""
 
     near: NDArray[np.bool_]
-    """Whether it is visible, or among the four patches nearest to a visible place, shape (rows,)."""
+    """Whether the patch is visible, or among the four patches nearest to a visible place, shape (rows,)."""
 
     was_visible: NDArray[np.bool_]
-    """Whether it was visible when the viewer looked last, shape (rows,)."""
+    """Whether the patch was visible in the viewer's last frame, shape (rows,)."""
 
     wanted: NDArray[np.int8]
-    """The representation that is due, shape (rows,)."""
+    """Representation that is due, shape (rows,)."""
 
     hold: NDArray[np.int8]
-    """The one that a game holds it in, whatever is due, shape (rows,)."""
+    """Representation that a game holds the patch in, whatever is due, shape (rows,)."""
 
     representation: NDArray[np.int8]
-    """The one that it has, or is coming to, shape (rows,)."""
+    """Current representation; during a change the new one, shape (rows,)."""
 
     previous: NDArray[np.int8]
-    """The one that it comes from, shape (rows,)."""
+    """Representation before the last change, shape (rows,)."""
 
     progress: NDArray[np.float32]
-    """How far the change has gone, 1 when it is over, shape (rows,)."""
+    """Progress of that change, 1 when it is over, shape (rows,)."""
 
     height: NDArray[np.float32]
-    """Height of the ground in the patch's middle [m], shape (rows,)."""
+    """Height of the ground at the patch's middle [m], shape (rows,)."""
 
     slope: NDArray[np.float32]
-    """Rise of the ground there along x and z, shape (rows, 2)."""
+    """Slope of the ground there along x and z, shape (rows, 2)."""
 
     sublevel: NDArray[np.int8]
-    """How fine each representation is there, or is coming to be, in its own numbers; -1 for none yet, shape
+    """Current sub-level of each representation, in its own numbers; during a change the new one, -1 for none yet, shape
     (representations, rows)."""
 
     sublevel_before: NDArray[np.int8]
-    """The sub-levels that they come from, shape (representations, rows)."""
+    """Sub-levels before their last change, shape (representations, rows)."""
 
     sublevel_progress: NDArray[np.float32]
-    """How far these changes have gone, 1 when they are over, shape (representations, rows)."""
+    """Progress of the changes of sub-level, 1 when they are over, shape (representations, rows)."""
 
     entity: NDArray[np.int64]
-    """The patch's entity, 0 where there is none, shape (rows,)."""
+    """Entity of the patch, 0 for none, shape (rows,)."""
 
     @property
     def lines(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The x of the middles of the window's columns, shape (side,), and the z of its lines, shape (side, 1) [m]."""
+        """The x of the window's columns, shape (side,), and the z of its lines, shape (side, 1), at middles [m]."""
         square = self.middle.reshape(self.side, self.side, 2)
         return square[0, :, 0], square[:, :1, 1]
 
     @property
     def stands(self) -> NDArray[np.bool_]:
-        """Whether there is grass at all, shape (rows,)."""
+        """Whether the patch has any grass, shape (rows,)."""
         return self.alive & self.grows
 
     @property
     def shown(self) -> NDArray[np.bool_]:
-        """Whether there is grass inside the view cone, shape (rows,)."""
+        """Whether the patch has grass and is inside the view cone, shape (rows,)."""
         return self.alive & self.grows & self.visible
 
     @classmethod
@@ -136,9 +136,9 @@ class PatchTable:
             "sublevel": (np.int8, several, -1), "sublevel_before": (np.int8, several, -1),
             "sublevel_progress": (np.float32, several, 1),
         }  # fmt: skip
-        changing, made = _in_one(columns)
+        changing, views = _in_one_block(columns)
         return cls(
-            viewer=viewer, names=names, side=side, changing=changing, **made,
+            viewer=viewer, names=names, side=side, changing=changing, **views,
             cell=np.full((rows, 2), NOWHERE, np.int32),
             middle=np.zeros((rows, 2)),
             model=np.zeros(rows, np.int32),
@@ -152,11 +152,11 @@ class PatchTable:
         )  # fmt: skip
 
     def far_to_near(self, rows: NDArray[np.int64], /) -> NDArray[np.int64]:
-        """Return some rows (n,) in the order in which their patches are drawn, from far to near, shape (n,)."""
+        """Sort rows (n,) into the drawing order of their patches, from far to near."""
         return rows[np.argsort(self.nearness[rows], kind="stable")]
 
     def empty(self, rows: NDArray[np.int32], /) -> None:
-        """Forget what is known of the levels of detail of some rows, because another patch is there now."""
+        """Reset the levels of detail of rows that hold another patch now."""
         for levels in (self.wanted, self.hold, self.representation, self.previous):
             levels[rows] = -1
         self.sublevel[:, rows] = self.sublevel_before[:, rows] = -1
@@ -164,15 +164,15 @@ class PatchTable:
         self.visible[rows] = self.was_visible[rows] = False
 
 
-def _in_one(
+def _in_one_block(
     columns: Mapping[str, tuple[type[np.generic], tuple[int, ...], int]],
 ) -> tuple[NDArray[np.uint8], dict[str, NDArray[Any]]]:
-    """Return columns of some type, shape and first value that lie in one piece of memory, and that."""
+    """Allocate columns of (type, shape, initial value) in one block of memory; return the block and its views."""
     sizes = [-(-prod(shape) * np.dtype(kind).itemsize // WORD) * WORD for kind, shape, _ in columns.values()]
-    whole = np.zeros(sum(sizes), np.uint8)
-    made: dict[str, NDArray[Any]] = {}
-    for (name, (kind, shape, first)), start in zip(columns.items(), accumulate(sizes, initial=0), strict=False):
+    memory = np.zeros(sum(sizes), np.uint8)
+    views: dict[str, NDArray[Any]] = {}
+    for (name, (kind, shape, initial)), start in zip(columns.items(), accumulate(sizes, initial=0), strict=False):
         end = start + prod(shape) * np.dtype(kind).itemsize
-        made[name] = whole[start:end].view(kind).reshape(shape)
-        made[name][:] = first
-    return whole, made
+        views[name] = memory[start:end].view(kind).reshape(shape)
+        views[name][:] = initial
+    return memory, views

@@ -1,4 +1,4 @@
-"""Receivers: where the messages of many patches are kept, and what a game writes into them."""
+"""Receivers: their messages, as the wind sends them and as a game overwrites them, and their entities."""
 
 import logging
 from collections.abc import Callable, Iterator
@@ -19,82 +19,85 @@ log = logging.getLogger("tallgrass")
 
 
 class Pool(Protocol):
-    """Receivers of one representation around a viewer, a slot for each patch."""
+    """Receivers of one representation around a viewer, with a slot for each patch."""
 
     @property
     def slots(self) -> int:
-        """How many slots there are."""
+        """Number of slots."""
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How the receivers of a slot are laid out."""
+        """Shape of the array of a slot's receivers."""
 
     def places(self, slots: Rows, /) -> Floats:
-        """Return the ground positions (x, z) [m] of the receivers of some slots, shape (m, *shape, 2)."""
+        """Return the ground positions (x, z) [m] of the receivers of slots (m,), shape (m, *shape, 2)."""
 
     def kind(self, slots: Rows, /) -> NDArray[np.intp]:
-        """Return the kind of grass of each receiver of some slots, one slot after another, shape (n,)."""
+        """Return the kind of grass of each receiver, slot by slot, shape (n,)."""
 
     def grows(self, slots: Rows, cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
-        """Return which receivers of some slots have grass that grows on these cells (m, 2), shape (n,)."""
+        """Return which receivers of slots (m,), on cells (m, 2), have any grass, shape (n,)."""
 
 
 Tell = Callable[[Rows], Floats]
-"""Gives what the receivers of some slots (m,) hear, one slot after another, shape (n, 2)."""
+"""Computes the wind's messages to the receivers of slots (m,), slot by slot, shape (n, 2)."""
 
 
 @dataclass(slots=True, eq=False)
 class Letter:
-    """The messages of one slot that a game has asked for, each of shape (n, 2)."""
+    """Messages to one slot's receivers that a game has asked for, each array of shape (n, 2)."""
 
     message: Floats
-    """What the game reads and writes."""
+    """Messages that the game reads and writes."""
 
     heard: Floats
-    """What the wind says."""
+    """Messages of the wind."""
 
-    left: Floats
-    """What was there when the game was last heard of: what differs from it the game has written."""
+    last: Floats
+    """Copy of `message` after the last update; where they differ, the game has written since."""
 
     @classmethod
     def of(cls, heard: Floats) -> "Letter":
-        """Return the letter of what the wind says."""
+        """Return a letter that holds the wind's messages, with nothing written."""
         return cls(heard.copy(), heard, heard.copy())
 
     @property
     def written(self) -> bool:
-        """Whether it is something else than what the wind says."""
+        """Whether any message differs from the wind's."""
         return bool((self.message != self.heard).any())
 
 
 class Correspondence:
-    """The messages of a pool that a game has asked for, and what it has written since.
+    """Messages to a pool's receivers that a game has asked for, and has perhaps overwritten.
 
-    All others are computed on the graphics card alone: whoever asks for none pays for none.
+    All other messages are computed on the graphics card alone, so a game that asks for none pays for none.
     """
 
     def __init__(self, pool: Pool) -> None:
         self._pool = pool
         self._tell: Tell | None = None
         self._letters: dict[int, Letter] = {}
-        self._known: dict[int, Floats] = {}
-        self._told = False
+        self._prefetched: dict[int, Floats] = {}
+        self._has_warned = False
         self.shown: Rows = np.zeros(0, np.int64)
         """Slots of the patches that are shown in this frame, shape (m,)."""
 
     def ask(self, slot: int, /) -> Floats:
-        """Return the messages of a slot, shape (n, 2), to be read and written; from now on what is written counts."""
+        """Return the messages to a slot's receivers, shape (n, 2); from now on what is written into them counts."""
         if slot not in self._letters:
-            self._letters[slot] = Letter.of(self._told_to(slot))
+            self._letters[slot] = Letter.of(self._fetched(slot))
         return self._letters[slot].message
 
-    def _told_to(self, slot: int) -> Floats:
-        """Return what the wind last told a slot's receivers; who asks for a second one will ask for more."""
-        asked = self._letters and slot not in self._known and slot in self.shown
+    def _fetched(self, slot: int) -> Floats:
+        """Return the wind's messages to a slot's receivers.
+
+        The second slot asked for fetches all that are shown, as a game that asks for two will ask for more.
+        """
+        asked = self._letters and slot not in self._prefetched and slot in self.shown
         slots = self.shown if asked else np.array([slot])
-        if slot not in self._known:
-            self._known |= zip(slots.tolist(), np.split(self.heard(slots), len(slots)), strict=True)
-        return self._known.pop(slot)
+        if slot not in self._prefetched:
+            self._prefetched |= zip(slots.tolist(), np.split(self.heard(slots), len(slots)), strict=True)
+        return self._prefetched.pop(slot)
 
     @property
     def busy(self) -> bool:
@@ -102,13 +105,13 @@ class Correspondence:
         return bool(self._letters)
 
     def heard(self, slots: Rows, /) -> Floats:
-        """Return what the wind last told the receivers of some slots, (n, 2)."""
+        """Return the wind's messages to the receivers of slots, shape (n, 2)."""
         if self._tell is None:
             return np.zeros((len(slots) * prod(self._pool.shape), 2), np.float32)
         return self._tell(slots)
 
     def messages(self, slots: Rows, /) -> Floats:
-        """Return the messages of some slots (m,), whoever has written them, shape (m, n, 2)."""
+        """Return the messages to the receivers of slots (m,), of the wind or as a game wrote them, shape (m, n, 2)."""
         found = self.heard(slots).reshape(len(slots), prod(self._pool.shape), 2)
         for row, slot in enumerate(slots.tolist() if self._letters else ()):
             if slot in self._letters:
@@ -116,88 +119,90 @@ class Correspondence:
         return found
 
     def forget(self, slot: int, /) -> None:
-        """Forget that a slot was asked for, because another patch stands there now."""
+        """Drop the letter of a slot that holds another patch now."""
         self._letters.pop(slot, None)
 
     def forget_all(self) -> None:
-        """Forget all that was asked for, because there are other receivers now."""
+        """Drop all letters and the wind, because the pool has other receivers now."""
         self._letters.clear()
-        self._known.clear()
+        self._prefetched.clear()
         self._tell = None
 
     def blow(self, tell: Tell, /) -> None:
-        """Let the wind tell something else from now on; what a game has written since the last time stands above it."""
+        """Replace the wind's messages by those of `tell`, but keep what a game has written since the last time."""
         self._tell = tell
-        self._known.clear()
+        self._prefetched.clear()
         if not self._letters:
             return
         slots = np.array(list(self._letters))
         for letter, heard in zip(self._letters.values(), np.split(tell(slots), len(slots)), strict=True):
-            changed = (letter.message != letter.left).any(axis=1)
+            changed = (letter.message != letter.last).any(axis=1)
             letter.heard = heard
             letter.message[:] = np.where(changed[:, None], self._valid(letter.message), heard)
-            letter.left[:] = letter.message
+            letter.last[:] = letter.message
 
     def written(self) -> Iterator[tuple[int, Floats]]:
-        """Yield the slots and messages (n, 2) that are other than the wind says, mended to be possible ones."""
+        """Yield each slot with messages that differ from the wind's, and these messages (n, 2), made valid."""
         for slot, letter in self._letters.items():
             if letter.written:
                 letter.message[:] = self._valid(letter.message)
                 yield slot, letter.message
 
     def settle(self) -> None:
-        """Put the wind's own messages back after the frame is drawn: what a game writes holds for one frame."""
+        """Restore the wind's messages after the frame is drawn: what a game writes holds for one frame."""
         for letter in self._letters.values():
-            letter.message[:] = letter.left[:] = letter.heard
+            letter.message[:] = letter.last[:] = letter.heard
 
     def _valid(self, message: Floats) -> Floats:
-        """Return messages as they may be: finite, which is told of once where they were not, and at most 1 long."""
+        """Return messages with non-finite numbers set to 0, which is warned of once, and lengths clamped to 1."""
         if not np.isfinite(message).all():
-            if not self._told:
+            if not self._has_warned:
                 log.warning("messages of receivers must be finite numbers; those that are not were taken for no wind")
-            self._told = True
+            self._has_warned = True
             message = np.where(np.isfinite(message), message, np.float32(0.0))
         index = np.hypot(*message.T.astype(np.float64))
-        # A length that is over 1 by rounding alone is left as it is: reading messages must not change a picture.
+        # A length that exceeds 1 by rounding alone is kept: reading messages must not change a picture.
         return np.asarray(message / np.where(index > 1.0 + 1e-6, index, 1.0)[:, None], np.float32)
 
 
 class Receiving:
-    """The receivers of one pool: those that hear the wind in this frame, and their entities.
+    """The receivers of one pool: those that feel the wind in this frame, and their entities.
 
-    There is an entity with `Receivers` for every slot whose patch is shown. It goes when another patch is planted
-    there, or the patch is no longer shown in that representation.
+    Every slot whose patch is shown has an entity with `Receivers`. It is deleted when another patch is planted in the
+    slot, or when the patch is no longer shown in that representation.
     """
 
     BATCH = 200
-    """Most entities made in one frame: otherwise a frame takes long when a viewer leaps."""
+    """Most entities created in one frame: otherwise a frame takes long when a viewer leaps."""
 
     def __init__(self, pool: Pool, representation: str, *, still: bool = False) -> None:
         self.pool = pool
         self.representation = representation
         self.still = still
-        """Whether they take no part in the small oscillations."""
-        self.each = prod(pool.shape)
-        """How many there are of a slot."""
+        """Whether these receivers are without the small oscillations."""
+        self.per_slot = prod(pool.shape)
+        """Number of receivers in a slot."""
         self.letters = Correspondence(pool)
         self.rows: Rows = np.zeros(0, np.int64)
-        """Rows of the patch table of those that hear in this frame, shape (m,)."""
+        """Rows of the patch table whose receivers feel the wind in this frame, shape (m,)."""
         self.slots: Rows = np.zeros(0, np.int64)
-        """Their slots, shape (m,)."""
+        """Slots of the patches at `rows`, shape (m,)."""
         self._owner = np.zeros(pool.slots, np.int64)
+        """Entity of each slot's patch, 0 for none."""
         self._entity = np.zeros(pool.slots, np.int64)
+        """Entity of each slot's receivers, 0 for none."""
         self._owned = 0
-        """How many slots have an owner: the entity of their patch."""
+        """Number of slots with an owner."""
         self._listed: Rows | None = None
-        """The slots whose receivers are entities; None where it may be others."""
+        """Slots whose receivers all have their entities; None where some may lack one."""
 
     def show(self, rows: Rows, slots: Rows, /) -> None:
-        """Let the receivers of these patches hear the wind in this frame."""
+        """Let the receivers of these patches feel the wind in this frame."""
         self.rows, self.slots, self.letters.shown = rows, slots, slots
 
     @property
     def told(self) -> tuple[Rows, Rows]:
-        """Rows and slots of those that winds without a twin tell something: of still ones all, as their mean counts."""
+        """Rows and slots that winds without a twin compute messages for: all of a still pool, as their mean counts."""
         if not self.still:
             return self.rows, self.slots
         every = np.arange(self.pool.slots)
@@ -205,11 +210,11 @@ class Receiving:
 
     @property
     def is_listed(self) -> bool:
-        """Whether those shown were entities, all of them, when that was last seen to."""
+        """Whether all receivers shown have had their entities since `enlist` last ran."""
         return self.slots is self._listed
 
     def enlist(self, world: World, patches: PatchTable, /) -> None:
-        """Create and delete entities so that they are those of the patches shown now."""
+        """Create and delete entities until they are those of the patches shown now."""
         shown = patches.entity.take(self.rows)
         if np.array_equal(self._owner.take(self.slots), shown) and np.count_nonzero(shown) == self._owned:
             self._listed = self.slots
@@ -218,32 +223,32 @@ class Receiving:
         owner[self.slots] = shown
         changed = np.flatnonzero(owner != self._owner)
         self._listed = None if changed.size else self.slots
-        gone = changed[self._entity[changed] != 0]
-        left = self._entity[gone].tolist()
-        for slot in gone.tolist():
+        emptied = changed[self._entity[changed] != 0]
+        to_delete = self._entity[emptied].tolist()
+        for slot in emptied.tolist():
             self.letters.forget(slot)
         self._owner[changed] = self._entity[changed] = 0
         fresh = changed[owner[changed] != 0][: self.BATCH]
         self._owner[fresh] = owner[fresh]
         self._owned = int(np.count_nonzero(self._owner))
-        for slot, entity in zip_longest(fresh.tolist(), left):  # in turn, as those of patches
+        for slot, entity in zip_longest(fresh.tolist(), to_delete):  # in turn, as `PatchEntities` does
             if slot is not None:
                 self._entity[slot] = world.create(self.component(slot, viewer=patches.viewer, patch=int(owner[slot])))
             if entity is not None:
                 world.delete(entity)
 
     def component(self, slot: int, /, *, viewer: str, patch: int) -> Receivers:
-        """Return the component that stands for the receivers of a slot."""
+        """Return the component of the receivers of a slot."""
         return Receivers(self.letters, self.pool, slot, patch=patch, representation=self.representation, viewer=viewer)
 
     def lose(self) -> None:
-        """Take note that all entities are gone."""
+        """Handle that all entities of the world have been deleted."""
         self._owner[:] = self._entity[:] = 0
         self._owned = 0
         self._listed = None
 
     def release(self, world: World, /) -> None:
-        """Delete all of its entities."""
+        """Delete the entities of all receivers."""
         for slot in np.flatnonzero(self._entity).tolist():
             self._delete(world, slot)
         self._owner[:] = 0

@@ -82,7 +82,7 @@ def numbers_of(outlook: Outlook, first: Mapping[str, Sequence[int]], /) -> NDArr
     for name, kept in outlook.kept.items():
         for receiving, start in zip(kept.receiving, first[name], strict=True):
             slots = receiving.told[1]
-            own = slots if receiving.still else np.arange(len(slots) * receiving.each)
+            own = slots if receiving.still else np.arange(len(slots) * receiving.per_slot)
             parts.append((receiving.still, start + own))
     return np.concatenate([own for _, own in sorted(parts, key=lambda part: part[0])])
 
@@ -98,7 +98,7 @@ def write_messages(received: Received, outlook: Outlook, first: Mapping[str, Seq
 def _write(received: Received, receiving: Receiving, start: int, ground: Ground) -> None:
     for slot, message in receiving.letters.written():
         for place in np.flatnonzero(receiving.slots == slot).tolist():
-            received.write(start + place * receiving.each, _texels(receiving.pool, slot, message, ground))
+            received.write(start + place * receiving.per_slot, _texels(receiving.pool, slot, message, ground))
 
 
 def _texels(pool: Pool, slot: int, message: Floats, ground: Ground) -> Floats:

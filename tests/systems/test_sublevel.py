@@ -128,7 +128,7 @@ def test_g3_on_a_hillside_strips_are_finer_where_a_strong_wind_bends_the_grass(l
     ahead = np.flatnonzero(outlook.patches.alive & (outlook.patches.distance > 3))
 
     def rings(bent: float) -> NDArray[np.int64]:
-        outlook.bent = bent
+        outlook.mean_index = bent
         none = np.full(len(ahead), -1, np.int8)
         return ring_of(strips.sublevels(outlook, ahead, none, slack=0))
 

@@ -113,7 +113,7 @@ class StripsPainter(RepresentationPainter):
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
         """Return how many edges each ring has."""
-        return [len(receiving.rows) * receiving.each for receiving in outlook.keeps(StripsKept).receiving]
+        return [len(receiving.rows) * receiving.per_slot for receiving in outlook.keeps(StripsKept).receiving]
 
     def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
         """Send the patches with strips, and the strips that are shown; they are no blades."""

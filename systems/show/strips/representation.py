@@ -194,7 +194,7 @@ class StripRepresentation(Representation):
 
     def _height(self, outlook: Outlook) -> float:
         """Return the height of the lowest kind's strips [m]; a wind that is stronger than usual bends them."""
-        index = (max(float(growth.postures.bent_by(outlook.bent)), USUAL) for growth in self.growths)
+        index = (max(float(growth.postures.bent_by(outlook.mean_index)), USUAL) for growth in self.growths)
         stand = (lodged(each) / lodged(USUAL) for each in index)
         return min(strips.height * each for strips, each in zip(self.stock.own[0], stand, strict=True))
 
