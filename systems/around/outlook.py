@@ -141,7 +141,7 @@ class Outlook:
     ) -> None:
         """Run a system, unless its last run changed nothing and its inputs are still the same.
 
-        `seen` has its inputs beside the patch table, to be compared. `made` returns its result, if it makes a new one in
+        `seen` has its inputs beside the patch table, to be compared. `made` returns its result, if it makes one in
         each frame. Until `settled`, the system also runs on the same inputs.
         """
         rest = self._rests.setdefault(type(system), _Rest())
