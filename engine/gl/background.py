@@ -14,7 +14,7 @@ from .shaders import Texts
 
 def compiles_in_background(ctx: moderngl.Context, /) -> bool:
     """Return whether the driver compiles in its own threads; without a card, these threads would hold frames up."""
-    return bool(limits_of(functions_of(ctx)).beside) and not draws_in_software(ctx)
+    return bool(limits_of(functions_of(ctx)).parallel_compile) and not draws_in_software(ctx)
 
 
 AS_MANY = -1
@@ -59,7 +59,7 @@ class BackgroundCompiler:
     def ask(self, texts: Texts, /) -> None:
         """Start one program; errors in it are not reported."""
         gl = self._gl
-        getattr(gl, f"glMaxShaderCompilerThreads{limits_of(gl).beside}")(AS_MANY)
+        getattr(gl, f"glMaxShaderCompilerThreads{limits_of(gl).parallel_compile}")(AS_MANY)
         made = gl.glCreateProgram()
         for stage, text in (("VERTEX_SHADER", texts.vertex), ("FRAGMENT_SHADER", texts.fragment)):
             shader = gl.glCreateShader(NUMBERS[stage])

@@ -1,4 +1,4 @@
-"""Something of ours among what a pyglet batch draws. It imports pyglet: import it only where a game has a batch."""
+"""Drawing the prairie within a pyglet batch. This module imports pyglet: import it only where a game has a batch."""
 
 from collections.abc import Callable
 from typing import Any
@@ -8,7 +8,7 @@ import pyglet
 from pyglet.graphics import Batch, Group, get_default_shader
 
 _STATES: Any = getattr(pyglet.graphics, "State", None)
-"""What a group of pyglet 3 is made of; pyglet 2 has none, and calls the group itself."""
+"""Base class of the states of a pyglet 3 group; None in pyglet 2, which calls the group itself."""
 
 
 class DrawingGroup(Group):
@@ -23,12 +23,12 @@ class DrawingGroup(Group):
         self._draw: Callable[[], None] | None = draw
         self._program = get_default_shader()
         mode: Any = moderngl.TRIANGLES
-        # A batch leaves out groups in which there is nothing: this is a triangle of no size.
-        nothing: dict[str, Any] = {"position": ("f", (0.0,) * 9)}
+        # A batch skips empty groups, so this one gets a triangle of zero size.
+        vertices: dict[str, Any] = {"position": ("f", (0.0,) * 9)}
         if _STATES is not None:
-            mode = _as_state(self, self._program, self._take_turn)
-            nothing = {"position": (0.0,) * 9, "colors": (0.0,) * 12}
-        self._nothing = self._program.vertex_list(3, mode, batch, self, **nothing)
+            mode = _as_state(self, self._program, self._draw_once)
+            vertices = {"position": (0.0,) * 9, "colors": (0.0,) * 12}
+        self._triangle = self._program.vertex_list(3, mode, batch, self, **vertices)
 
     def __eq__(self, other: object) -> bool:
         return self is other
@@ -36,7 +36,7 @@ class DrawingGroup(Group):
     def __hash__(self) -> int:
         return id(self)
 
-    def _take_turn(self) -> None:
+    def _draw_once(self) -> None:
         if self._draw is not None:
             self._draw()
 
@@ -44,28 +44,28 @@ class DrawingGroup(Group):
 
         def set_state(self) -> None:
             """Draw; the batch calls this."""
-            self._take_turn()
+            self._draw_once()
             self._program.use()
 
         def unset_state(self) -> None:
-            """End the drawing of what is in the group; the batch calls this."""
+            """Unbind the program after the group's vertex lists; the batch calls this."""
             self._program.stop()
 
     def delete(self) -> None:
-        """Take this out of the batch; what else is in the group stays there. A second time does nothing."""
+        """Take this out of the batch; other vertex lists of the group stay. A second call does nothing."""
         if self._draw is not None:
             self._draw = None
-            self._nothing.delete()
+            self._triangle.delete()
             for batch in self.batches:
                 batch.invalidate()
 
 
 def _as_state(group: Any, program: Any, draw: Callable[[], None]) -> Any:
-    """Let a group of pyglet 3 draw when its state is set; return what it calls triangles."""
+    """Make a group of pyglet 3 draw when its state is set; return pyglet 3's mode for triangles."""
     from pyglet.enums import GeometryMode  # type: ignore[import-not-found]  # noqa: PLC0415 - pyglet 2 has none
 
     class Turn(_STATES):  # type: ignore[misc]
-        """The group's turn among others."""
+        """State whose setting draws."""
 
         sets_state = True
 

@@ -1,8 +1,8 @@
-"""The GL context that is current, whoever made it: its functions, and moderngl's context of our own in it.
+"""The current GL context, whoever made it: its functions, and a moderngl context of our own that wraps it.
 
-moderngl has a default context, the last one that was made. A host that has several windows makes several, and which of
-them belongs to the window that is current, moderngl cannot say. So nothing of the host's is asked for: what moderngl
-remembers in a context of ours is nobody else's affair.
+moderngl's default context is the one made last. A host with several windows makes several, and moderngl cannot tell
+which belongs to the current window. So the host's moderngl contexts are not used: a moderngl context of our own caches
+state for us alone.
 """
 
 import ctypes
@@ -26,48 +26,48 @@ LIBRARIES = {
     "win32": (("opengl32.dll", "wglGetCurrentContext"),),
     "darwin": (("/System/Library/Frameworks/OpenGL.framework/OpenGL", "CGLGetCurrentContext"),),
 }  # fmt: skip
-"""What says which context is current, by platform; of a library that is not loaded, none is."""
+"""Libraries and their functions that return the current context, by platform; only loaded libraries are called."""
 
 Handle = tuple[int, ...]
-"""The address of the context that is current; one that is made later may have it again."""
+"""Addresses of the current context, one for each library that has one; a later context may get the same address."""
 
 
-_ask: dict[tuple[str, str], Callable[[], int | None]] = {}
+_queries: dict[tuple[str, str], Callable[[], int | None]] = {}
 
 
 def _look_for_libraries() -> None:
     for library, name in LIBRARIES.get(sys.platform, ()):
         with suppress(OSError, AttributeError):
             loaded = ctypes.CDLL(library, mode=getattr(os, "RTLD_NOLOAD", 0) | getattr(os, "RTLD_LAZY", 0))
-            asked = getattr(loaded, name)
-            asked.restype = ctypes.c_void_p
-            _ask[library, name] = asked
+            query = getattr(loaded, name)
+            query.restype = ctypes.c_void_p
+            _queries[library, name] = query
 
 
 def current_handle() -> Handle:
-    """Return which context is current in this thread, () where none is, or where nobody can say."""
-    found = tuple(handle for ask in _ask.values() if (handle := ask()))
+    """Return the handle of the context that is current in this thread; () where none is, or where it is unknown."""
+    found = tuple(handle for query in _queries.values() if (handle := query()))
     if not found:  # libraries may have been loaded meanwhile
         _look_for_libraries()
-        found = tuple(handle for ask in _ask.values() if (handle := ask()))
+        found = tuple(handle for query in _queries.values() if (handle := query()))
     return found
 
 
 def current_functions() -> Functions:
-    """Return the functions of the context that is current, and leave its state alone: a new moderngl context would not.
+    """Return the functions of the current context; RuntimeError where there is none.
 
-    RuntimeError where there is none.
+    The context's state stays as it is; a new moderngl context would change it.
     """
     return functions_of_loader(_loader(current_handle()))
 
 
 def own_context() -> moderngl.Context:
-    """Return moderngl's context of our own in the context that is current; the host's default one stays what it is."""
+    """Return our own moderngl context for the current GL context; moderngl's default context stays the host's."""
     return _made(current_handle())
 
 
 def is_own(ctx: moderngl.Context, /) -> bool:
-    """Return whether a context of moderngl's is one that `own_context` made."""
+    """Return whether `own_context` made a moderngl context."""
     return ctx.extra is _OWN
 
 
@@ -76,7 +76,7 @@ _OWN = object()
 
 @lru_cache(maxsize=8)
 def _loader(_handle: Handle) -> Any:
-    """Return what finds GL's functions in the context that is current: on Windows each may have others."""
+    """Return moderngl's loader of GL functions for the current context: on Windows they may differ by context."""
     try:
         return sys.modules["_moderngl"].DefaultLoader()
     except Exception as error:  # it raises nothing narrower

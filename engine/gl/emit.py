@@ -1,7 +1,7 @@
-"""What Python tells shaders: numbers that are written once, in a module of Python, and emitted as GLSL by name.
+"""Emitting GLSL from Python: constants that both languages share, structs and uniform blocks of record dtypes.
 
-A shader takes them by `#include "systems/light/color.py"`: they are that module's `GLSL`, a mapping of names to
-numbers, or lines of GLSL.
+A shader includes a Python module as `#include "systems/light/color.py"`. That inserts the module's `GLSL`: a mapping of
+names to constants, or GLSL text.
 """
 
 from collections.abc import Mapping, Sequence
@@ -12,10 +12,10 @@ Number = float | int | tuple[float, ...]
 
 
 def emitted(numbers: Mapping[str, Number] | str, /) -> str:
-    """Return GLSL that declares numbers by name; GLSL itself stays as it is.
+    """Return GLSL that declares constants by name; GLSL text is returned unchanged.
 
-    A float is a `const float`, two to four of them are a `const vec2` to `vec4`, and an int is a macro, so that
-    conditions may ask it. Raises `ValueError` for any other count.
+    A float becomes a `const float`, two to four floats a `const vec2` to `vec4`, and an int a macro, so that `#if` can
+    test it. Raises `ValueError` for any other count.
     """
     return numbers if isinstance(numbers, str) else "".join(_line(*each) for each in numbers.items())
 
@@ -35,24 +35,24 @@ def struct(name: str, record: np.dtype[np.void], /) -> str:
 
 
 def block(name: str, record: np.dtype[np.void], /) -> str:
-    """Return the uniform block of a record, laid out as std140 has it, and the structs of what it has lists of.
+    """Return the GLSL of a record as a std140 uniform block, preceded by the structs of its nested records.
 
-    Raises `ValueError` where a field does not lie where std140 puts it.
+    Raises `ValueError` where a field's offset is not std140's.
     """
-    structs, at = "", 0
+    structs, expected = "", 0
     for field in record.names or ():
         kind, offset = record[field], _offset(record, field)
         if kind.base.names:
             structs += struct(field.capitalize(), kind.base)
-        at += 0 if _is_padding(kind) else -at % _alignment(kind)
-        if at != offset:
-            raise ValueError(f"{name}.{field} is at {offset}, and std140 has it at {at}")
-        at += kind.itemsize
+        expected += 0 if _is_padding(kind) else -expected % _alignment(kind)
+        if expected != offset:
+            raise ValueError(f"{name}.{field} is at {offset}, and std140 has it at {expected}")
+        expected += kind.itemsize
     return f"{structs}layout(std140) uniform {name} {{\n{_members(record)}}};\n"
 
 
 def record_lookup(name: str, record: np.dtype[np.void], sampler: str, per_row: int, /) -> str:
-    """Return GLSL that looks records up by number in a texture, `per_row` in a row: `name_of` returns a `Name`."""
+    """Return GLSL of a function `name_of(number)`, which reads a `Name` record from a texture of `per_row` in a row."""
     texels, values = record.itemsize // 16, []
     for field in record.names or ():
         texel, first = divmod(_offset(record, field) // 4, 4)

@@ -1,4 +1,4 @@
-"""GL's functions by their addresses, and its numbers: what moderngl does not do, without any other library."""
+"""GL's functions, called by address, and its constants: what moderngl does not offer, without another library."""
 
 import ctypes
 from ctypes import c_char_p, c_float, c_int, c_ssize_t, c_ubyte, c_uint, c_uint64, c_void_p
@@ -49,19 +49,19 @@ NUMBERS = {
     "VERTEX_SHADER": 0x8B31, "FRAGMENT_SHADER": 0x8B30, "COMPLETION_STATUS": 0x91B1,
     "LAST_VERTEX_CONVENTION": 0x8E4E, "VERTEX_ATTRIB_ARRAY_DIVISOR": 0x88FE,
 }  # fmt: skip
-"""What OpenGL calls its constants, without GL_."""
+"""Values of GL's constants, by their names without GL_."""
 
-ASKS = {
+RETURN_FLAG = {
     "glIsEnabled": (c_int,), "glIsEnabledi": (c_int,) * 2, "glIsProgram": (c_int,), "glIsBuffer": (c_int,),
     "glIsVertexArray": (c_int,), "glIsTexture": (c_int,), "glIsSampler": (c_int,), "glIsFramebuffer": (c_int,),
     "glIsRenderbuffer": (c_int,),
 }  # fmt: skip
-"""The functions that answer yes or no, and what each takes."""
+"""Argument types of the functions that return a boolean."""
 
-TELLS = {"glGetString": (c_int,), "glGetStringi": (c_int,) * 2}
-"""Those that answer with a text."""
+RETURN_TEXT = {"glGetString": (c_int,), "glGetStringi": (c_int,) * 2}
+"""Functions that return a string."""
 
-DOES = {
+RETURN_NOTHING = {
     "glGetIntegerv": (c_int, c_void_p), "glGetBooleani_v": (c_int, c_int, c_void_p),
     "glGetIntegeri_v": (c_int, c_int, c_void_p), "glGetInteger64i_v": (c_int, c_int, c_void_p),
     "glGetFloati_v": (c_int, c_int, c_void_p),
@@ -93,54 +93,61 @@ DOES = {
     "glDeleteProgram": (c_int,), "glMaxShaderCompilerThreadsKHR": (c_int,), "glMaxShaderCompilerThreadsARB": (c_int,),
     "glClearBufferfv": (c_int, c_int, c_void_p),
 }  # fmt: skip
-"""All others: what a state is read and brought back with, and what moderngl has no word for."""
+"""Functions that return nothing: for reading and restoring GL state, and for what moderngl does not offer."""
 
-MAKES = {"glCreateShader": (c_int,), "glCreateProgram": ()}
-"""Those that answer with the number of something new."""
+RETURN_NUMBER = {"glCreateShader": (c_int,), "glCreateProgram": ()}
+"""Functions that return the number of a new object."""
 
-ANSWERS = {
-    name: kind for names, kind in ((ASKS, c_ubyte), (TELLS, c_char_p), (DOES, None), (MAKES, c_uint)) for name in names
-}
-TAKES: dict[str, tuple[Any, ...]] = ASKS | TELLS | DOES | MAKES
+RESULTS = {
+    name: kind
+    for names, kind in (
+        (RETURN_FLAG, c_ubyte), (RETURN_TEXT, c_char_p), (RETURN_NOTHING, None), (RETURN_NUMBER, c_uint),
+    )
+    for name in names
+}  # fmt: skip
+ARGUMENTS: dict[str, tuple[Any, ...]] = RETURN_FLAG | RETURN_TEXT | RETURN_NOTHING | RETURN_NUMBER
 
 convention = getattr(ctypes, "WINFUNCTYPE", ctypes.CFUNCTYPE)
-"""How GL is called: on Windows who is called tidies up, elsewhere who calls."""
+"""GL's calling convention: stdcall on Windows, cdecl elsewhere."""
 
 
-ASKED_WITH = tuple(kind * count for kind in (c_int, c_uint, c_float, c_ubyte, c_uint64) for count in (1, 2, 4, 8))
-"""Types of arrays to ask with. Where nobody keeps such a type it is made anew each time, a cycle for the collector."""
+ARRAY_TYPES = tuple(kind * count for kind in (c_int, c_uint, c_float, c_ubyte, c_uint64) for count in (1, 2, 4, 8))
+"""Array types of arguments. Kept here, as ctypes else makes the type anew at each use: a cycle for the collector."""
 
 
 class Functions:
-    """The functions of `ASKS`, `TELLS`, `DOES` and `MAKES` by name; each is looked up when it is first called."""
+    """GL's functions by name, those of `ARGUMENTS`; each is looked up at its first use."""
 
     def __init__(self, loader: Any) -> None:
         self._address = getattr(loader, "load_opengl_function", None) or loader.load
 
     def __getattr__(self, name: str) -> Any:
-        if name not in TAKES:
+        if name not in ARGUMENTS:
             raise AttributeError(f"{name} is not among GL's functions here")
-        found = convention(ANSWERS[name], *TAKES[name])(self._address(name))
+        found = convention(RESULTS[name], *ARGUMENTS[name])(self._address(name))
         setattr(self, name, found)
         return found
 
     def number(self, name: str, /) -> int:
-        """Return one of the numbers of GL's state, by its name in `NUMBERS`."""
+        """Return an integer of GL's state, by its name in `NUMBERS`."""
         found = (c_int * 1)()
         self.glGetIntegerv(NUMBERS[name], found)
         return found[0]
 
     def living(self, sort: str, number: int, /) -> int:
-        """Return an object's number, 0 where it is there no more: to bind it again would be an error."""
+        """Return an object's number, or 0 where it has been deleted, as binding it would be an error.
+
+        `sort` is as in `glIs...`: "Framebuffer", "Program" and so on.
+        """
         return number if number and getattr(self, f"glIs{sort}")(number) else 0
 
 
 @lru_cache(maxsize=16)
 def functions_of_loader(loader: Any) -> Functions:
-    """Return the functions that a loader of moderngl's finds."""
+    """Return the functions that a moderngl loader finds."""
     return Functions(loader)
 
 
 def functions_of(ctx: moderngl.Context) -> Functions:
-    """Return the functions that a context of moderngl's draws with."""
-    return functions_of_loader(ctx.mglo._context)  # noqa: SLF001 - moderngl tells it nowhere else
+    """Return the functions of a moderngl context."""
+    return functions_of_loader(ctx.mglo._context)  # noqa: SLF001 - moderngl has no public access

@@ -17,17 +17,17 @@ from .units import SCRATCH_UNIT
 
 _saved: list[State] = []
 
-TURNED = {"<": ">", "<=": ">=", ">": "<", "1": "1"}
-"""Tests of depth, and what each is where less is farther off."""
+REVERSED_TESTS = {"<": ">", "<=": ">=", ">": "<", "1": "1"}
+"""Depth tests, and their equivalents where smaller depth is farther away."""
 
 
 def block_binding(ctx: moderngl.Context) -> int:
-    """Return the binding point of the one uniform block that is used: the highest, away from a host's own."""
+    """Return the binding point of the only uniform block in use: the highest, as hosts use the first ones."""
     return limits_of(functions_of(ctx)).bindings - 1
 
 
 def host_context(ctx: moderngl.Context | None) -> moderngl.Context:
-    """Return `ctx`, or one of our own in the context that is current now; RuntimeError if none is, or too old a one."""
+    """Return `ctx`, or else our own context for the current one; RuntimeError if there is none, or it is too old."""
     if ctx is not None:
         return ctx
     _must_have_window()
@@ -36,7 +36,7 @@ def host_context(ctx: moderngl.Context | None) -> moderngl.Context:
 
 
 def _must_have_window() -> None:
-    """Raise RuntimeError where pyglet draws and only its hidden window is current."""
+    """Raise RuntimeError where the host uses pyglet and only pyglet's hidden window is current."""
     if not is_hidden(pyglet_context()):
         return
     if has_windows():
@@ -46,10 +46,10 @@ def _must_have_window() -> None:
 
 @contextmanager
 def saved_state(ctx: moderngl.Context | None) -> Iterator[State]:
-    """Leave the host's GL state exactly as it is, whatever is done inside; yields what it was.
+    """Save the host's GL state and restore it exactly in the end; yields the saved state.
 
-    `ctx` is the host's context, None for the one that is current now; RuntimeError if there is none, or too old a one.
-    Which textures are bound to units from `FIRST_UNIT` on is not kept, nor what is bound to the last uniform block.
+    `ctx` is the host's context, None for the current one; RuntimeError if there is none, or it is too old. Textures on
+    units from `FIRST_UNIT` on and the binding of the last uniform block are not restored.
     """
     if _saved:
         yield _saved[-1]
@@ -73,94 +73,95 @@ def saved_state(ctx: moderngl.Context | None) -> Iterator[State]:
 
 
 def guest_view(seen: View) -> View:
-    """Return a view for clip space in which a guest draws, from the host's (`glClipControl`).
+    """Return a host's view with its projection converted to the guest's clip space.
 
-    That is OpenGL's own, but for depth that is reversed: it stays as the host has it.
+    The host's clip space depends on its `glClipControl`. The guest's is OpenGL's default, but reversed depth keeps the
+    host's range.
     """
-    clip = _saved[-1].clip(keeps_depth=is_reversed(seen))
-    return seen if clip is None else View(seen.view, clip @ seen.projection)
+    conversion = _saved[-1].clip_conversion(keeps_depth=is_reversed(seen))
+    return seen if conversion is None else View(seen.view, conversion @ seen.projection)
 
 
 def guest_clip(matrix: Doubles, /) -> Doubles:
-    """Return a matrix to clip space as OpenGL has it, from one to the host's, (4, 4)."""
-    clip = _saved[-1].clip()
-    return matrix if clip is None else np.asarray(clip @ matrix, np.float64)
+    """Return a matrix to the host's clip space (4, 4), converted to OpenGL's default clip space."""
+    conversion = _saved[-1].clip_conversion()
+    return matrix if conversion is None else np.asarray(conversion @ matrix, np.float64)
 
 
 def borrow(unit: int, texture: int, /) -> None:
-    """Bind a 2D texture to a unit before `FIRST_UNIT`, until the host's state is brought back."""
+    """Bind a 2D texture to a unit before `FIRST_UNIT`, until the host's state is restored."""
     _saved[-1].borrow(unit, texture)
 
 
 def sync_framebuffer(ctx: moderngl.Context) -> None:
-    """Tell moderngl which framebuffer the host has bound.
+    """Make moderngl aware of the framebuffer that the host has bound.
 
-    Whenever it makes one, it binds again what it knows of; of a host that does not draw with it, that is an old one,
-    which the host may have deleted.
+    Whenever moderngl makes a framebuffer, it binds again the one it knows as bound. If the host does not draw with
+    moderngl, that one is outdated, and the host may have deleted it.
     """
     _host_framebuffer(ctx, _bound(ctx)).use()
 
 
 @contextmanager
 def guest(ctx: moderngl.Context, seen: View | None = None) -> Iterator[moderngl.Framebuffer]:
-    """Draw as a guest: yields the framebuffer that the host has bound, whole and with a known state.
+    """Draw as a guest: yields the framebuffer that the host has bound, with GL in a known state.
 
-    Colour goes to the host's first output alone, as far as the host's colour mask lets it; what the others are written
-    to stays as it is. Depth is written whatever the host's depth mask says, and where there is no colour, depth alone.
-    It runs as in `seen`, where that is given. On leaving, the host's state is as it was. Never touches uniform binding
-    point 0, nor the texture units before `FIRST_UNIT`.
+    Colour goes to the host's first output alone, through the host's colour mask; other outputs are not written. Depth
+    is written whatever the host's depth mask is, and alone where there is no colour. Depth is reversed if it is in
+    `seen`. On leaving, the host's state is restored. Never touches uniform binding point 0, nor the texture units
+    before `FIRST_UNIT`.
     """
     with saved_state(ctx) as state:
         target = _bound(ctx)
-        with _remembered(ctx, target, state):
-            state.look(is_reversed=seen is not None and is_reversed(seen))
+        with _moderngl_restored(ctx, target, state):
+            state.set_depth(is_reversed=seen is not None and is_reversed(seen))
             _begin(ctx, target, state)
             try:
                 yield target
             finally:
-                state.look(is_reversed=False)
+                state.set_depth(is_reversed=False)
 
 
 def set_depth_test(ctx: moderngl.Context, test: str, /) -> None:
-    """Draw where a test of depth says so: "<" is nearer, however the host's depth runs."""
-    ctx.depth_func = TURNED[test] if _saved[-1].is_turned else test
+    """Set the depth test: "<" passes what is nearer, whether depth is reversed or not."""
+    ctx.depth_func = REVERSED_TESTS[test] if _saved[-1].far_is_less else test
 
 
 def depth_ends() -> tuple[float, float]:
-    """Return the depths of the near and the far end of the clip space that a guest draws in now."""
-    return _saved[-1].ends
+    """Return the depths of the near and the far plane in the guest's clip space."""
+    return _saved[-1].depth_ends
 
 
 def farthest_depth() -> float:
-    """Return the depth that a framebuffer has where nothing has been drawn."""
-    return 0.0 if _saved[-1].is_turned else 1.0
+    """Return the depth of pixels where nothing has been drawn."""
+    return 0.0 if _saved[-1].far_is_less else 1.0
 
 
 @contextmanager
 def aside(ctx: moderngl.Context, target: moderngl.Framebuffer, *, alike: bool = False) -> Iterator[None]:
-    """Draw into framebuffers of one's own while a guest in `target`, or into buffers; nothing is blended or hidden.
+    """Draw into other framebuffers or buffers, while a guest in `target`; without blending and depth test.
 
-    Depth is the usual one there, or as in `target` where it is `alike`.
+    Depth is not reversed there, unless it is in `target` and `alike` is set.
     """
-    box, cut, was_reversed = target.viewport, target.scissor, _saved[-1].is_reversed
+    viewport, scissor, was_reversed = target.viewport, target.scissor, _saved[-1].is_reversed
     ctx.enable_only(moderngl.NOTHING)
-    _saved[-1].look(is_reversed=was_reversed and alike)
+    _saved[-1].set_depth(is_reversed=was_reversed and alike)
     set_depth_test(ctx, "<=")
     try:
         yield
     finally:
-        _saved[-1].look(is_reversed=was_reversed)
+        _saved[-1].set_depth(is_reversed=was_reversed)
         set_depth_test(ctx, "<=")
         target.use()
-        target.viewport = box
-        target.scissor = cut if cut != (0, 0, *target.size) else None  # type: ignore[assignment]
+        target.viewport = viewport
+        target.scissor = scissor if scissor != (0, 0, *target.size) else None  # type: ignore[assignment]
         if target.glo == _saved[-1].framebuffer:
-            _saved[-1].narrow()
+            _saved[-1].restrict_colour()
 
 
 @contextmanager
 def colourless(target: moderngl.Framebuffer) -> Iterator[None]:
-    """Write no colour meanwhile into the framebuffer that is drawn in."""
+    """Draw into `target`, the bound framebuffer, without writing colour."""
     state = _saved[-1]
     state.gl.glColorMaski(0, 0, 0, 0, 0)
     try:
@@ -168,20 +169,20 @@ def colourless(target: moderngl.Framebuffer) -> Iterator[None]:
     finally:
         state.gl.glColorMaski(0, 1, 1, 1, 1)
         if target.glo == state.framebuffer:
-            state.narrow()
+            state.restrict_colour()
 
 
 @contextmanager
-def _remembered(ctx: moderngl.Context, target: moderngl.Framebuffer, state: State) -> Iterator[None]:
-    """Let moderngl remember in the end what it does now, so that a host that draws with it finds what it has set."""
+def _moderngl_restored(ctx: moderngl.Context, target: moderngl.Framebuffer, state: State) -> Iterator[None]:
+    """Restore moderngl's own record of GL state in the end, for a host that draws with moderngl."""
     host = _host_framebuffer(ctx, target)
-    box, cut, writes = target.viewport, target.scissor, target.depth_mask
+    viewport, scissor, writes_depth = target.viewport, target.scissor, target.depth_mask
     before = ctx.front_face, ctx.cull_face, ctx.wireframe
     try:
         yield
     finally:
-        target.viewport, target.depth_mask = box, writes
-        target.scissor = cut if cut != (0, 0, *target.size) else None  # type: ignore[assignment]
+        target.viewport, target.depth_mask = viewport, writes_depth
+        target.scissor = scissor if scissor != (0, 0, *target.size) else None  # type: ignore[assignment]
         host.use()
         ctx.enable_only(state.flags)
         ctx.front_face, ctx.cull_face, ctx.wireframe = before
@@ -190,8 +191,8 @@ def _remembered(ctx: moderngl.Context, target: moderngl.Framebuffer, state: Stat
 def _bound(ctx: moderngl.Context) -> moderngl.Framebuffer:
     """Return the framebuffer that the host has bound.
 
-    moderngl binds its colours as a 2D texture to ask for their size. Where they have several samples or layers, that
-    leaves an error of GL, which the host would take for its own.
+    moderngl binds its colour texture as 2D to query the size. Where that texture has several samples or layers, this
+    leaves a GL error, which the host would take for its own.
     """
     found = ctx.detect_framebuffer()
     if found.glo and is_not_plain_2d(functions_of(ctx)):
@@ -200,7 +201,7 @@ def _bound(ctx: moderngl.Context) -> moderngl.Framebuffer:
 
 
 def _host_framebuffer(ctx: moderngl.Context, target: moderngl.Framebuffer) -> moderngl.Framebuffer:
-    """Return the host's own object for the framebuffer it has bound, where it draws with moderngl."""
+    """Return the host's own moderngl object of its bound framebuffer, or `target` where it has none."""
     bound = None if is_own(ctx) or loaded_gl() is not None else ctx.fbo
     if bound is None or bound.glo != target.glo or isinstance(bound.mglo, moderngl.InvalidObject):
         return target
@@ -216,4 +217,4 @@ def _begin(ctx: moderngl.Context, target: moderngl.Framebuffer, state: State) ->
     set_depth_test(ctx, "<=")
     target.depth_mask = True
     target.use()
-    state.narrow()
+    state.restrict_colour()

@@ -5,17 +5,17 @@ from typing import Any
 import moderngl
 
 BACKENDS: tuple[dict[str, Any], ...] = ({"backend": "egl"}, {})
-"""What is tried, in this order: EGL, which needs no display, or else the platform's own."""
+"""Arguments of moderngl's backends in the order of trial: EGL, which needs no display, then the platform's own."""
 
 
 class NoContextError(RuntimeError):
-    """There is no OpenGL 3.3 that works without a window; the message is one sentence that says what helps."""
+    """No OpenGL 3.3 works without a window; the message is one sentence that says what helps."""
 
 
 def standalone_context() -> moderngl.Context:
-    """Return a new context of OpenGL 3.3 or newer, without a window, and make it current.
+    """Make a context of OpenGL 3.3 or newer without a window current, and return it.
 
-    Raises NoContextError with what each backend said where none works.
+    Raises NoContextError with the message of each backend where none works.
     """
     complaints: list[str] = []
     for backend in BACKENDS:

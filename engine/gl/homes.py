@@ -1,4 +1,4 @@
-"""What lives in GL, once for each context that it is drawn in: windows come, go and stand side by side."""
+"""GL objects held once per GL context: windows come and go, and may be open side by side."""
 
 from collections.abc import Callable
 from ctypes import c_int
@@ -14,26 +14,25 @@ from .stream import Releasable
 
 
 class Homed(Releasable, Protocol):
-    """What lives in a GL context, and draws with one of moderngl's."""
+    """A holder of GL objects in one GL context, which it uses through a moderngl context."""
 
     ctx: moderngl.Context
 
 
 Thing = TypeVar("Thing", bound=Homed)
 
-MOST_LEFT = 4
-"""Contexts whose things wait to be given back, as they were not current when they should have been."""
+MOST_PENDING = 4
+"""Greatest number of contexts whose objects wait to be deleted, because the context was not current at release."""
 
 _tokens = count(0x7A11_0001)
-_left: list["Home[Any]"] = []
+_pending: list["Home[Any]"] = []
 
 
 class Home(Generic[Thing]):
-    """A thing in the context that is current, and a mark in that context by which it is known again.
+    """A thing in the current context, and a mark in that context by which the context is recognised.
 
-    GL does not say which context is current, and one that is made later may have the address of one that is gone. But
-    vertex arrays are shared with no other context: the mark is one of these, with a number that nobody else would
-    write there.
+    GL does not tell which context is current, and a later context may have the address of one that is gone. But vertex
+    arrays are never shared between contexts: the mark is a vertex array with an unusual divisor, the token.
     """
 
     def __init__(self, gl: Functions, thing: Thing) -> None:
@@ -47,7 +46,7 @@ class Home(Generic[Thing]):
         gl.glBindVertexArray(bound)
 
     def is_here(self) -> bool:
-        """Return whether its context is the one that is current."""
+        """Return whether the thing's context is current."""
         gl, found = self._gl, (c_int * 1)()
         if not current_handle() or not gl.glIsVertexArray(*self._mark):
             return False
@@ -58,13 +57,13 @@ class Home(Generic[Thing]):
         return found[0] == self._token
 
     def is_lost(self) -> bool:
-        """Return whether its context is known to be gone: its window is closed, or another one has its address."""
+        """Return whether the thing's context is known to be gone: its window is closed, or its address is reused."""
         if self.place is not None:
             return is_lost(self.place)
         return bool(self.handle) and current_handle() == self.handle and not self.is_here()
 
     def release(self) -> bool:
-        """Give the thing back in its own context; return whether that could be made current, or need not."""
+        """Release the thing in its own context; return False where that context cannot be made current."""
         if self.place is None:
             if self.is_here():
                 self._release()
@@ -82,10 +81,10 @@ class Home(Generic[Thing]):
 
 
 class Homes(Generic[Thing]):
-    """One thing for each GL context, made when it is first asked for there.
+    """One thing for each GL context, made at its first use there.
 
-    Vertex arrays belong to one context: what is drawn in two windows is made twice, and again after a window was
-    closed and another opened.
+    Vertex arrays belong to one context, so that each window needs a thing of its own, and so does a new window after
+    the old one was closed.
     """
 
     def __init__(self) -> None:
@@ -95,8 +94,8 @@ class Homes(Generic[Thing]):
         return len(self._homes)
 
     def here(self, gl: Functions, make: Callable[[], Thing]) -> Thing:
-        """Return the thing of the context that is current, which `gl` draws in; `make` makes it if there is none."""
-        _left[:] = [home for home in _left if not home.release()]
+        """Return the thing of the current context, whose functions are `gl`; `make` makes it if there is none."""
+        _pending[:] = [home for home in _pending if not home.release()]
         for home in self._homes:
             if home.is_here():
                 return home.thing
@@ -108,19 +107,19 @@ class Homes(Generic[Thing]):
         return self._homes[-1].thing
 
     def check(self) -> None:
-        """Raise RuntimeError where the pyglet window that something was drawn in is closed, and no other is there."""
+        """Raise RuntimeError where a pyglet window that was drawn in is closed, and no other is open."""
         context = pyglet_context()
         is_nowhere = not has_windows() and (context is None or is_hidden(context))
         if is_nowhere and any(is_lost(home.place) for home in self._homes):
             raise RuntimeError("there is no window any more: create another one before the prairie is drawn again")
 
     def release(self) -> None:
-        """Give everything back, each in its own context.
+        """Release all things, each in its own context.
 
-        Beside pyglet nobody can make another context current than the one that is. What is in others is given back
-        when something is next drawn there.
+        Only pyglet's contexts can be made current here. Things in other contexts that are not current are released when
+        something is next drawn there.
         """
-        _left.extend([home for home in self._homes if not home.release()])
+        _pending.extend([home for home in self._homes if not home.release()])
         self._homes.clear()
-        last = list(dict.fromkeys(home.handle for home in reversed(_left)))[:MOST_LEFT]
-        _left[:] = [home for home in _left if home.handle in last]
+        last = list(dict.fromkeys(home.handle for home in reversed(_pending)))[:MOST_PENDING]
+        _pending[:] = [home for home in _pending if home.handle in last]

@@ -1,7 +1,7 @@
-"""The host's side of GL: its pyglet contexts, and its state. The only module that uses `pyglet.gl`, and never loads it.
+"""The host's pyglet contexts and its GL state. The only module that uses `pyglet.gl`, without ever importing it.
 
-A host that does not draw with pyglet has no `pyglet.gl` loaded; then there are no contexts here, and its state is read
-and brought back with GL's own functions.
+A host that does not draw with pyglet has no `pyglet.gl` loaded, and so no pyglet contexts. GL state is saved and
+restored by GL's own functions.
 """
 
 import sys
@@ -22,45 +22,45 @@ from .viewports import Viewports
 
 Box = tuple[int, int, int, int]
 
-AS_EVER = NUMBERS["LOWER_LEFT"], NUMBERS["NEGATIVE_ONE_TO_ONE"]
-"""Clip space as OpenGL has it where nobody says otherwise."""
+DEFAULT_CLIP = NUMBERS["LOWER_LEFT"], NUMBERS["NEGATIVE_ONE_TO_ONE"]
+"""OpenGL's default clip space: origin and depth mode of `glClipControl`."""
 
 MODERNGLS = ("BLEND", "CULL_FACE", "DEPTH_TEST", "PROGRAM_POINT_SIZE", "RASTERIZER_DISCARD")
-"""The switches that moderngl knows, by the same names: a guest sets them itself."""
+"""Capabilities of `glEnable` that moderngl knows by the same names; a guest sets them itself."""
 
 SWITCHED_OFF = (
     "COLOR_LOGIC_OP", "DEPTH_CLAMP", "POLYGON_OFFSET_FILL", "SAMPLE_ALPHA_TO_COVERAGE", "SAMPLE_COVERAGE",
     "CLIP_DISTANCE0", "CLIP_DISTANCE1", "PRIMITIVE_RESTART", "TEXTURE_CUBE_MAP_SEAMLESS",
 )  # fmt: skip
-"""Those that moderngl leaves as they are, and that would change a guest's picture: they are off while it draws.
+"""Capabilities that moderngl does not set and that would change a guest's picture: they are off while it draws.
 
-No picture of ours is a cube map, but Mesa's software rasteriser compiles every program once for either.
+No texture here is a cube map, but Mesa's software rasteriser compiles every program again when seamlessness changes.
 """
 
 SWITCHES = (*MODERNGLS, *SWITCHED_OFF, "SCISSOR_TEST")
-"""All that are brought back: a guest keeps to the scissor box.
+"""Capabilities that are restored. A guest draws within the host's scissor box.
 
-Stencil test and FRAMEBUFFER_SRGB are the host's own affair: a guest is drawn under them and never sets them.
+Stencil test and FRAMEBUFFER_SRGB are left as the host has set them.
 """
 
 BLEND = ("BLEND_SRC_RGB", "BLEND_DST_RGB", "BLEND_SRC_ALPHA", "BLEND_DST_ALPHA")
 
 ALIGNMENTS = ("UNPACK_ALIGNMENT", "PACK_ALIGNMENT")
-"""How rows of texels are aligned: moderngl sets it whenever it loads or reads some."""
+"""Alignment of rows of texels, which moderngl sets at each upload and download."""
 
 LAYOUTS = tuple(
     f"{way}_{name}"
     for way in ("UNPACK", "PACK")
     for name in ("SWAP_BYTES", "LSB_FIRST", "ROW_LENGTH", "IMAGE_HEIGHT", "SKIP_ROWS", "SKIP_PIXELS", "SKIP_IMAGES")
 )
-"""How else texels lie in memory; moderngl takes for granted that each of these is 0."""
+"""Other layout of texels in memory; moderngl assumes that each of these is 0."""
 
 FEEDBACK = "TRANSFORM_FEEDBACK_BUFFER"
 TEXELS = ("PIXEL_UNPACK_BUFFER", "PIXEL_PACK_BUFFER")
-"""Buffers that texels would be loaded from, or read into, in place of memory."""
+"""Targets of buffers that texels would be loaded from, or read into, in place of memory."""
 
 COPIED = ("COPY_READ_BUFFER", "COPY_WRITE_BUFFER")
-"""Buffers that moderngl copies from and to."""
+"""Targets of buffers that moderngl copies from and to."""
 
 TARGETS = ("ARRAY_BUFFER", "UNIFORM_BUFFER", *TEXELS, *COPIED, FEEDBACK)
 
@@ -72,23 +72,23 @@ REMEMBERED = (
     ("BLEND_EQUATION_RGB", 1), ("BLEND_EQUATION_ALPHA", 1), ("VIEWPORT", 4), ("SCISSOR_BOX", 4),
     ("PRIMITIVE_RESTART_INDEX", 1), ("PROVOKING_VERTEX", 1), ("DEPTH_RANGE", 2),
 )  # fmt: skip
-"""What is remembered besides, and how many numbers each is."""
+"""Other state that is saved, and the number of integers of each."""
 
 
 def loaded_gl() -> Any | None:
-    """Return pyglet's GL module if the host draws with pyglet, without ever loading it."""
+    """Return pyglet's GL module if the host draws with pyglet; never imports it."""
     module = sys.modules.get("pyglet.gl")
     return module if module is not None and getattr(module, "current_context", None) is not None else None
 
 
 def pyglet_context() -> Any | None:
-    """Return the pyglet context that is current, or None if the host does not draw with pyglet."""
+    """Return the current pyglet context, or None if the host does not draw with pyglet."""
     gl = loaded_gl()
     return None if gl is None else gl.current_context
 
 
 def is_hidden(context: Any | None) -> bool:
-    """Return whether a pyglet context is that of the hidden window that pyglet opens by itself."""
+    """Return whether a pyglet context belongs to the hidden window that pyglet opens by itself."""
     return context is not None and context is _hidden()
 
 
@@ -98,22 +98,22 @@ def _hidden() -> Any | None:
 
 
 def has_windows() -> bool:
-    """Return whether a window of pyglet's is open, current or not."""
+    """Return whether a pyglet window is open, current or not."""
     app = sys.modules.get("pyglet.app")
     return app is not None and len(app.windows) > 0
 
 
 def is_lost(context: Any | None) -> bool:
-    """Return whether a pyglet context has gone with its window."""
+    """Return whether a pyglet context is gone, as its window was closed."""
     return context is not None and context.canvas is None
 
 
 @contextmanager
 def current(context: Any | None) -> Iterator[bool]:
-    """Make a pyglet context current for a while; yields whether objects made in it may be deleted now.
+    """Make a pyglet context current inside; yields whether its objects may be deleted now.
 
-    Of a context that is lost, what it shared is still there as long as the hidden window is: that has no vertex
-    arrays of anybody's, so that everything can be deleted in it.
+    The shared objects of a lost context live on as long as pyglet's hidden window. They are deleted in the context of
+    that window, which has no vertex arrays that might be deleted by mistake.
     """
     before, lost = pyglet_context(), is_lost(context)
     place = _hidden() if lost else context
@@ -129,14 +129,14 @@ def current(context: Any | None) -> Iterator[bool]:
             before.set_current()
 
 
-class Words:
-    """The numbers of what a state is made of, and a buffer for each of its values."""
+class StateTable:
+    """GL constants of all saved state by name, and an array for the result of each query."""
 
     def __init__(self) -> None:
         self.switches = [(name, NUMBERS[name]) for name in SWITCHES]
-        found = [(name, (c_int * count)()) for name, count in REMEMBERED]
-        # Addresses are handed over as numbers: ctypes takes them faster than arrays.
-        self.values = [(name, NUMBERS[name], addressof(values), values) for name, values in found]
+        results = [(name, (c_int * count)()) for name, count in REMEMBERED]
+        # Addresses are passed as integers, which ctypes converts faster than arrays.
+        self.values = [(name, NUMBERS[name], addressof(values), values) for name, values in results]
         self.off = [(name, NUMBERS[name]) for name in SWITCHED_OFF]
         self.stores = [(name, NUMBERS[name]) for name in (*ALIGNMENTS, *LAYOUTS)]
         self.layouts = [NUMBERS[name] for name in LAYOUTS]
@@ -144,22 +144,22 @@ class Words:
         self.targets = [(f"{name}_BINDING", NUMBERS[name]) for name in TARGETS]
 
 
-WORDS = Words()
+TABLE = StateTable()
 
 
 class State:
-    """The host's GL state at one moment, which `restore` brings back.
+    """Snapshot of the host's GL state, which `restore` brings back.
 
-    `limits` is what its context has, and `unit` the texture unit that moderngl loads textures on.
+    `limits` are those of its context; `unit` is the texture unit on which moderngl loads textures.
     """
 
     def __init__(self, gl: Functions, limits: Limits, unit: int) -> None:
         self.gl = gl
-        self._on = {name for name, switch in WORDS.switches if gl.glIsEnabled(switch)}
-        for _, number, address, _ in WORDS.values:
+        self._on = {name for name, switch in TABLE.switches if gl.glIsEnabled(switch)}
+        for _, number, address, _ in TABLE.values:
             gl.glGetIntegerv(number, address)
-        self._value: dict[str, list[int]] = {name: found[:] for name, _, _, found in WORDS.values}
-        self._clip = AS_EVER
+        self._value: dict[str, list[int]] = {name: found[:] for name, _, _, found in TABLE.values}
+        self._clip = DEFAULT_CLIP
         if limits.clipped:
             self._clip = gl.number("CLIP_ORIGIN"), gl.number("CLIP_DEPTH_MODE")
         self._feedback = _feedback(gl)
@@ -167,96 +167,96 @@ class State:
         self._viewports = Viewports(gl, limits.viewports)
         self._units = Units(gl, unit)
         self.is_reversed = False
-        """Whether depth is less farther off in what a guest draws now; `look` says so."""
+        """Whether the guest's clip depth is reversed, decreasing with distance; set by `set_depth`."""
         gl.glActiveTexture(*self._value["ACTIVE_TEXTURE"])
 
     @property
     def viewport(self) -> Box:
-        """Where the host draws [pixels]."""
+        """The host's viewport [pixels]."""
         x, y, width, height = self._value["VIEWPORT"]
         return x, y, width, height
 
     @property
     def scissor(self) -> Box | None:
-        """What the host cuts off everything outside of [pixels]; None where it cuts nothing off."""
+        """The host's scissor box [pixels]; None where its scissor test is off."""
         x, y, width, height = self._value["SCISSOR_BOX"]
         return (x, y, width, height) if "SCISSOR_TEST" in self._on else None
 
     @property
     def framebuffer(self) -> int:
-        """What the host draws into: the number of a framebuffer, 0 for its window."""
+        """Number of the framebuffer that the host draws into, 0 for its window."""
         return self._value["DRAW_FRAMEBUFFER_BINDING"][0]
 
     @property
     def flags(self) -> int:
-        """What the host has enabled of what moderngl knows, in moderngl's flags."""
+        """Flags of moderngl that the host has enabled."""
         return sum(getattr(moderngl, name) for name in MODERNGLS if name in self._on)
 
-    def clip(self, *, keeps_depth: bool = False) -> Floats | None:
-        """Return what brings the host's clip space to that of `AS_EVER`, (4, 4); None where it is that.
+    def clip_conversion(self, *, keeps_depth: bool = False) -> Floats | None:
+        """Return the matrix (4, 4) from the host's clip space to `DEFAULT_CLIP`; None where they are the same.
 
-        A host may have turned it over, or let depth run from 0 to 1 in it. That stays so where it `keeps_depth`.
+        A host may have flipped clip space vertically, and let its depth run from 0 to 1: `keeps_depth` leaves that.
         """
-        if self._clip == AS_EVER:
+        if self._clip == DEFAULT_CLIP:
             return None
-        found = np.eye(4, dtype=np.float32)
-        if self._clip[0] != AS_EVER[0]:
-            found[1, 1] = -1.0
+        conversion = np.eye(4, dtype=np.float32)
+        if self._clip[0] != DEFAULT_CLIP[0]:
+            conversion[1, 1] = -1.0
         if self._from_zero and not keeps_depth:
-            found[2, 2:] = 2.0, -1.0
-        return found
+            conversion[2, 2:] = 2.0, -1.0
+        return conversion
 
-    def look(self, *, is_reversed: bool) -> None:
-        """Let depth be the host's own where it is reversed, which is finest near 0, and usual otherwise."""
+    def set_depth(self, *, is_reversed: bool) -> None:
+        """Use the host's clip depth if depth is reversed, as it is most precise near 0, and OpenGL's default else."""
         self.is_reversed = is_reversed
         if self._from_zero:
-            self.gl.glClipControl(AS_EVER[0], self._clip[1] if is_reversed else AS_EVER[1])
+            self.gl.glClipControl(DEFAULT_CLIP[0], self._clip[1] if is_reversed else DEFAULT_CLIP[1])
 
     @property
-    def ends(self) -> tuple[float, float]:
-        """Depths of the near and the far end of the clip space that a guest draws in now."""
+    def depth_ends(self) -> tuple[float, float]:
+        """Depths of the near and the far plane in the guest's clip space."""
         if not self.is_reversed:
             return -1.0, 1.0
         return 1.0, 0.0 if self._from_zero else -1.0
 
     @property
-    def is_turned(self) -> bool:
-        """Whether less is farther off in the depth that a guest writes now: the host may have turned its range, too."""
+    def far_is_less(self) -> bool:
+        """Whether smaller depth is farther away in the framebuffer: the host may also have reversed `glDepthRange`."""
         first, last = self._value["DEPTH_RANGE"]
         return self.is_reversed != (first > last)
 
     @property
     def _from_zero(self) -> bool:
-        return self._clip[1] != AS_EVER[1]
+        return self._clip[1] != DEFAULT_CLIP[1]
 
     def clear(self) -> None:
-        """Set back what moderngl leaves and what would change a guest's picture, or the texels it loads and reads."""
+        """Reset state that moderngl does not set and that would change a guest's picture, or texels it transfers."""
         gl = self.gl
-        for name, switch in WORDS.off:
+        for name, switch in TABLE.off:
             if name in self._on:
                 gl.glDisable(switch)
-        for store in WORDS.layouts:
+        for store in TABLE.layouts:
             gl.glPixelStorei(store, 0)
-        for target in WORDS.texels:
+        for target in TABLE.texels:
             gl.glBindBuffer(target, 0)
         self._units.clear()
         gl.glProvokingVertex(NUMBERS["LAST_VERTEX_CONVENTION"])
-        if self._clip != AS_EVER:
-            gl.glClipControl(*AS_EVER)
+        if self._clip != DEFAULT_CLIP:
+            gl.glClipControl(*DEFAULT_CLIP)
 
     def borrow(self, unit: int, texture: int) -> None:
-        """Bind a 2D texture to a unit of the host's own, until it is brought back."""
+        """Bind a 2D texture to a unit of the host, until `restore`."""
         self._units.borrow(unit, texture)
 
-    def narrow(self) -> None:
-        """Let colour through where the host lets it: to its first output, in the colours that its mask has."""
-        self._outputs.narrow()
+    def restrict_colour(self) -> None:
+        """Write colour to the host's first output alone, through the host's colour mask."""
+        self._outputs.restrict()
         self.gl.glColorMaski(0, *self._value["COLOR_WRITEMASK"])
 
     def restore(self) -> None:
-        """Bring it all back."""
+        """Restore all saved state."""
         gl, value = self.gl, self._value
-        for name, switch in WORDS.switches:
+        for name, switch in TABLE.switches:
             (gl.glEnable if name in self._on else gl.glDisable)(switch)
         for target in ("DRAW_FRAMEBUFFER", "READ_FRAMEBUFFER"):
             gl.glBindFramebuffer(NUMBERS[target], gl.living("Framebuffer", *value[f"{target}_BINDING"]))
@@ -274,24 +274,24 @@ class State:
         gl.glPrimitiveRestartIndex(*value["PRIMITIVE_RESTART_INDEX"])
         gl.glProvokingVertex(*value["PROVOKING_VERTEX"])
         self._viewports.restore()
-        if self._clip != AS_EVER:
+        if self._clip != DEFAULT_CLIP:
             gl.glClipControl(*self._clip)
         self._bind()
 
     def _bind(self) -> None:
         gl, value = self.gl, self._value
-        for name, store in WORDS.stores:
+        for name, store in TABLE.stores:
             gl.glPixelStorei(store, *value[name])
         gl.glUseProgram(gl.living("Program", *value["CURRENT_PROGRAM"]))
         gl.glBindVertexArray(gl.living("VertexArray", *value["VERTEX_ARRAY_BINDING"]))
         buffer, start, size = self._feedback
         buffer = gl.living("Buffer", buffer)
-        # What was bound as a whole has no size. Either call binds the target itself too, so it comes before the others.
+        # A buffer that was bound as a whole has size 0. Both calls also bind the general target, so they come first.
         if buffer and size:
             gl.glBindBufferRange(NUMBERS[FEEDBACK], 0, buffer, start, size)
         else:
             gl.glBindBufferBase(NUMBERS[FEEDBACK], 0, buffer)
-        for name, target in WORDS.targets:
+        for name, target in TABLE.targets:
             gl.glBindBuffer(target, gl.living("Buffer", *value[name]))
         gl.glBindRenderbuffer(NUMBERS["RENDERBUFFER"], gl.living("Renderbuffer", *value["RENDERBUFFER_BINDING"]))
         self._units.restore()
@@ -299,7 +299,7 @@ class State:
 
 
 def _feedback(gl: Functions) -> tuple[int, int, int]:
-    """Return the buffer that the first of the captured outputs goes to, and from where how far [bytes]."""
+    """Return the buffer at transform feedback's binding point 0, and the start and size of its range [bytes]."""
     buffer, span = c_int(), (c_int64(), c_int64())
     gl.glGetIntegeri_v(NUMBERS[f"{FEEDBACK}_BINDING"], 0, addressof(buffer))
     for name, found in zip(("START", "SIZE"), span, strict=True):

@@ -1,4 +1,4 @@
-"""What a GL context has: asked for once, and never of what it may not know, which would leave the host an error."""
+"""Limits and abilities of a GL context, queried once; only what the version knows, as GL errors would be the host's."""
 
 import re
 from ctypes import c_int
@@ -8,40 +8,40 @@ from functools import lru_cache
 from .functions import NUMBERS, Functions
 
 OLDEST = (3, 3)
-"""The oldest OpenGL that will do."""
+"""The oldest OpenGL version that is supported."""
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What a context is, and how much it has of what not all have alike."""
+    """Version, limits and abilities of a GL context."""
 
     version: tuple[int, int]
     renderer: str
     layers: int
-    """Layers of a texture array, 256 at least."""
+    """Greatest number of layers of a texture array, at least 256."""
 
     bindings: int
-    """Uniform blocks that may be bound, 36 at least."""
+    """Number of binding points for uniform blocks, at least 36."""
 
     side: int
-    """Texels along a side of a texture, 1024 at least."""
+    """Greatest number of texels along a side of a texture, at least 1024."""
 
     timed: bool
-    """Whether it can tell the time: a timer may have no bits at all."""
+    """Whether timer queries work: a driver may have them with no bits at all."""
 
     clipped: bool
-    """Whether the host may have turned clip space over, or its depth from 0 to 1 (`glClipControl`)."""
+    """Whether there is `glClipControl`, so that the host may have changed its clip space."""
 
-    beside: str
-    """Whose `GL_..._parallel_shader_compile` it has, to make programs in threads of its own; "" for nobody's."""
+    parallel_compile: str
+    """Prefix of its `GL_..._parallel_shader_compile`, which compiles in the driver's threads; "" where it has none."""
 
     viewports: int
-    """Viewports and scissors by index, 1 where there are none."""
+    """Number of indexed viewports and scissors; 1 where they cannot be indexed."""
 
 
 @lru_cache(maxsize=16)
 def limits_of(gl: Functions) -> Limits:
-    """Return what the current context has; RuntimeError, in one sentence, where it is too old or OpenGL ES."""
+    """Return the limits of the current context; RuntimeError, in one sentence, where it is too old or OpenGL ES."""
     version, embedded = version_of(gl)
     if version == (0, 0):
         raise RuntimeError("there is no GL context: create the window before the prairie is first drawn, or pass ctx")
@@ -63,7 +63,7 @@ def limits_of(gl: Functions) -> Limits:
         side=gl.number("MAX_TEXTURE_SIZE"),
         timed=bits[0] > 0,
         clipped=version >= (4, 5) or "GL_ARB_clip_control" in extensions,
-        beside=next((by for by in ("KHR", "ARB") if f"GL_{by}_parallel_shader_compile" in extensions), ""),
+        parallel_compile=next((by for by in ("KHR", "ARB") if f"GL_{by}_parallel_shader_compile" in extensions), ""),
         viewports=gl.number("MAX_VIEWPORTS") if several else 1,
     )
 

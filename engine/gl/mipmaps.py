@@ -1,7 +1,7 @@
-"""Textures whose mip-maps are made here.
+"""Textures whose mip levels are computed here, on the CPU.
 
-So they are the same with every driver; and a software one would have to compile a program for each shape of texture
-first, which takes longer than the averages do.
+So they are the same with every driver. And a software rasteriser would compile a program for each texture shape, which
+takes longer than averaging.
 """
 
 from collections.abc import Generator, Sequence
@@ -17,13 +17,13 @@ from .limits import limits_of
 Made = TypeVar("Made")
 
 PIECE = 1 << 21
-"""Bytes that are sent at a time where a frame must not wait."""
+"""Size of an upload where a frame must not wait [bytes]."""
 
 _FORMATS = {1: ("R8", "RED"), 2: ("RG8", "RG"), 3: ("RGB8", "RGB"), 4: ("RGBA8", "RGBA")}
 
 
 def levels(texels: Bytes, /) -> list[Bytes]:
-    """Return layers (layers, rows, columns, ...) and their halves, down to one texel."""
+    """Return all mip levels of layers (layers, rows, columns, ...), down to one texel."""
     found = [np.ascontiguousarray(texels)]
     while max(found[-1].shape[1:3]) > 1:
         found.append(halved(found[-1]))
@@ -31,32 +31,32 @@ def levels(texels: Bytes, /) -> list[Bytes]:
 
 
 def stack_for(ctx: moderngl.Context, layers: int, /) -> int:
-    """Return how many layers have to lie in one for a texture to have room for all: OpenGL promises 256 alone."""
+    """Return how many layers to stack in each layer of a texture array for all to fit: OpenGL guarantees 256 layers."""
     return -(-layers // limits_of(functions_of(ctx)).layers)
 
 
 def stacked(texels: Bytes, stack: int, /) -> list[Bytes]:
-    """Return `levels` of layers of which `stack` lie in one, each on top of the one before, down to one row of each.
+    """Return mip levels of layers stacked along their rows, `stack` in each, down to one row of each.
 
-    Their rows are as many as the next power of two, so that none shares a texel with another.
+    Rows are padded to a power of two, so that no texel of a level covers two layers.
     """
     rows = texels.shape[1]
-    whole = 1 << (rows - 1).bit_length()
-    padded = np.pad(texels, [(0, -len(texels) % stack), (0, whole - rows), *[(0, 0)] * (texels.ndim - 2)])
-    made = levels(padded)[: whole.bit_length()]
+    padded_rows = 1 << (rows - 1).bit_length()
+    padded = np.pad(texels, [(0, -len(texels) % stack), (0, padded_rows - rows), *[(0, 0)] * (texels.ndim - 2)])
+    made = levels(padded)[: padded_rows.bit_length()]
     return [each.reshape(len(each) // stack, stack * each.shape[1], *each.shape[2:]) for each in made]
 
 
 def mipmapped(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureArray:
-    """Return a texture of `levels` of layers (layers, rows, columns, 4), or of one channel without the last axis.
+    """Return a texture array of mip levels, each (layers, rows, columns, channels), or without the last axis for one.
 
-    There are `stack_for` of them in each layer of the texture; `lib/layered.glsl` reads it.
+    Each layer of the texture holds `stack_for` of the layers; `lib/layered.glsl` reads it.
     """
     return at_once(mipmapping(ctx, made))
 
 
 def at_once(steps: Generator[None, None, Made]) -> Made:
-    """Do all steps of something, and return what it makes."""
+    """Run all steps of a generator, and return its result."""
     while True:
         try:
             next(steps)
@@ -66,7 +66,7 @@ def at_once(steps: Generator[None, None, Made]) -> Made:
 
 
 def mipmapping(ctx: moderngl.Context, made: list[Bytes], /) -> Generator[None, None, moderngl.TextureArray]:
-    """Do what `mipmapped` does a piece at a time: no piece is more than `PIECE` bytes, or a layer, after the first."""
+    """Do what `mipmapped` does in steps, each an upload of at most `PIECE` bytes or of one layer."""
     stack = stack_for(ctx, len(made[0]))
     if stack > 1:
         made = stacked(made[0], stack)
@@ -95,9 +95,9 @@ def mipmapping(ctx: moderngl.Context, made: list[Bytes], /) -> Generator[None, N
 
 
 def mipmapped_image(ctx: moderngl.Context, made: Sequence[Bytes], /) -> moderngl.Texture:
-    """Return a texture of one image at all its levels, each (rows, columns, channels), down to one texel.
+    """Return a texture of an image's mip levels, each (rows, columns, channels), down to one texel.
 
-    It is read from one level at a time: who reads two and mixes them pays for two.
+    It is sampled from the nearest level: to interpolate between two levels costs twice as much.
     """
     rows, columns, channels = made[0].shape
     texture = ctx.texture((columns, rows), channels, made[0], alignment=1)
@@ -113,7 +113,10 @@ def mipmapped_image(ctx: moderngl.Context, made: Sequence[Bytes], /) -> moderngl
 
 
 def halved(texels: Bytes, /) -> Bytes:
-    """Return the means of two by two texels (layers, rows, columns, ...), rounded; an odd last one is left out."""
+    """Return layers (layers, rows, columns, ...) of half the size: rounded means of 2 x 2 texels.
+
+    An odd last row or column is left out.
+    """
     whole = texels.astype(np.uint16)
     for axis in (1, 2):
         count = whole.shape[axis]

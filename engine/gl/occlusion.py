@@ -1,4 +1,4 @@
-"""Questions that a graphics card answers itself: what depends on one is drawn or left out, and no program waits."""
+"""Occlusion queries with conditional rendering: the graphics card decides what is drawn, and no program waits."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,10 +11,10 @@ from .rasteriser import draws_in_software
 
 
 class OcclusionQuery:
-    """Whether any pixel of what was drawn last while `asking` has passed its tests of depth.
+    """Query whether any pixel drawn inside `asking` has passed the depth test, for drawing inside `if_so`.
 
-    A card holds up what is drawn `if_so` until it knows. A processor that draws goes on without it, and draws that too;
-    so does a card that counts for the host meanwhile, as it answers one such question at a time.
+    A card makes conditional drawing wait for the result. A software rasteriser does not wait, and draws all. So does a
+    card while a query of the host is active, as only one query of a kind can be.
     """
 
     def __init__(self, ctx: moderngl.Context) -> None:
@@ -24,7 +24,7 @@ class OcclusionQuery:
 
     @contextmanager
     def asking(self) -> Iterator[None]:
-        """Ask it of what is drawn meanwhile."""
+        """Count the pixels drawn inside that pass the depth test."""
         self._is_asked = not self._counts_for_host()
         if not self._is_asked:
             yield
@@ -39,7 +39,7 @@ class OcclusionQuery:
 
     @contextmanager
     def if_so(self) -> Iterator[None]:
-        """Draw what is drawn meanwhile only if so."""
+        """Draw what is inside only if any pixel passed."""
         if not self._is_asked:
             yield
             return
@@ -59,7 +59,7 @@ class OcclusionQuery:
         return False
 
     def release(self) -> None:
-        """Give it back."""
+        """Delete the query."""
         if self._query[0]:
             self._gl.glDeleteQueries(1, self._query)
             self._query[0] = 0

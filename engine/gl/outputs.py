@@ -1,21 +1,21 @@
-"""Where a host's colours go: the outputs of its fragment shaders, and the attachments that they are written to."""
+"""A host's draw buffers: colour outputs of fragment shaders, their attachments, masks and blending."""
 
 from ctypes import addressof, c_int, c_ubyte, c_uint
 
 from .functions import NUMBERS, Functions
 
 COUNT = 8
-"""How many outputs every OpenGL has."""
+"""Number of outputs that every OpenGL has."""
 
 OTHERS = range(1, COUNT)
-"""All outputs but the first, which alone a guest writes."""
+"""Outputs that a guest does not write: all but the first."""
 
 
 class Outputs:
-    """The outputs of the framebuffer that is bound at one moment, which `restore` brings back.
+    """Snapshot of the bound framebuffer's outputs, which `restore` brings back.
 
-    `framebuffer` is its number, 0 for the window, and `blends` says whether the first output does. Masks are asked for
-    where there are several attachments: elsewhere a guest changes that of the first alone.
+    `framebuffer` is its number, 0 for the window; `blends` says whether the first output does. Masks are queried only
+    where there are several attachments: elsewhere a guest changes the first mask alone.
     """
 
     def __init__(self, gl: Functions, framebuffer: int, *, blends: bool) -> None:
@@ -26,13 +26,13 @@ class Outputs:
         several = self._drawn is not None and (any(self._drawn[1:]) or _attached(gl, "COLOR_ATTACHMENT1"))
         self._masks = {output: _mask(gl, output) for output in OTHERS} if several else {}
 
-    def narrow(self) -> None:
-        """Write the first output alone, to wherever the host's goes."""
+    def restrict(self) -> None:
+        """Write the first output alone, to the host's attachment of it."""
         if self._drawn is not None:
             self._gl.glDrawBuffers(1, (c_uint * 1)(self._drawn[0]))
 
     def restore(self) -> None:
-        """Bring all outputs back, after the first has its own mask and blending."""
+        """Restore all outputs; call it after the first output's mask and blending are restored."""
         gl = self._gl
         for output in self._unlike:
             (gl.glDisablei if self._blends else gl.glEnablei)(NUMBERS["BLEND"], output)
@@ -43,19 +43,19 @@ class Outputs:
 
 
 def has_depth(gl: Functions, framebuffer: int, /) -> bool:
-    """Return whether the framebuffer that is bound has depth; `framebuffer` is its number, 0 for the window."""
+    """Return whether the bound framebuffer has depth; `framebuffer` is its number, 0 for the window."""
     return _attached(gl, "DEPTH_ATTACHMENT" if framebuffer else "DEPTH")
 
 
 def is_not_plain_2d(gl: Functions, /) -> bool:
-    """Return whether the first colours of a host's framebuffer are a texture that could not be bound just now as 2D."""
+    """Return whether the first colour attachment is a texture that moderngl has just failed to bind as a 2D texture."""
     if _asked(gl, "COLOR_ATTACHMENT0", "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE") != NUMBERS["TEXTURE"]:
         return False
     return gl.number("TEXTURE_BINDING_2D") != _asked(gl, "COLOR_ATTACHMENT0", "FRAMEBUFFER_ATTACHMENT_OBJECT_NAME")
 
 
 def _drawn(gl: Functions) -> list[int]:
-    """Return the attachment of each output."""
+    """Return the attachment (draw buffer) of each output."""
     found, first = (c_int * COUNT)(), NUMBERS["DRAW_BUFFER0"]
     start = addressof(found)
     for output in range(COUNT):

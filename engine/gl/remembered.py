@@ -1,4 +1,4 @@
-"""What was made for a viewer, or sent to GL, need not be made or sent again, whoever has looked meanwhile."""
+"""Caches for each viewer, of what was computed or uploaded, so that viewers in turn do not undo each other's."""
 
 from collections.abc import Callable, Iterator
 from typing import Generic, TypeVar
@@ -11,27 +11,26 @@ from .stream import Releasable, release_all
 Made = TypeVar("Made")
 
 MOST_VIEWERS = 4
-"""Viewers for whom anything is remembered: those that looked last."""
+"""Number of viewers with caches: those that looked last."""
 
 Shelf = TypeVar("Shelf", bound=Releasable)
 
 
 class Remembered(Generic[Made]):
-    """What was last made for each viewer, and what it was made of."""
+    """Cache of the last result for each viewer, keyed by its inputs."""
 
     def __init__(self) -> None:
         self._made: dict[str, tuple[object, Made]] = {}
 
-    def of(self, viewer: str, made_of: tuple[object, ...] | None, make: Callable[[], Made], /) -> Made:
-        """Return what `make` makes for a viewer.
+    def of(self, viewer: str, inputs: tuple[object, ...] | None, make: Callable[[], Made], /) -> Made:
+        """Return the result of `make` for a viewer, from the cache if the viewer's `inputs` are the same as last time.
 
-        It is not made again if it was made of the same: of arrays of the same bytes, and of other things that are
-        equal. With None it is always made.
+        Arrays are compared by their bytes, other inputs by equality. With None, `make` is always called.
         """
-        now = made_of and [part.tobytes() if type(part) is np.ndarray else part for part in made_of]
+        key = inputs and [part.tobytes() if type(part) is np.ndarray else part for part in inputs]
         found = self._made.pop(viewer, None)
-        if found is None or now is None or now != found[0]:
-            found = now, make()
+        if found is None or key is None or key != found[0]:
+            found = key, make()
         self._made[viewer] = found
         if len(self._made) > MOST_VIEWERS:
             del self._made[next(iter(self._made))]
@@ -39,23 +38,23 @@ class Remembered(Generic[Made]):
 
 
 class Shelves(Generic[Shelf]):
-    """A shelf for each viewer: buffers and textures, and what was last sent there.
+    """A shelf for each viewer: buffers and textures, and a record of what was uploaded to them last.
 
-    There are `MOST_VIEWERS` at most: one more viewer gets that of who has not looked for longest. A shelf is given back
-    when what it is for is gone.
+    There are `MOST_VIEWERS` at most: a further viewer gets the shelf of the one that has not looked for longest. A
+    shelf is released when its viewer is gone.
     """
 
     def __init__(self, make: Callable[[], Shelf]) -> None:
         self._make = make
         self.now = make()
-        """The shelf of the viewer that looks; before any has looked, that of the first."""
+        """Shelf of the viewer that looks now; before any has looked, the shelf for the first."""
         self._looking: ref[object] | None = None
         self._spare = [self.now]
         self._all: dict[str, tuple[ref[object], Shelf]] = {}
         self._gone: list[str] = []
 
     def of(self, name: str, viewer: object, /) -> Shelf:
-        """Return the shelf of the viewer of a name, which looks from now on; `viewer` lives as long as it is there."""
+        """Make the named viewer the one that looks; return its shelf. The shelf is freed when `viewer` is collected."""
         if self._looking is not None and self._looking() is viewer and not self._gone:
             return self.now
         self._spare += [self._all.pop(gone)[1] for gone in self._gone if gone != name and gone in self._all]
@@ -75,5 +74,5 @@ class Shelves(Generic[Shelf]):
         return iter([*self._spare, *(shelf for _, shelf in self._all.values())])
 
     def release(self) -> None:
-        """Give all shelves back."""
+        """Release all shelves."""
         release_all(*self)

@@ -1,4 +1,4 @@
-"""Drawing with fewer pixels than the host has: into a buffer of one's own, which is filtered up into the host's."""
+"""Drawing at reduced resolution: into a smaller framebuffer, which is then upsampled into the host's."""
 
 import logging
 from collections.abc import Iterator, Mapping
@@ -21,29 +21,33 @@ log = logging.getLogger("tallgrass")
 Size = tuple[int, int]
 
 OVER = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-"""How what is drawn lies over what was there: colours come multiplied by their opacity."""
+"""Blending of premultiplied colours over what was drawn before."""
 
 MOST_SIZES = 4
-"""Sizes whose buffers are kept: a viewer's last and present one, and another viewer's."""
+"""Number of sizes whose buffers are kept: the last and the present one of two viewers."""
 
-PLACES = dict(zip(("before", "picture", "deep"), UNITS[-3:], strict=True))
-"""Texture units: the last, as what stands there is bound anew whenever it is read."""
+TEXTURE_UNITS = dict(zip(("before", "picture", "deep"), UNITS[-3:], strict=True))
+"""Texture units of the samplers: the last ones, whose other users bind their textures anew before each use."""
 
 PASSES = {"find": ">", "bring": "1", "fit": ">", "deepen": "<", "enlarge": "1", "lay": "1"}
-"""What is done, and by which test of depth: to find out whether the host has drawn anything; to bring its depth over;
-to blend the picture over what it has drawn, and write its depth there; to write both where it has drawn nothing. The
-first and the third are as far away as can be. Or, where nothing else has depth, to lay the picture over all."""
+"""Depth test of each pass.
+
+`find` counts the pixels that the host has drawn, and `bring` copies their depth to the smaller buffer. `fit` blends the
+picture over them, and `deepen` writes its depth there. `enlarge` writes colour and depth where the host has drawn
+nothing. `find` and `fit` draw at the far plane. `lay`, where nothing else has depth, replaces `fit`, `deepen` and
+`enlarge`: it draws the picture over everything.
+"""
 
 
 def smaller_size(size: Size, scale: float, /) -> Size:
-    """Return a picture's size [pixels] with `scale` times as many pixels across and up, at least one."""
+    """Return the size of a picture [pixels] scaled by `scale`, at least one pixel on each side."""
     width, height = size
     return max(1, round(width * scale)), max(1, round(height * scale))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Buffers:
-    """What is drawn into, and the host's depth beside it."""
+    """A smaller framebuffer with its colour `picture` and depth `deep`, and the host's depth `before` drawing."""
 
     before: moderngl.Texture
     picture: moderngl.Texture
@@ -52,7 +56,7 @@ class Buffers:
 
     @classmethod
     def made(cls, ctx: moderngl.Context, full: Size, small: Size, /, *, floats: bool = False) -> "Buffers":
-        """Return new ones for a viewport and a picture of these sizes [pixels]."""
+        """Return new buffers for the sizes of the host's viewport and of the smaller picture [pixels]."""
         before, picture, deep = (
             ctx.depth_texture(full),
             ctx.texture(small, 4, dtype="f2" if floats else "f1"),
@@ -65,20 +69,20 @@ class Buffers:
         return cls(before, picture, deep, ctx.framebuffer([picture], deep))
 
     def use(self) -> None:
-        """Bind what is read where the passes read it."""
-        self.before.use(PLACES["before"])
-        self.picture.use(PLACES["picture"])
-        self.deep.use(PLACES["deep"])
+        """Bind the textures to the units of the passes' samplers."""
+        self.before.use(TEXTURE_UNITS["before"])
+        self.picture.use(TEXTURE_UNITS["picture"])
+        self.deep.use(TEXTURE_UNITS["deep"])
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release framebuffer and textures."""
         release_all(self.target, self.before, self.picture, self.deep)
 
 
 class Smaller:
-    """A buffer that a guest draws into in place of the host's framebuffer, with fewer pixels.
+    """Framebuffers of fewer pixels that a guest draws into in place of the host's.
 
-    There is none before it is needed, and one for each of the last sizes.
+    They are made at first use, one for each of the last `MOST_SIZES` sizes.
     """
 
     def __init__(self, ctx: moderngl.Context, *, floats: bool = False) -> None:
@@ -86,22 +90,22 @@ class Smaller:
         self._programs: dict[str, moderngl.Program] = {}
         self._passes: dict[str, moderngl.VertexArray] = {}
         self._buffers: dict[tuple[Size, Size], Buffers] = {}
-        self._has_host = OcclusionQuery(ctx)
-        self._told: dict[str, object] = {}
-        """What the programs have been told last, by name."""
+        self._has_drawn = OcclusionQuery(ctx)
+        self._uniforms: dict[str, object] = {}
+        """Values of uniforms that all programs were given last, by name."""
         self._warned: set[str] = set()
 
     @contextmanager
     def instead_of(
         self, host: moderngl.Framebuffer, scale: float, *, is_whole: bool = True, is_alone: bool = False
     ) -> Iterator[moderngl.Framebuffer]:
-        """Give a framebuffer with `scale` times as many pixels, across and up, in which the host's depth stands.
+        """Yield a framebuffer of `scale` times the size of the host's viewport, initialised with the host's depth.
 
-        In the end, what was drawn there lies over the host's picture, and the host's depth is that of what is nearer.
-        The host's framebuffer must be bound as `guest` binds it. It is given itself where `scale` is 1, and where
-        another one cannot stand in for it, which is told once. One that `is_whole` is opaque where the host has drawn
-        nothing; any other lets through what is behind it there too. Where nothing but this `is_alone` with depth, the
-        host's is neither read nor written.
+        In the end, its picture is drawn over the host's, and the host's depth becomes the nearer one of the two. The
+        host's framebuffer must be bound as `guest` binds it. It is yielded itself where `scale` is 1, and where it
+        cannot be replaced, which is logged once. A picture that `is_whole` is opaque where the host has drawn nothing;
+        any other is blended there too. Where only the picture has depth (`is_alone`), the host's depth is neither read
+        nor written.
         """
         if scale >= 1.0 or self._is_obstructed(host):
             yield host
@@ -111,68 +115,68 @@ class Smaller:
         if not is_alone:
             self._find(host, buffers)
         with aside(self._ctx, host, alike=True):
-            if not is_alone:  # where it is read, it is still bound
-                self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + PLACES["before"])
+            if not is_alone:  # the host's framebuffer is still bound for reading
+                self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + TEXTURE_UNITS["before"])
                 self._gl.glCopyTexSubImage2D(NUMBERS["TEXTURE_2D"], 0, 0, 0, x, y, width, height)
             buffers.target.depth_mask = True
             buffers.target.scissor = None  # type: ignore[assignment]
             buffers.target.use()
             self._clear()
             if not is_alone:
-                with self._where_host(host), colourless(buffers.target):
-                    self._do("bring")
+                with self._if_host_has_drawn(host), colourless(buffers.target):
+                    self._run("bring")
             yield buffers.target
         self._enlarge(host, buffers, is_whole=is_whole, is_alone=is_alone)
 
     def _enlarge(self, host: moderngl.Framebuffer, buffers: Buffers, *, is_whole: bool, is_alone: bool) -> None:
-        """Lay what was drawn over the host's picture."""
+        """Draw the smaller picture over the host's."""
         x, y = host.viewport[:2]
-        self._read(buffers)
+        self._bind(buffers)
         host.depth_mask = False
         if is_alone:
-            self._do("lay", blending=None if is_whole else OVER, everywhere=True)
+            self._run("lay", blending=None if is_whole else OVER, everywhere=True)
             host.depth_mask = True
             return
-        self._tell({"whole": is_whole, "corner": (x, y)})
-        with self._where_host(host) if is_whole else nullcontext():
-            self._do("fit", blending=OVER, everywhere=not is_whole)
+        self._set_uniforms({"whole": is_whole, "corner": (x, y)})
+        with self._if_host_has_drawn(host) if is_whole else nullcontext():
+            self._run("fit", blending=OVER, everywhere=not is_whole)
             host.depth_mask = True
             with colourless(host):
-                self._do("deepen")
+                self._run("deepen")
         if is_whole:
-            self._do("enlarge")
+            self._run("enlarge")
 
     def _find(self, host: moderngl.Framebuffer, buffers: Buffers) -> None:
         """Let the card find out whether the host has drawn anything with depth: mostly it has not."""
-        cut = host.scissor
+        scissor = host.scissor
         host.scissor, host.depth_mask = None, False  # type: ignore[assignment]
-        self._read(buffers)
-        with colourless(host), self._has_host.asking():
-            self._do("find")
-        host.scissor = cut if cut != (0, 0, *host.size) else None  # type: ignore[assignment]
+        self._bind(buffers)
+        with colourless(host), self._has_drawn.asking():
+            self._run("find")
+        host.scissor = scissor if scissor != (0, 0, *host.size) else None  # type: ignore[assignment]
         host.depth_mask = True
 
-    def _where_host(self, host: moderngl.Framebuffer) -> AbstractContextManager[None]:
-        """Leave out what is drawn meanwhile if it has not; where nothing is shown, drivers are to get ready for it."""
-        return self._has_host.if_so() if all(host.scissor[2:]) else nullcontext()
+    def _if_host_has_drawn(self, host: moderngl.Framebuffer) -> AbstractContextManager[None]:
+        """Draw what is inside only if the host has drawn anything; always where nothing shows, to warm up drivers."""
+        return self._has_drawn.if_so() if all(host.scissor[2:]) else nullcontext()
 
-    def _read(self, buffers: Buffers) -> None:
-        """Let the passes read these."""
+    def _bind(self, buffers: Buffers) -> None:
+        """Bind buffers for the passes, and set the uniforms that depend on them."""
         buffers.use()
         small, ends = buffers.target.size, {"far_end": depth_ends()[1], "farthest": farthest_depth()}
-        self._tell({"size": small, "unit": (1.0 / small[0], 1.0 / small[1]), **ends})
+        self._set_uniforms({"size": small, "unit": (1.0 / small[0], 1.0 / small[1]), **ends})
 
     def release(self) -> None:
-        """Give everything back."""
-        release_all(*self._passes.values(), *self._programs.values(), *self._buffers.values(), self._has_host)
+        """Release programs, vertex arrays, buffers and the query."""
+        release_all(*self._passes.values(), *self._programs.values(), *self._buffers.values(), self._has_drawn)
 
     def _clear(self) -> None:
-        """Clear what is drawn into: by calls that leave the values alone which a host clears with."""
+        """Clear the bound framebuffer by calls that do not change the host's clear values."""
         for what, values in (("COLOR", (0.0,) * 4), ("DEPTH", (farthest_depth(),))):
             self._gl.glClearBufferfv(NUMBERS[what], 0, (c_float * len(values))(*values))
 
-    def _do(self, name: str, *, blending: tuple[int, int] | None = None, everywhere: bool = False) -> None:
-        """Do one of the passes, where its test of depth says or `everywhere`."""
+    def _run(self, name: str, *, blending: tuple[int, int] | None = None, everywhere: bool = False) -> None:
+        """Draw one of the passes, with its depth test unless `everywhere`."""
         ctx = self._ctx
         tested = moderngl.NOTHING if everywhere else moderngl.DEPTH_TEST
         ctx.enable_only(tested if blending is None else tested | moderngl.BLEND)
@@ -182,15 +186,15 @@ class Smaller:
         set_depth_test(ctx, "<=")
 
     def make_ready(self) -> None:
-        """Make its programs, unless they are there."""
+        """Make the programs of the passes, at the first call."""
         for name in PASSES.keys() - self._passes.keys():
             self._programs[name] = program(self._ctx, "engine/gl/fill.vert", f"engine/gl/{name}.frag")
             self._passes[name] = self._ctx.vertex_array(self._programs[name], [])
-            self._told.clear()
-        self._tell(PLACES)
+            self._uniforms.clear()
+        self._set_uniforms(TEXTURE_UNITS)
 
     def _is_obstructed(self, host: moderngl.Framebuffer) -> bool:
-        """Return whether nothing can stand in for the host's framebuffer, and tell it once."""
+        """Return whether the host's framebuffer cannot be replaced by a smaller one; log the reason once."""
         obstacle = self._obstacle(host)
         if obstacle is not None and obstacle not in self._warned:
             self._warned.add(obstacle)
@@ -205,7 +209,7 @@ class Smaller:
         return None if has_depth(self._gl, host.glo) else "no depth"
 
     def _room(self, full: Size, small: Size) -> Buffers:
-        """Return buffers for a viewport and a picture of these sizes."""
+        """Return buffers for the sizes of the host's viewport and of the smaller picture [pixels]."""
         self.make_ready()
         found = self._buffers.pop((full, small), None)
         if found is None:
@@ -215,11 +219,11 @@ class Smaller:
         self._buffers[full, small] = found
         return found
 
-    def _tell(self, values: Mapping[str, object]) -> None:
-        """Tell all programs that ask for it what is another than before."""
+    def _set_uniforms(self, values: Mapping[str, object]) -> None:
+        """Set uniforms whose values have changed, in all programs that use them."""
         for name, value in values.items():
-            if self._told.get(name) != value:
-                self._told[name] = value
+            if self._uniforms.get(name) != value:
+                self._uniforms[name] = value
                 for each in self._programs.values():
                     if name in each:
                         each[name] = value

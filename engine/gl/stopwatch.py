@@ -1,4 +1,4 @@
-"""How long drawing takes: what the graphics card says, or the clock where there is no card."""
+"""Timing of drawing: by the graphics card's timer queries, or by the clock where there is no card."""
 
 from collections import deque
 from collections.abc import Iterator
@@ -14,17 +14,17 @@ from .limits import limits_of
 from .rasteriser import draws_in_software
 
 Name = tuple[str, int]
-"""What a time is of: somebody's picture, and which one."""
+"""Name of a drawing: its viewer, and the picture's number."""
 
 MOST_UNDERWAY = 6
-"""Drawings that a card may be behind with; while there are more, none is timed."""
+"""Greatest number of timer queries without a result yet; while there are more, nothing is timed."""
 
 
 class Stopwatch:
-    """Times what is drawn in one GL context, and holds no card up: what it took comes in some frames later.
+    """Times named drawings in one GL context.
 
-    Without a card, or with one that cannot tell, it waits until everything is drawn. Each drawing has a name, which its
-    time comes with.
+    It never waits for a card: a time is known some frames later. Without a card, or with one that has no timer, it
+    waits until everything is drawn.
     """
 
     def __init__(self, ctx: moderngl.Context) -> None:
@@ -34,12 +34,12 @@ class Stopwatch:
 
     @cached_property
     def waits(self) -> bool:
-        """Whether no card tells the time, so that what is timed is over when `timing` is."""
+        """Whether there is no timer of a card, so that `timing` waits until everything is drawn."""
         return draws_in_software(self._ctx) or not limits_of(self._gl).timed
 
     @contextmanager
     def timing(self, name: Name, /) -> Iterator[None]:
-        """Time what is drawn meanwhile."""
+        """Time what is drawn inside."""
         if self.waits:
             start = perf_counter()
             yield
@@ -58,7 +58,7 @@ class Stopwatch:
                 self._underway.append((name, stamps))
 
     def read(self) -> list[tuple[Name, float]]:
-        """Return what has come in since it was last asked, the earliest first: names and times [s]."""
+        """Return the names and times [s] that became known since the last call, the earliest first."""
         while self._underway and self._is_over(self._underway[0][1]):
             name, stamps = self._underway.popleft()
             self._known.append((name, self._took(stamps)))
@@ -66,7 +66,7 @@ class Stopwatch:
         return known
 
     def release(self) -> None:
-        """Give everything back."""
+        """Delete the queries that are underway."""
         for _, stamps in self._underway:
             self._gl.glDeleteQueries(2, stamps)
         self._underway.clear()
@@ -77,7 +77,7 @@ class Stopwatch:
         return bool(found[0])
 
     def _took(self, stamps: Array[c_uint]) -> float:
-        """Return the time between two stamps that are known [s], and give them back."""
+        """Return the time between two stamps that are known [s], and delete them."""
         times = []
         for stamp in stamps:
             found = (c_uint64 * 1)()

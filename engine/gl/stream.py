@@ -1,4 +1,4 @@
-"""Buffers and textures of records that are filled anew every frame."""
+"""Vertex buffers and textures of records that are refilled every frame."""
 
 from typing import Any, Protocol
 
@@ -8,14 +8,14 @@ from numpy.typing import NDArray
 
 
 class Releasable(Protocol):
-    """Anything that holds GL objects: a painter, a stream, or an object of the context itself."""
+    """Holder of GL objects: a painter, a stream, or a moderngl object."""
 
     def release(self) -> None:
-        """Give everything back to the context."""
+        """Delete its GL objects."""
 
 
 def release_all(*things: Releasable | None) -> None:
-    """Give everything that `things` hold back to the context; None holds nothing."""
+    """Release each thing; None is skipped."""
     for thing in things:
         if thing is not None:
             thing.release()
@@ -29,42 +29,41 @@ def attributes(record: np.dtype[np.void]) -> tuple[str, list[str]]:
 
 
 class Stream:
-    """A vertex buffer of records that grows as it must.
+    """A vertex buffer of records that grows as needed.
 
-    `record` is a dtype of float32 and uint32 fields whose names are the shader's attributes; at first there is room for
-    so many `rows`.
+    `record` is a dtype of float32 and uint32 fields, named as the shader's attributes; `rows` is the initial capacity.
     """
 
     def __init__(self, ctx: moderngl.Context, record: np.dtype[np.void], *, rows: int = 1024) -> None:
         self.ctx = ctx
         self.record = record
         self.buffer = ctx.buffer(reserve=rows * record.itemsize, dynamic=True)
-        self.count, self._most = 0, rows
+        self.count, self._capacity = 0, rows
 
     def write(self, rows: NDArray[Any]) -> None:
         """Replace the contents by `rows`, shape (n,)."""
         self.room(len(rows))
         if self.count:
-            self.buffer.orphan()  # what is drawn still keeps what was written before
+            self.buffer.orphan()  # pending draw calls keep the old contents
             self.buffer.write(np.ascontiguousarray(rows))
 
     def room(self, count: int) -> None:
-        """Make room for `count` records, whose contents are anything until they are written.
+        """Make room for `count` records, whose contents are undefined until they are written.
 
-        A graphics card that writes them itself does so in its turn: nothing needs to be kept from before.
+        Transform feedback writes them in order with the draw calls, so the old contents need not be kept.
         """
         self.count = count
-        if count > self._most:
-            self._most = count * 3 // 2
-            self.buffer.orphan(self._most * self.record.itemsize)  # whole ones: transform feedback asks for that
+        if count > self._capacity:
+            self._capacity = count * 3 // 2
+            self.buffer.orphan(self._capacity * self.record.itemsize)  # whole records, for transform feedback
 
     def binding(self, program: moderngl.Program, *, each: str = "/i") -> tuple[moderngl.Buffer | str, ...]:
-        """Return the stream as a vertex array's content; fields the program drops are skipped over.
+        """Return the stream as content of a vertex array, with fields that the program does not use as padding.
 
-        A record is for an instance, or with `each` as `/v` for a vertex.
+        There is a record for each instance, or for each vertex where `each` is `/v`.
         """
-        form, names = attributes(self.record)
-        parts = form.split()
+        layout, names = attributes(self.record)
+        parts = layout.split()
         kept = [name for name in names if name in program]
         padded = [
             part if name in program else f"{int(part[:-1]) * 4}x" for part, name in zip(parts, names, strict=True)
@@ -72,14 +71,14 @@ class Stream:
         return self.buffer, " ".join(padded) + each, *kept
 
     def release(self) -> None:
-        """Give the buffer back."""
+        """Delete the buffer."""
         self.buffer.release()
 
 
 class Records:
-    """A texture of records that is filled anew and grows as it must, `per_row` of them in a row.
+    """A texture of records, `per_row` in a row, that is refilled and grows as needed.
 
-    `record` is a dtype of float32 fields whose size is that of some RGBA texels, or of one integer.
+    `record` is a dtype of float32 fields that fill whole RGBA texels, or of one integer.
     """
 
     def __init__(self, ctx: moderngl.Context, record: np.dtype[np.void], per_row: int, *, rows: int = 64) -> None:
@@ -90,7 +89,7 @@ class Records:
         self.kind = "u4" if self.channels == 1 else "f4"
         self.texture = self._room(rows)
         self._padded = np.zeros(0, record)
-        """Whole rows of what is written, kept from one time to the next."""
+        """Scratch array for `write`, of whole rows."""
 
     def write(self, records: NDArray[np.void]) -> None:
         """Replace the contents by `records`, shape (n,)."""
@@ -101,11 +100,11 @@ class Records:
             if rows * self.per_row > len(self._padded):
                 self._padded = np.zeros(rows * self.per_row, self.record)
             self._padded[: len(records)] = records
-            whole = self._padded[: rows * self.per_row]  # what comes after them is read by nobody
+            whole = self._padded[: rows * self.per_row]  # records after the last are never read
             self.texture.write(whole, viewport=(0, 0, self.texels * self.per_row, rows))
 
     def reserve(self, rows: int) -> None:
-        """Make room for so many rows; where there is too little, what was written is lost."""
+        """Make room for `rows` rows of texels; the contents are lost where the texture grows."""
         if rows > self.texture.height:
             self.texture.release()
             self.texture = self._room(rows)
@@ -116,5 +115,5 @@ class Records:
         return texture
 
     def release(self) -> None:
-        """Give the texture back."""
+        """Delete the texture."""
         self.texture.release()

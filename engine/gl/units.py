@@ -1,39 +1,42 @@
-"""Texture units: those that a guest uses, and what a host has on them."""
+"""Texture units that a guest uses, and saving what a host has bound to them."""
 
 from ctypes import addressof, c_int
 
 from .functions import NUMBERS, Functions
 
 FIRST_UNIT = 32
-"""The first texture unit that is used: OpenGL 3.3 has 48, and hosts use the first few, with textures and samplers."""
+"""First texture unit that a guest uses. OpenGL 3.3 has 48 units, and hosts use the first few."""
 
 UNITS = range(FIRST_UNIT, 48)
-"""All that are used."""
+"""Texture units that a guest uses."""
 
 BORROWED = range(27, 31)
-"""Those that a host's own textures are bound to for a frame, and given back after it. The one above them is where
-moderngl loads textures on most cards: what it leaves there would be read, and drivers make a program anew for that."""
+"""Units that textures of the host are bound to for a frame, and restored after it.
+
+Unit 31 is not among them: on most cards moderngl loads textures there. Programs would read what it leaves bound, and
+drivers recompile a program for that.
+"""
 
 SCRATCH_UNIT = 15
-"""Where textures are loaded that no host's own moderngl context loads: every OpenGL has it, and it is kept."""
+"""Unit on which our own moderngl context loads textures: every OpenGL has it, and its bindings are restored."""
 
 LOADED = {
     "TEXTURE_2D": "TEXTURE_BINDING_2D", "TEXTURE_3D": "TEXTURE_BINDING_3D",
     "TEXTURE_2D_ARRAY": "TEXTURE_BINDING_2D_ARRAY",
 }  # fmt: skip
-"""The sorts of texture that are loaded, and what says which one is bound."""
+"""Targets of textures that are loaded, and the state that has the texture bound to each."""
 
 
 _FOUND = (c_int * len(UNITS))()
 _FOUND_AT = addressof(_FOUND)
-"""Where answers are written; ctypes takes addresses faster than arrays."""
+"""Address for results of queries; ctypes passes integers faster than arrays."""
 
 
 class Units:
-    """A host's sampler objects on the units that are used, and its textures on `scratch`, where textures are loaded.
+    """Snapshot of a host's sampler objects on `UNITS`, and of its textures on the unit `scratch` for loading textures.
 
-    `clear` takes the samplers off, `borrow` takes a unit that is not among them, and `restore` brings all of it back.
-    Each leaves another unit active.
+    `clear` unbinds the samplers, `borrow` takes a further unit, and `restore` brings all back. Each of them changes the
+    active unit.
     """
 
     def __init__(self, gl: Functions, scratch: int) -> None:
@@ -44,19 +47,19 @@ class Units:
         self._borrowed: dict[int, tuple[int, int]] = {}
 
     def borrow(self, unit: int, texture: int) -> None:
-        """Bind a 2D texture to a unit that the host has something else on, until all is brought back."""
+        """Bind a 2D texture to a unit of the host, until `restore`."""
         self._activate(unit)
         if unit not in self._borrowed:
             self._borrowed[unit] = self._gl.number("TEXTURE_BINDING_2D"), self._gl.number("SAMPLER_BINDING")
         self._gl.glBindTexture(NUMBERS["TEXTURE_2D"], texture)
 
     def clear(self) -> None:
-        """Let textures be read as they say themselves."""
+        """Unbind the host's samplers, so that textures are read with their own parameters."""
         for unit in self._samplers:
             self._gl.glBindSampler(unit, 0)
 
     def restore(self) -> None:
-        """Bring the host's back."""
+        """Bind the host's samplers and textures again."""
         for unit, sampler in self._samplers.items():
             self._gl.glBindSampler(unit, self._gl.living("Sampler", sampler))
         for unit, (texture, sampler) in self._borrowed.items():
@@ -68,7 +71,7 @@ class Units:
             self._gl.glBindTexture(NUMBERS[target], self._gl.living("Texture", texture))
 
     def _bound(self) -> dict[int, int]:
-        """Return the sampler objects, by unit."""
+        """Return the host's sampler objects by unit, those that are bound."""
         gl, first, question = self._gl, NUMBERS["TEXTURE0"] + FIRST_UNIT, NUMBERS["SAMPLER_BINDING"]
         for place in range(len(UNITS)):
             gl.glActiveTexture(first + place)

@@ -1,4 +1,4 @@
-"""Viewports and scissors by index, of which OpenGL has 16 from 4.1 on; whoever sets one as ever sets them all."""
+"""Indexed viewports and scissors, of which OpenGL 4.1 and newer have 16. A call without an index sets all of them."""
 
 from collections.abc import Iterable
 from ctypes import Array, addressof, c_float, c_int
@@ -10,54 +10,54 @@ from .functions import NUMBERS, Functions
 Value = TypeVar("Value")
 
 BYTES = 16
-"""What a box takes."""
+"""Size of a box: four numbers."""
 
 
 class Viewports:
-    """Those that are unlike the first at one moment, which `restore` brings back after the first. There are `count`."""
+    """Snapshot of the `count` viewports and scissors that differ from the first, which `restore` brings back."""
 
     def __init__(self, gl: Functions, count: int) -> None:
         self._gl = gl
-        self._boxes: dict[int, list[float]] = {}
-        self._cuts: dict[int, list[int]] = {}
-        self._cutting: dict[int, int] = {}
+        self._viewports: dict[int, list[float]] = {}
+        self._scissors: dict[int, list[int]] = {}
+        self._tests: dict[int, int] = {}
         if count > 1:
-            self._ask(count)
+            self._query(count)
 
-    def _ask(self, count: int) -> None:
-        """Ask for all: nothing tells whether a host has used any, so it has to be cheap."""
+    def _query(self, count: int) -> None:
+        """Read all of them, fast: nothing tells whether a host uses any."""
         gl, viewport, scissor, test = self._gl, NUMBERS["VIEWPORT"], NUMBERS["SCISSOR_BOX"], NUMBERS["SCISSOR_TEST"]
-        boxes, cuts, box, cut = _room(count)
+        viewports, scissors, viewport_at, scissor_at = _results(count)
         for index in range(count):
-            gl.glGetFloati_v(viewport, index, box)
-            gl.glGetIntegeri_v(scissor, index, cut)
-            box, cut = box + BYTES, cut + BYTES
-        self._boxes, self._cuts = _unlike(_by_four(boxes)), _unlike(_by_four(cuts))
-        self._cutting = _unlike([gl.glIsEnabledi(test, index) for index in range(count)])
+            gl.glGetFloati_v(viewport, index, viewport_at)
+            gl.glGetIntegeri_v(scissor, index, scissor_at)
+            viewport_at, scissor_at = viewport_at + BYTES, scissor_at + BYTES
+        self._viewports, self._scissors = _unlike_first(_by_four(viewports)), _unlike_first(_by_four(scissors))
+        self._tests = _unlike_first([gl.glIsEnabledi(test, index) for index in range(count)])
 
     def restore(self) -> None:
-        """Bring them back."""
+        """Restore them; call it after the first ones are restored."""
         gl, switch = self._gl, NUMBERS["SCISSOR_TEST"]
-        for index, box in self._boxes.items():
-            gl.glViewportIndexedf(index, *box)
-        for index, cut in self._cuts.items():
-            gl.glScissorIndexed(index, *cut)
-        for index, is_cutting in self._cutting.items():
-            (gl.glEnablei if is_cutting else gl.glDisablei)(switch, index)
+        for index, viewport in self._viewports.items():
+            gl.glViewportIndexedf(index, *viewport)
+        for index, scissor in self._scissors.items():
+            gl.glScissorIndexed(index, *scissor)
+        for index, is_on in self._tests.items():
+            (gl.glEnablei if is_on else gl.glDisablei)(switch, index)
 
 
 @lru_cache(maxsize=4)
-def _room(count: int) -> tuple[Array[c_float], Array[c_int], int, int]:
-    """Return where boxes and cuts are asked for, and the addresses: ctypes takes numbers faster than arrays."""
-    boxes, cuts = (c_float * (4 * count))(), (c_int * (4 * count))()
-    return boxes, cuts, addressof(boxes), addressof(cuts)
+def _results(count: int) -> tuple[Array[c_float], Array[c_int], int, int]:
+    """Return arrays for `count` viewports and scissors, and their addresses: ctypes passes integers faster."""
+    viewports, scissors = (c_float * (4 * count))(), (c_int * (4 * count))()
+    return viewports, scissors, addressof(viewports), addressof(scissors)
 
 
 def _by_four(array: Iterable[Value]) -> list[list[Value]]:
     return [list(four) for four in zip(*[iter(array)] * 4, strict=True)]
 
 
-def _unlike(values: list[Value]) -> dict[int, Value]:
-    """Return those that are not what the first is."""
+def _unlike_first(values: list[Value]) -> dict[int, Value]:
+    """Return the values that differ from the first, by index."""
     first = values[0]
     return {} if values.count(first) == len(values) else {k: each for k, each in enumerate(values) if each != first}

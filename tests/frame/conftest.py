@@ -44,7 +44,7 @@ def _loaded() -> Iterator[list[Prairie]]:
     yield loaded
     for prairie in loaded:
         prairie.release()
-    assert not homes._left, "what is released in no context keeps hundreds of megabytes"  # noqa: SLF001
+    assert not homes._pending, "what is released in no context keeps hundreds of megabytes"  # noqa: SLF001
 
 
 @pytest.fixture(scope="module")

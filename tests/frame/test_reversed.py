@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from tallgrass import Footprint
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.gl.functions import convention, functions_of
-from tallgrass.engine.gl.host import AS_EVER
+from tallgrass.engine.gl.host import DEFAULT_CLIP
 from tallgrass.engine.gl.limits import limits_of
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import LITTLE, Stage
@@ -24,7 +24,7 @@ Numbers = NDArray[np.float64]
 
 STILL = LITTLE + "light: { elevation: 40 }\n"
 FEWER = LITTLE + "  pixels: 0.6\nlight: { elevation: 40 }\n"
-FROM_ZERO = AS_EVER[0], 0x935F
+FROM_ZERO = DEFAULT_CLIP[0], 0x935F
 """`GL_ZERO_TO_ONE`."""
 
 NEAR, FAR = 0.1, 5000.0
@@ -47,7 +47,7 @@ class Way:
     away: Callable[[Numbers], Numbers]
     """How far off things of some depth are [m]."""
 
-    control: tuple[int, int] = AS_EVER
+    control: tuple[int, int] = DEFAULT_CLIP
     range: tuple[float, float] = (0.0, 1.0)
     farthest: float = 0.0
 
@@ -89,7 +89,7 @@ def having(ctx: moderngl.Context, way: Way) -> Iterator[None]:
     range_ = convention(None, c_double, c_double)(ctx.mglo._context.load("glDepthRange"))  # noqa: SLF001
     if limits_of(gl).clipped:
         gl.glClipControl(*way.control)
-    elif way.control != AS_EVER:
+    elif way.control != DEFAULT_CLIP:
         pytest.skip("depth cannot run from 0 to 1 here")
     range_(*way.range)
     try:
@@ -97,7 +97,7 @@ def having(ctx: moderngl.Context, way: Way) -> Iterator[None]:
     finally:
         range_(0.0, 1.0)
         if limits_of(gl).clipped:
-            gl.glClipControl(*AS_EVER)
+            gl.glClipControl(*DEFAULT_CLIP)
 
 
 def seen(

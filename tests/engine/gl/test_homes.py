@@ -21,9 +21,9 @@ class Away:
 
 @pytest.fixture
 def left() -> Iterator[list[Any]]:
-    before, homes._left[:] = homes._left[:], []  # noqa: SLF001
-    yield homes._left  # noqa: SLF001
-    homes._left[:] = before  # noqa: SLF001
+    before, homes._pending[:] = homes._pending[:], []  # noqa: SLF001
+    yield homes._pending  # noqa: SLF001
+    homes._pending[:] = before  # noqa: SLF001
 
 
 def release(*away: Any) -> None:
