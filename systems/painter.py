@@ -261,7 +261,7 @@ class Painter(Holding):
 
     def _reach(self) -> float:
         """Return how far off grass stands that is drawn from far to near [m]."""
-        return max(each.reach for each in self.painters.values())
+        return max(each.farthest for each in self.painters.values())
 
     def _draw_grass(self, target: moderngl.Framebuffer, *, is_deep: bool) -> None:
         """Draw what stands on the land, the coarser representations first."""

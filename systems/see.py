@@ -41,7 +41,7 @@ def strips_kept(
     if not choosy:
         return kept
     free = outlook.patches.hold[rows] < 0  # what a game holds is not asked whether it would do
-    return np.where(free, np.minimum(kept, choosy[number].left(outlook, rows, away)), kept)
+    return np.where(free, np.minimum(kept, choosy[number].remaining(outlook, rows, away)), kept)
 
 
 @dataclass(slots=True)

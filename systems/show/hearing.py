@@ -1,4 +1,4 @@
-"""How the receivers of a representation hear the wind on the graphics card."""
+"""The pass that computes the wind at a representation's receivers on the graphics card."""
 
 from collections.abc import Callable, Iterator, Mapping
 
@@ -11,9 +11,10 @@ VERTEX = "engine/gl/fill.vert"
 
 
 class Hearing:
-    """A pass over receivers: the fragment shader says where each stands, the winds that blow say what it is told.
+    """A pass with one fragment for each receiver.
 
-    `tell` tells a program what else it has to know.
+    The representation's `fragment` shader places the receiver; the code of the winds that blow computes its message.
+    `tell` sets the program's other uniforms.
     """
 
     def __init__(
@@ -26,10 +27,10 @@ class Hearing:
         self._canvas, self._fragment, self._defines, self._tell = canvas, fragment, defines, tell
         self._array: moderngl.VertexArray | None = None
         self._runs: tuple[int, ...] = ()
-        """Those of the winds that it was made for."""
+        """The runs of the winds that the array was made for."""
 
     def array(self) -> moderngl.VertexArray:
-        """Return what the receivers are asked with, in the winds of now."""
+        """Return the vertex array that runs the pass in the winds that blow now."""
         canvas = self._canvas
         if self._array is not None and self._runs == canvas.air.runs:
             return self._array
@@ -44,12 +45,12 @@ class Hearing:
         return self._array
 
     def tell_again(self) -> None:
-        """Tell what it has to know, which is something else now."""
+        """Set the program's other uniforms anew, after their values have changed."""
         if self._array is not None:
             self._tell(self._array.program)
 
     def making(self) -> Iterator[None]:
-        """Make the programs for whatever winds will blow, one at a time."""
+        """Compile the programs for all orders of winds, one at a time."""
         for order in self._canvas.air.orders:
             with self._canvas.air.ordered(order):
                 self.array()
@@ -57,7 +58,7 @@ class Hearing:
         self.array()
 
     def release(self) -> None:
-        """Give everything back; the program is that of the winds."""
+        """Release the vertex array; the winds own its program."""
         if self._array is not None:
             self._array.release()
             self._array = None

@@ -1,4 +1,4 @@
-"""The representations that there are."""
+"""The list of all representations."""
 
 from ..around.appearance import Three
 from .blades.representation import BladeRepresentation
@@ -7,10 +7,10 @@ from .representation import Representation
 from .strips.representation import StripRepresentation
 
 REPRESENTATIONS: tuple[type[Representation], ...] = (BladeRepresentation, StripRepresentation, CarpetRepresentation)
-"""From the finest to the coarsest."""
+"""All representations, from the finest to the coarsest."""
 
 NAMES = tuple(each.name for each in REPRESENTATIONS)
-"""What they are called, in the same order."""
+"""Names of the representations, in the same order."""
 
 
 def _three() -> Three:
@@ -20,4 +20,5 @@ def _three() -> Three:
 
 
 THREE = _three()
-"""Those whose changes into one another are more than a fade."""
+"""Numbers of the three representations whose transitions are more than a cross-fade: blades morph into the second,
+which grows out of the third."""

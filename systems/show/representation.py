@@ -1,4 +1,4 @@
-"""What a representation of the grass is to everything that does not draw it itself."""
+"""The interfaces of a representation and of its painter."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
@@ -30,7 +30,7 @@ Color = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Seedling:
-    """What the pictures of one patch model are grown from: its blades, and what all its kind's models share."""
+    """The input of `Representation.grow`: the blades of one patch model, and what all models of the kind share."""
 
     blades: Blades
     postures: Postures
@@ -40,12 +40,12 @@ class Seedling:
     """Height of the kind's highest tip [m]."""
 
     margin: float
-    """How far the kind's blades lean over the patch's edge [m]."""
+    """Distance by which the kind's blades overhang the patch's edge [m]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Canvas:
-    """What a painter needs of the GL context that it draws in."""
+    """All that a painter shares with the other painters of its GL context."""
 
     ctx: moderngl.Context
     block: FrameBlock
@@ -53,106 +53,106 @@ class Canvas:
     """The texture unit of each sampler."""
 
     seed: int
-    """The scene's."""
+    """The scene's seed."""
 
     transitions: Transitions
-    """What carries a patch from one representation to another."""
+    """The means by which patches change their representation."""
 
     air: CardWinds
-    """The winds of the frame."""
+    """The frame's winds."""
 
     received: Received
-    """What they tell the receivers that are seen."""
+    """Messages of the wind at the receivers in the picture."""
 
     reach: tuple[int, ...]
     """Largest discrete distance of each representation."""
 
     representations: "tuple[Representation, ...]"
-    """All of them, for a painter that draws one on its way to another."""
+    """All representations, for a painter that draws the change of one into another."""
 
 
 class RepresentationPainter(Part, ABC):
-    """Everything that one GL context holds of a representation, and the drawing of it."""
+    """Holds a representation's textures and programs in one GL context, and draws it."""
 
     def texts(self) -> Iterator[Texts]:
-        """Return what the programs are made of that `making` would make."""
+        """Yield the shader texts of the programs that `making` would compile."""
         yield from ()
 
     def making(self) -> Iterator[None]:
-        """Make the programs that are not there yet, one at a time, as drivers take long over each."""
+        """Compile the missing programs one at a time, as drivers take long over each."""
         yield from ()
 
     def making_for_winds(self) -> Iterator[None]:
-        """Make the programs by which its receivers hear whatever winds will blow, one at a time."""
+        """Compile the programs of the receivers' pass for all orders of winds, one at a time."""
         yield from ()
 
     def fits(self, representation: Any, /) -> bool:
-        """Return whether its programs draw another stock of the representation too."""
+        """Return whether the programs can draw another representation's stock too."""
         raise NotImplementedError
 
     def staging(self, stocks: "Sequence[Any]", /) -> Iterator[None]:
-        """Bring another stock into GL beside its own, a piece at a time; `stocks` are all representations."""
+        """Upload a new stock beside the one in use, a piece at a time; `stocks` are all the new representations."""
         raise NotImplementedError
 
     def restock(self) -> None:
-        """Draw from now on what was staged."""
+        """Replace the stock in use by the staged one."""
         raise NotImplementedError
 
     @abstractmethod
     def receivers(self, outlook: Outlook, /) -> list[int]:
-        """Return how many of its receivers are to hear the wind, pool by pool."""
+        """Return the number of each pool's receivers that hear the wind in this frame."""
 
     @abstractmethod
     def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
-        """Send what a viewer is shown of it; return how many blades that is as geometry.
+        """Upload the patches that a viewer is shown; return the number of blades drawn as geometry.
 
-        `first` gives the numbers of the first receivers of each representation's pools, by its name.
+        `first` gives, by the representation's name, the number of the first receiver of each of its pools.
         """
 
     @abstractmethod
     def hear(self) -> int:
-        """Let its receivers hear the wind; return the number of draw calls."""
+        """Compute the messages of its receivers; return the number of draw calls."""
 
     def heard(self) -> Heard:
-        """Return what the patches around the viewer have heard, of the one that lies on the ground."""
+        """Return the messages at the patches around the viewer; only the representation on the ground has them."""
         raise NotImplementedError
 
     def draw_ground(self, *, alone: bool) -> int:  # noqa: ARG002 - for the one that lies on the ground
-        """Draw the bare ground, where it comes `alone` that of the grass too; return the number of draw calls."""
+        """Draw the bare ground, and with `alone` the ground under grass too; return the number of draw calls."""
         return 0
 
     @abstractmethod
     def draw(self, target: moderngl.Framebuffer, /) -> int:
-        """Draw what is blended over all that is coarser; return the number of draw calls.
+        """Blend the representation over all coarser ones; return the number of draw calls.
 
-        Depth is tested and blending is on; `target.depth_mask` is False before, and has to be so afterwards.
+        Depth test and blending are on. `target.depth_mask` is False, and must be False afterwards.
         """
 
     def draw_dense(self, target: moderngl.Framebuffer, /) -> int:
-        """Draw that of it which hides most of what is behind; return the number of draw calls."""
+        """Draw the part that hides most of what is behind; return the number of draw calls."""
         return self.draw(target)
 
     def draw_thin(self, target: moderngl.Framebuffer, /) -> int:
-        """Draw the rest, over soft edges of what stands behind; return the number of draw calls."""
+        """Draw the part that `draw_dense` leaves out, over soft edges behind it; return the number of draw calls."""
         del target
         return 0
 
     @property
-    def reach(self) -> float:
-        """How far off that stands which it draws from far to near, along the ground [m]; 0 where nothing does."""
+    def farthest(self) -> float:
+        """Distance along the ground of the farthest patch that is drawn in far-to-near order [m]; 0 for none."""
         return 0.0
 
-    def draw_beyond(self, off: float, /) -> int:
-        """Draw of that what is farther off [m], which `draw` leaves out then; return the number of draw calls."""
-        del off
+    def draw_beyond(self, distance: float, /) -> int:
+        """Draw the patches beyond a distance [m], which `draw` then leaves out; return the number of draw calls."""
+        del distance
         return 0
 
     def look_anew(self) -> int:
-        """Make out what depends on where the eye is, which has come elsewhere since; return the draw calls."""
+        """Compute again what depends on the eye's position, after it has moved; return the number of draw calls."""
         return 0
 
     def draw_deep(self) -> int:
-        """Write depth, and no colour, where what was drawn covers at least half a pixel; return the draw calls."""
+        """Write depth alone where coverage is at least one half; return the number of draw calls."""
         return 0
 
 
@@ -160,37 +160,37 @@ class RepresentationPainter(Part, ABC):
 class Representation(ABC):
     """One way in which the same grass is kept and drawn (paper, section 2.1).
 
-    `REPRESENTATIONS` lists them from the finest to the coarsest. What is asked of the class grows it; an object is made
-    from what was grown, and plants, shows and draws it. Everything here that is not abstract has an answer that will do
-    for one without pictures, sub-levels or receivers of its own.
+    `REPRESENTATIONS` lists them from the finest to the coarsest. The class grows pictures of patch models; an object
+    holds the grown stock, and plants, shows and draws it. The defaults are for a representation without pictures,
+    sub-levels or receivers of its own.
     """
 
     name: ClassVar[str]
-    """What scenes, games and the command line call it."""
+    """Name in scenes, in games and on the command line."""
 
     label: ClassVar[str]
-    """What people call it."""
+    """Name for people to read."""
 
     programs: ClassVar[int] = 0
-    """How many programs its painter makes one at a time."""
+    """Number of programs that its painter compiles one at a time."""
 
     color: ClassVar[Color]
-    """What the overlay shows it in: a display colour of [0, 1]."""
+    """Display colour in the overlay, in [0, 1]."""
 
     samplers: ClassVar[tuple[str, ...]] = ()
-    """The names of its own samplers that are read while drawing."""
+    """Names of its own samplers that drawing reads."""
 
     asked: ClassVar[tuple[str, ...]] = ()
-    """The names of those that are read before, by passes over receivers and blades."""
+    """Names of its own samplers that the passes before drawing read, over receivers and blades."""
 
     morphs_into: ClassVar[str | None] = None
-    """The name of the coarser one on which its blades have painted places that they move to (paper, section 4.2)."""
+    """Name of the coarser representation that its blades morph into (paper, section 4.2)."""
 
     grows_out_of: ClassVar[str | None] = None
-    """The name of the coarser one out of which it grows (paper, section 4.3)."""
+    """Name of the coarser representation that it grows out of (paper, section 4.3)."""
 
     record: ClassVar[type | None] = None
-    """The dataclass of arrays that its pictures are records of, as they are kept on disk."""
+    """Dataclass of arrays that one of its pictures is an object of, as kept on disk."""
 
     quality: Quality
     ground: Ground
@@ -198,26 +198,26 @@ class Representation(ABC):
     @staticmethod
     @abstractmethod
     def reach(quality: Quality, /) -> int:
-        """Return the largest discrete distance at which it is due."""
+        """Return the largest discrete distance at which patches are to have it."""
 
     @staticmethod
     def depends(kind: GrassKind, quality: Quality, /) -> object:  # noqa: ARG004 - for those with pictures
-        """Return what its pictures depend on beside the blades, as plain values."""
+        """Return the plain values that its pictures depend on, apart from the blades."""
         return None
 
     @staticmethod
     def grow(seedling: Seedling, /) -> tuple[Any, ...]:  # noqa: ARG004 - for those with pictures
-        """Return its pictures of a patch model, grown from the blades: records of its class."""
+        """Return the pictures of a patch model, grown from its blades: objects of the class `record`."""
         return ()
 
     @staticmethod
     def fits(pictures: tuple[Any, ...], quality: Quality, blades: int, /) -> bool:  # noqa: ARG004 - the same
-        """Return whether pictures that were read again have the shapes that they are due to have."""
+        """Return whether pictures read from disk have the right shapes for a quality and a number of blades."""
         return not pictures
 
     @staticmethod
     def layers(quality: Quality, /) -> int:  # noqa: ARG004 - the same
-        """Return how many layers of a texture its pictures of one patch model take."""
+        """Return the number of texture layers that the pictures of one patch model take."""
         return 0
 
     @classmethod
@@ -225,77 +225,78 @@ class Representation(ABC):
     def stocked(
         cls, growths: Sequence[Growth], quality: Quality, ground: Ground, coming: Mapping[int, Growth] = NOTHING, /
     ) -> Self:
-        """Return it with all that was grown of a scene's kinds, ready to be planted on a ground.
+        """Return the representation with the growths of a scene's kinds, ready to be planted on a ground.
 
-        `coming` gives what some kinds are to become, by their numbers.
+        `coming` gives the growths that kinds are changing into, by the kinds' numbers.
         """
 
     def on(self, ground: Ground, /) -> Self:
-        """Return it with the same grass, on another ground."""
+        """Return the same grass on another ground."""
         return replace(self, ground=ground)
 
     def defines(self, grown: Grown, /) -> Mapping[str, str | int]:  # noqa: ARG002 - for those with something special
-        """Return what all programs are told of what is special about a scene's kinds."""
+        """Return the shader defines that a scene's kinds need in all programs."""
         return {}
 
     def prepare(self) -> None:  # noqa: B027 - for those whose painters take long to make
-        """Make what the next painter of it takes long to make, without any GL: it may be called on another thread."""
+        """Compute ahead what takes the next painter long. It uses no GL, so another thread may call it."""
 
     def rings(self) -> int:
-        """Return how many rings of falling fineness it has around a viewer."""
+        """Return the number of its rings around a viewer."""
         return 1
 
     def ring(self, sublevel: Levels, /) -> Levels:
-        """Return the ring that each sub-level (n,) is of, shape (n,)."""
+        """Return the ring of each sub-level (n,), shape (n,)."""
         return sublevel
 
     def keep(self, patches: PatchTable, side: int, /) -> Kept:  # noqa: ARG002 - for those with receivers
-        """Return an empty store for what one viewer is shown of it, at most `side` by `side` of its patches."""
+        """Return an empty store for one viewer, with room for `side` by `side` patches."""
         return Kept()
 
     def margin(self) -> float:
-        """Return how far its receivers may stand outside of their patch [m]."""
+        """Return the largest distance of a receiver outside its patch [m]."""
         return 0.0
 
     def components(self, outlook: Outlook, rows: list[int], /) -> list[tuple[object, ...]]:  # noqa: ARG002 - for those with some
-        """Return what it gives the entity of each of some patches to carry."""
+        """Return the components that it adds to the entities of the patches in some rows."""
         return [()] * len(rows)
 
     def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:  # noqa: ARG002
-        """Return which sub-level is due on patches (n,) that have those of `held`, shape (n,).
+        """Return the sub-levels that patches (n,) are to have, shape (n,); `held` (n,) are their present ones.
 
-        One is kept for `slack` patches longer on the way to a coarser one than on the way back.
+        Hysteresis: the limit to a coarser sub-level lies `slack` patches farther out than the limit back.
         """
         return np.zeros(len(rows), np.int8)
 
     def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:  # noqa: ARG002 - the same
-        """Return which of these patches (n,) would give it away, as strips do from above: a coarser one is due there.
+        """Return on which patches (n,) it would look wrong, as strips do from above, so that they need a coarser one.
 
-        `has` (n,) tells which patches have it already. With a `slack` above 0 these keep it a little longer.
+        `has` (n,) says which patches have it already. With a `slack` above 0 they keep it a little longer.
         """
         return np.zeros(len(rows), np.bool_)
 
-    def left(self, outlook: Outlook, rows: Rows, away: NDArray[np.float32], /) -> NDArray[np.float32]:  # noqa: ARG002 - the same
-        """Return how much of it is left to be seen on patches (n,) where it comes near to being unfit, from 1 to 0.
+    def remaining(self, outlook: Outlook, rows: Rows, away: NDArray[np.float32], /) -> NDArray[np.float32]:  # noqa: ARG002 - the same
+        """Return the part of it that shows on patches (n,): it falls from 1 to 0 before they become `unfit`.
 
-        `away` is how far from the eye their middles are [patch sides]: what is left must not jump at a patch's border.
+        `away` (n,) is the exact distance of their middles from the eye [patch sides], so that the part changes without
+        jumps from patch to patch.
         """
         return np.ones(len(rows), np.float32)
 
     @abstractmethod
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> object:
-        """Return what of it a viewer is shown in this frame; `cover` (rows,) says how much it shows on each patch."""
+        """Return the patches that show it in a viewer's frame; `cover` (rows,) is its opacity on each patch."""
 
     def plant(self, outlook: Outlook, /) -> None:  # noqa: B027 - for those that stand on the ground
-        """Stand what is shown on the ground, where it does not stand yet."""
+        """Plant the shown patches that are not planted yet."""
 
     def carry_ahead(self, before: "Representation", kept: Kept, patches: PatchTable, /) -> bool:  # noqa: ARG002 - for those that take long
-        """Make ready for `carry`, in a frame before it; return whether that had been done."""
+        """Prepare for `carry` in an earlier frame; return whether that was already done."""
         return True
 
     def carry(self, before: "Representation", kept: Kept, patches: PatchTable, /) -> None:  # noqa: B027 - for those whose stores know their grass
-        """Let a store that was another's have this grass, where it stands as far as it has not been grown anew."""
+        """Take over a store from the representation `before`; grass that was not grown anew stays where it stands."""
 
     @abstractmethod
     def painter(self, canvas: Canvas, /) -> RepresentationPainter:
-        """Return a painter of it for a GL context."""
+        """Return a painter for a GL context."""

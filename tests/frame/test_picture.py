@@ -12,6 +12,7 @@ from tallgrass.systems.reference import carpet_painter, draw_truth
 from tallgrass.systems.show.blades.plant import standing_blades
 from tallgrass.systems.show.blades.pool import BladesKept
 from tallgrass.systems.show.blades.representation import BladeRepresentation
+from tallgrass.systems.show.strips.gather import Batch
 from tallgrass.systems.show.strips.painter import StripsPainter
 from tallgrass.systems.tile import patch_models
 
@@ -273,13 +274,13 @@ def test_t5_strips_look_the_same_in_many_draws_as_in_few(stage: Stage, load: Loa
     assert painter is not None
     strips = painter.painters["strips"]
     assert isinstance(strips, StripsPainter)
-    few = list(strips.runs)
-    strips.runs = [
-        (first + start, min(7, count - start), thin) for first, count, thin in few for start in range(0, count, 7)
+    few = list(strips.batches)
+    strips.batches = [
+        Batch(first + start, min(7, count - start), mode) for first, count, mode in few for start in range(0, count, 7)
     ]
     stage.target.clear(depth=1.0)
     painter.draw(view_of(*stage.matrices(aim)))
-    assert len(strips.runs) > 4 * len(few)
+    assert len(strips.batches) > 4 * len(few)
     np.testing.assert_array_equal(stage.read(), picture)
 
 

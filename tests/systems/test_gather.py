@@ -16,7 +16,7 @@ from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.show.blades.gather import gather_blades
 from tallgrass.systems.show.blades.pool import BladePool, BladesKept
 from tallgrass.systems.show.blades.shown import BladesShown, Standing
-from tallgrass.systems.show.strips.gather import MOST_DRAWS, STOOD, gather_strips, polygon_strips, runs
+from tallgrass.systems.show.strips.gather import MOST_DRAWS, PLACEMENT, batches, gather_strips, polygon_strips
 from tallgrass.systems.show.strips.pool import StripPool, StripsKept
 from tallgrass.systems.show.strips.shown import StripsOfRing, StripsShown
 from tallgrass.systems.site import Site
@@ -31,7 +31,7 @@ KINDS, FINENESS = 2, [(3, 2), (2, 1)]
 """Kinds of grass; strips and columns of each ring."""
 
 ROOM = 100
-"""Numbers that are set aside for the polygon strips of a patch."""
+"""Number of polygon strips set aside for a patch."""
 
 
 @pytest.fixture
@@ -59,8 +59,8 @@ def gathered(outlook: Outlook, *, first: int = 0) -> tuple[NDArray[np.void], NDA
         start += len(feet[-1])
     assert outlook.appearance is not None
     shown = [ring for _, ring in strips(outlook)]
-    stood = gather_strips(shown, receivers, outlook.appearance, outlook.patches, outlook.viewer.centre)
-    return stood, np.concatenate(feet)
+    placements = gather_strips(shown, receivers, outlook.appearance, outlook.patches, outlook.viewer.centre)
+    return placements, np.concatenate(feet)
 
 
 @dataclass
@@ -77,34 +77,34 @@ class Polygons:
     """Number of the receiver of its first edge; that of the second follows."""
 
 
-def polygons(numbers: NDArray[np.uint32], stood: NDArray[np.void], *, most: int = ROOM) -> Polygons:
+def polygons(numbers: NDArray[np.uint32], placements: NDArray[np.void], *, stride: int = ROOM) -> Polygons:
     """Take the numbers of polygon strips apart."""
-    patch, own = np.divmod(numbers.astype(np.int64), most)
-    stand = stood["stand"][patch].astype(np.int64)
-    strips, columns = np.array(FINENESS)[stand // 16].T
+    patch, own = np.divmod(numbers.astype(np.int64), stride)
+    code = placements["code"][patch].astype(np.int64)
+    strips, columns = np.array(FINENESS)[code // 16].T
     walked, column = np.divmod(own, columns)
     walked //= KINDS
-    stack = np.where(stand // 8 % 2 == 1, strips - 1 - walked, walked)
+    stack = np.where(code // 8 % 2 == 1, strips - 1 - walked, walked)
     kind = (own // columns + stack) % KINDS
-    first = stood["receiver"][patch].astype(np.int64)
+    first = placements["receiver"][patch].astype(np.int64)
     return Polygons(patch, kind, stack, column, first + (kind * strips + stack) * (columns + 1) + column)
 
 
 def drawn(outlook: Outlook) -> tuple[Polygons, NDArray[np.void], NDArray[np.float32]]:
     """All polygon strips in the order in which they are drawn, the patches that they are on, and all edges' feet."""
-    rings, (stood, feet) = strips(outlook), gathered(outlook)
+    rings, (placements, feet) = strips(outlook), gathered(outlook)
     patch = np.argsort(np.concatenate([ring.queue for _, ring in rings]))
     present = np.concatenate([pool.present[ring.slots] for pool, ring in rings])[patch]
-    numbers, amount = polygon_strips(stood, patch, present, FINENESS, most=ROOM)
-    found = polygons(numbers, stood)
+    numbers, amount = polygon_strips(placements, patch, present, FINENESS, stride=ROOM)
+    found = polygons(numbers, placements)
     np.testing.assert_array_equal(found.patch, np.repeat(patch, amount))
-    return found, stood, feet
+    return found, placements, feet
 
 
 def test_t5_along_any_ray_from_the_eye_strips_are_drawn_from_far_to_near(outlook: Outlook) -> None:
-    found, stood, feet = drawn(outlook)
+    found, placements, feet = drawn(outlook)
     a, b = feet[found.edge].astype(float) - EYE, feet[found.edge + 1].astype(float) - EYE
-    cell = stood["cell"][found.patch]
+    cell = placements["cell"][found.patch]
     for azimuth in np.linspace(0.0, 2 * np.pi, 97)[:-1] + 0.013:
         ray, beside = np.array([np.cos(azimuth), np.sin(azimuth)]), np.array([-np.sin(azimuth), np.cos(azimuth)])
         side_a, side_b = a @ beside, b @ beside
@@ -118,22 +118,22 @@ def test_t5_along_any_ray_from_the_eye_strips_are_drawn_from_far_to_near(outlook
 
 @given(st.lists(st.integers(0, 2), max_size=30), st.data())
 def test_t5_patches_that_follow_one_another_are_one_draw_and_all_are_where_that_would_be_many(
-    ranked: list[int], data: st.DataObject
+    needed: list[int], data: st.DataObject
 ) -> None:
-    amount = np.array(data.draw(st.lists(st.integers(0, 5), min_size=len(ranked), max_size=len(ranked))), np.int64)
-    draws = runs(np.array(ranked, np.int8), amount)
+    amount = np.array(data.draw(st.lists(st.integers(0, 5), min_size=len(needed), max_size=len(needed))), np.int64)
+    draws = batches(np.array(needed, np.int8), amount)
     assert len(draws) <= MOST_DRAWS
     drawn = [strip for first, count, _ in draws for strip in range(first, first + count)]
     assert drawn == list(range(int(amount.sum())))
     if len(draws) > 1:
         assert all(one[2] != two[2] for one, two in pairwise(draws))
-    ways = np.concatenate([np.zeros(0, np.int64), *(np.full(count, thin) for _, count, thin in draws)])
-    assert (ways >= np.repeat(np.array(ranked, np.int64), amount)).all()
+    modes = np.concatenate([np.zeros(0, np.int64), *(np.full(count, mode) for _, count, mode in draws)])
+    assert (modes >= np.repeat(np.array(needed, np.int64), amount)).all()
 
 
 def test_where_draws_are_too_many_the_longest_stretches_are_drawn_in_their_own_way() -> None:
-    ranked = np.array([1] * 30 + [2, 0] * 10 + [0] * 20 + [2, 0] * 10 + [0] * 5, np.int8)
-    draws = runs(ranked, np.full(len(ranked), 3, np.int64))
+    needed = np.array([1] * 30 + [2, 0] * 10 + [0] * 20 + [2, 0] * 10 + [0] * 5, np.int8)
+    draws = batches(needed, np.full(len(needed), 3, np.int64))
     assert draws == [(0, 90, 1), (90, 57, 2), (147, 63, 0), (210, 57, 2), (267, 18, 0)]
 
 
@@ -145,12 +145,12 @@ def test_t5_all_strips_of_the_kinds_that_grow_stand_once_in_the_order_of_their_p
     on: list[tuple[int, bool, bool, bool]], data: st.DataObject
 ) -> None:
     """Whatever ring a patch is in, wherever it lies, whatever grows on it: from its far side to its near one."""
-    stood = np.zeros(len(on), STOOD)
-    stood["stand"] = [8 * ahead + 16 * ring for ring, ahead, *_ in on]
+    placements = np.zeros(len(on), PLACEMENT)
+    placements["code"] = [8 * ahead + 16 * ring for ring, ahead, *_ in on]
     order = data.draw(st.permutations(range(len(on))))
     present = np.array([on[patch][2:] for patch in order], np.bool_).reshape(len(on), KINDS)
-    numbers, amount = polygon_strips(stood, np.array(order, np.int64), present, FINENESS, most=ROOM)
-    found = polygons(numbers, stood)
+    numbers, amount = polygon_strips(placements, np.array(order, np.int64), present, FINENESS, stride=ROOM)
+    found = polygons(numbers, placements)
     assert found.patch.tolist() == [patch for patch, count in zip(order, amount, strict=True) for _ in range(count)]
     for patch, grows in zip(order, present, strict=True):
         ring, ahead, *_ = on[patch]
@@ -175,18 +175,18 @@ def test_g3_neighbouring_polygons_of_a_strip_follow_one_another_and_share_their_
 
 def test_g1_strips_are_told_the_model_and_the_turn_of_their_patch_and_how_they_run(outlook: Outlook) -> None:
     patches, centre = outlook.patches, outlook.viewer.centre
-    stood, _ = gathered(outlook)
+    placements, _ = gathered(outlook)
     rings = [ring for _, ring in strips(outlook)]
     rows, along = (np.concatenate([getattr(ring, name) for ring in rings]) for name in ("rows", "along"))
-    stand = stood["stand"].astype(int)
-    np.testing.assert_array_equal(stood["cell"], patches.cell[rows])
-    np.testing.assert_array_equal(stood["model"], patches.model[rows])
-    np.testing.assert_array_equal(stand % 4, patches.turn[rows])
-    np.testing.assert_array_equal(stand // 4 % 2, along)
+    code = placements["code"].astype(int)
+    np.testing.assert_array_equal(placements["cell"], patches.cell[rows])
+    np.testing.assert_array_equal(placements["model"], patches.model[rows])
+    np.testing.assert_array_equal(code % 4, patches.turn[rows])
+    np.testing.assert_array_equal(code // 4 % 2, along)
     away = np.where(along == 0, *(patches.cell[rows] - centre).T[::-1])
-    np.testing.assert_array_equal(stand // 8 % 2, away > 0)
-    np.testing.assert_array_equal(stand // 16, np.repeat([0, 1], [len(ring.rows) for ring in rings]))
-    assert set((stand % 16).tolist()) == set(range(16)), "all ways to stand"
+    np.testing.assert_array_equal(code // 8 % 2, away > 0)
+    np.testing.assert_array_equal(code // 16, np.repeat([0, 1], [len(ring.rows) for ring in rings]))
+    assert set((code % 16).tolist()) == set(range(16)), "all combinations"
 
 
 def test_w1_the_receivers_of_patches_follow_one_another_from_the_first_of_their_ring(outlook: Outlook) -> None:

@@ -113,10 +113,10 @@ def test_g3_a_long_lens_shows_rows_of_strips_only_where_blades_look_as_thin(laid
     outlook, strips = look(site, 0.6, 0.6), site.representations[1]
     rows = np.flatnonzero(outlook.patches.alive & (outlook.patches.distance > APART))
     away, none = outlook.patches.away[rows].astype(np.float32), np.zeros(len(rows), np.bool_)
-    usual, rowed = strips.left(outlook, rows, away), strips.unfit(outlook, rows, none, slack=0)
+    usual, rowed = strips.remaining(outlook, rows, away), strips.unfit(outlook, rows, none, slack=0)
     outlook.lens.zoom = 3.0
-    np.testing.assert_array_equal(strips.left(outlook, rows, 3.0 * away), usual)
-    assert strips.left(outlook, rows, away).mean() > usual.mean() + 0.1
+    np.testing.assert_array_equal(strips.remaining(outlook, rows, 3.0 * away), usual)
+    assert strips.remaining(outlook, rows, away).mean() > usual.mean() + 0.1
     assert strips.unfit(outlook, rows, none, slack=0).sum() < 0.5 * rowed.sum()
 
 

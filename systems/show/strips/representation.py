@@ -51,8 +51,8 @@ class StripRepresentation(Representation):
     programs = 9
     color: ClassVar[Color] = (0.12, 0.50, 0.98)
     grows_out_of: ClassVar[str | None] = "carpet"
-    samplers: ClassVar[tuple[str, ...]] = ("atlas", "ranks", "extents", "strips", "stood")
-    asked: ClassVar[tuple[str, ...]] = ("stood",)
+    samplers: ClassVar[tuple[str, ...]] = ("atlas", "ranks", "extents", "strips", "placements")
+    asked: ClassVar[tuple[str, ...]] = ("placements",)
     record: ClassVar[type | None] = Strips
 
     stock: StripStock
@@ -159,7 +159,7 @@ class StripRepresentation(Representation):
         slope, height, spacing = self._seen(outlook, rows, away)
         return shows_rows(slope, away, has, height=height, spacing=spacing, slack=slack)
 
-    def left(self, outlook: Outlook, rows: Rows, away: Floats, /) -> Floats:
+    def remaining(self, outlook: Outlook, rows: Rows, away: Floats, /) -> Floats:
         """Return how much of strips is left on patches (n,): they sink where they come near to being unfit."""
         away = away / np.float32(outlook.lens.factor)
         slope, height, spacing = self._seen(outlook, rows, away)

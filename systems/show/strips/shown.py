@@ -1,4 +1,4 @@
-"""Which patches have strips in a frame, in which ring, and with which of their blades."""
+"""The patches that show strips in a frame, by ring, and the ranks of the blades that show on them."""
 
 from dataclasses import dataclass
 
@@ -14,10 +14,10 @@ from .sublevel import axis_of, ring_of
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StripsOfRing:
-    """The patches with strips of one ring, far to near.
+    """The patches that show strips of one ring, far to near.
 
-    A patch whose strips are on their way to another sub-level is there twice: with the blades that have gone over, and
-    with those that have not.
+    A patch that is changing its sub-level has two entries: one with the blades that have changed already, and one with
+    the others.
     """
 
     rows: Rows
@@ -26,39 +26,38 @@ class StripsOfRing:
     slots: Rows
     """Slots of the ring's pool, shape (m,)."""
 
-    fade: Floats
-    """How much of each shows, in [0, 1], shape (m,)."""
+    cover: Floats
+    """Opacity of each patch's strips, in [0, 1], shape (m,)."""
 
     along: Ints
     """Axis along which each patch's strips run, shape (m,)."""
 
     queue: Rows
-    """Place of each in the far-to-near order of all rings' patches, shape (m,)."""
+    """Place of each entry in the far-to-near order of all rings, shape (m,)."""
 
     least: Floats
-    """Rank from which on blades are painted on each one's strips, shape (m,)."""
+    """Lowest rank of the blades that show, shape (m,)."""
 
     most: Floats
-    """Rank up to which they are, shape (m,)."""
+    """Upper limit of the ranks that show, shape (m,)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StripsShown:
-    """All patches with strips in a frame."""
+    """All patches that show strips in a frame, or blades on their way to strips."""
 
     rings: list[StripsOfRing]
-    """By ring, those with strips, or with blades on their way to them."""
 
 
 def show_strips(outlook: Outlook, cover: Floats, /, *, level: int, side: int, rings: int) -> StripsShown:
-    """Return the patches with strips that a viewer is shown, where `cover` (rows,) says how much they cover.
+    """Return the patches that show strips to a viewer; `cover` (rows,) is the opacity of the strips on each patch.
 
-    `level` is the number of the representation, `side` that of patches along a side of each ring's pool.
+    `level` is the number of the representation, `side` the number of patches along a side of each ring's pool.
     """
     patches, appears = outlook.patches, outlook.appearance
     assert appears is not None
     reached = (appears.handed > 0.0) | (appears.morph > 0.0)
-    # Farther out than there is room for strips, patches have no sub-level.
+    # Beyond the room of the strips' pools, patches have no sub-level.
     seen = (patches.shown & (cover > 0.0) & reached & (patches.sublevel[level] >= 0)).nonzero()[0]
     entries = _entries(patches, patches.far_to_near(seen), level)
     cell = patches.cell.take(entries.rows, axis=0)
@@ -68,7 +67,7 @@ def show_strips(outlook: Outlook, cover: Floats, /, *, level: int, side: int, ri
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Entries:
-    """Patches with strips, each once for every sub-level that it shows, all of shape (m,)."""
+    """Patches that show strips, an entry for every sub-level that a patch shows, all of shape (m,)."""
 
     rows: Rows
     ring: NDArray[np.int64]
@@ -84,23 +83,24 @@ def _entries(patches: PatchTable, rows: Rows, level: int) -> _Entries:
     if not changing.any():
         whole = np.ones(len(rows), np.float32)
         return _Entries(rows, ring_of(now), axis_of(now), least=0.0 * whole, most=whole)
-    # Neighbours that change alike are drawn together, or each would take two draws of its own.
-    kind = np.where(changing, 256 * (before.astype(np.int64) + 1) + now + 1, 0)
-    alike = np.concatenate([[0], np.cumsum(kind[1:] != kind[:-1])])
+    # Neighbours with the same change are drawn together: their old entries, then their new ones. Otherwise each patch
+    # would take two draw calls.
+    change = np.where(changing, 256 * (before.astype(np.int64) + 1) + now + 1, 0)
+    group = np.concatenate([[0], np.cumsum(change[1:] != change[:-1])])
     index = np.concatenate([np.arange(len(rows)), np.flatnonzero(changing)])
-    old = np.arange(len(index)) >= len(rows)
-    queue = np.argsort(2 * alike[index] + ~old, kind="stable")
-    index, old = index[queue], old[queue]
-    sublevel, other = (np.where(old, a[index], b[index]) for a, b in ((before, now), (now, before)))
-    # The lower number shows the lower ranks: so a change that is reversed half-way goes back the way it came.
+    is_old = np.arange(len(index)) >= len(rows)
+    queue = np.argsort(2 * group[index] + ~is_old, kind="stable")
+    index, is_old = index[queue], is_old[queue]
+    sublevel, other = (np.where(is_old, a[index], b[index]) for a, b in ((before, now), (now, before)))
+    # The lower sub-level shows the lower ranks: a change that is reversed half-way goes back the way it came.
     progress, lower, higher = progress[index], sublevel < other, sublevel > other
-    parted = np.where(lower == old, np.float32(1.0) - progress, progress)
+    limit = np.where(lower == is_old, np.float32(1.0) - progress, progress)
     return _Entries(
         rows=rows[index],
         ring=ring_of(sublevel),
         along=axis_of(sublevel),
-        least=np.where(higher & changing[index], parted, np.float32(0.0)),
-        most=np.where(lower & changing[index], parted, np.float32(1.0)),
+        least=np.where(higher & changing[index], limit, np.float32(0.0)),
+        most=np.where(lower & changing[index], limit, np.float32(1.0)),
     )
 
 

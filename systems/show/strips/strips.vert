@@ -14,9 +14,9 @@ uniform sampler2D extents;  // by column and picture: where paint begins and end
                             // in the last one where the picture begins on its page, across and up, and how far it reaches
 uniform int first;
 uniform vec2 page_size;     // texels across and up, of each page
-uniform int most;           // numbers of polygon strips that are set aside for a patch
+uniform int stride;         // number of polygon strips set aside for a patch
 
-uniform int turns;          // strips that may stand in one place
+uniform int strips_per_plane;
 uniform vec2 sizes[FORMS];  // by form: how far strips reach beyond their patch [m], and how high they are
 uniform int pictures[RINGS * FORMS];     // by ring and form: its first picture
 uniform ivec4 stacks[RINGS];             // by ring: columns of a strip, sections of a column, strips of a kind on a patch
@@ -40,7 +40,7 @@ const float NEAREST = 0.1;  // distance from the eye that counts at least, for h
 
 // A column of a strip: which it is, and where it stands.
 struct Column {
-    Stood stood;   // its patch
+    Placement placement;  // of its patch
     int form, kind, ring, turn, own;
     int number;    // in its strip
     int plane;     // the strip's, of the patch's model
@@ -60,29 +60,29 @@ struct Edge {
 
 Column column_of(int number) {
     Column column;
-    column.stood = stood_of(number / most);
-    int stand = int(column.stood.stand), along = stand / RUNS_ALONG % 2;
-    bool is_ahead = stand / LIES_AHEAD % 2 == 1;
-    column.turn = stand % 4;
-    column.ring = stand / OF_RING;
+    column.placement = placement_of(number / stride);
+    int code = int(column.placement.code), along = code / RUNS_ALONG % 2;
+    bool is_ahead = code / LIES_AHEAD % 2 == 1;
+    column.turn = code % 4;
+    column.ring = code / OF_RING;
     column.own = (along + column.turn) % 2;
     ivec4 fine = stacks[column.ring];
-    int own_number = number % most, walked = own_number / fine.x / turns, count = fine.z;
+    int on_patch = number % stride, walked = on_patch / fine.x / strips_per_plane, count = fine.z;
     int stack = is_ahead ? count - 1 - walked : walked;
-    column.number = own_number % fine.x;
+    column.number = on_patch % fine.x;
     // Strips of several kinds share a plane: each kind comes to lie in front as often as behind.
-    column.form = (own_number / fine.x + stack) % turns;
+    column.form = (on_patch / fine.x + stack) % strips_per_plane;
     column.kind = column.form % KINDS;
     column.plane = stacked(stack, count, column.own, along, column.turn);
-    column.receiver = int(column.stood.receiver) + (column.kind * count + stack) * (fine.x + 1) + column.number;
+    column.receiver = int(column.placement.receiver) + (column.kind * count + stack) * (fine.x + 1) + column.number;
     int first_one = pictures[column.ring * FORMS + column.form];
-    column.picture = first_one + (int(column.stood.model) * 2 + column.own) * count + column.plane;
+    column.picture = first_one + (int(column.placement.model) * 2 + column.own) * count + column.plane;
     return column;
 }
 
 vec2 foot_of(Column column, int side) {
     ivec4 fine = stacks[column.ring];
-    return edge_foot(column.stood.cell, column.turn, column.own, column.plane, fine.z, column.number + side, fine.x,
+    return edge_foot(column.placement.cell, column.turn, column.own, column.plane, fine.z, column.number + side, fine.x,
                      sizes[column.form].x);
 }
 
@@ -90,7 +90,7 @@ vec2 foot_of(Column column, int side) {
 Edge edge_of(Column column, int side, vec2 at, vec2 way) {
     vec4 told = received_by(column.receiver + side);
     int count = stacks[column.ring].z;
-    float height = sizes[column.form].y * column.stood.growth;
+    float height = sizes[column.form].y * column.placement.growth;
     Edge edge;
     edge.rooted = vec3(at.x, told.z, at.y);
     edge.foot = put_nearer(edge.rooted, way, count);
@@ -127,7 +127,7 @@ vec4 on_edge(Column column, Edge edge, float t, float sections) {
     float low = min(floor(t * sections), sections - 1.0), variant = float(column.form) * posture_variants;
     vec3 from = posture(variant, edge.bend, low / sections).place, to = posture(variant, edge.bend, (low + 1.0) / sections).place;
     vec3 spine = mix(from, to, t * sections - low) * sizes[column.form].y;
-    vec3 there = edge.foot + spine * column.stood.growth + t * vec3(edge.back.x, 0.0, edge.back.y);
+    vec3 there = edge.foot + spine * column.placement.growth + t * vec3(edge.back.x, 0.0, edge.back.y);
     return vec4(there, spine.y / (OF(crown, column.kind) * lodged(edge.bend)));
 }
 
@@ -146,7 +146,7 @@ float hidden_of(Column column, Edge edge) {
 #if defined(DEEP) || defined(EDGED)
     return 0.0;
 #else
-    float tall = sizes[column.form].y * column.stood.growth;
+    float tall = sizes[column.form].y * column.placement.growth;
     return hidden_to(edge.rooted, tall, lodged(edge.bend)) / max(tall, LOWEST_CROWN);
 #endif
 }
@@ -254,7 +254,7 @@ void thin(Column column, vec2 dense, float at, float texels) {
     roots.w = mix(dense.x, dense.y, at);
 #endif
     // The span must reach from below all ranks to above them, softness included.
-    float below = column.stood.ranks, span = max(soft, UNHURRIED), edge = mix(-0.5 * span, 1.0 + 0.5 * span, abs(below));
+    float below = column.placement.rank_limit, span = max(soft, UNHURRIED), edge = mix(-0.5 * span, 1.0 + 0.5 * span, abs(below));
     vec2 stays = vec2(-1.0, edge) / span + vec2(0.0, 0.5);
     if (below < 0.0)
         stays = vec2(0.0, 1.0) - stays;
@@ -316,7 +316,7 @@ void main() {
 #endif
     lit = bundled(light, vec3(extent.w, level, boosts));
     dye(column, run, middle, top, 1.0 - lodged(bend), lies.slow, grows);
-    foot.a = column.stood.fade;
+    foot.a = column.placement.cover;
 #ifdef DEEP
     number = number_at(rooted.xz);
 #endif

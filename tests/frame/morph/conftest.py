@@ -170,12 +170,17 @@ class Scene:
         counts = {name: each.receivers(outlook) for name, each in self.painter.painters.items()}
         first = self.painter.received.lay([count for each in counts.values() for count in each])[1:]
         numbered = [(start, int(np.prod(pool.shape))) for start, pool in zip(first, pools, strict=False)]
-        stood = gather_strips(rings, numbered, appears, outlook.patches, outlook.viewer.centre)
-        fineness, present = [(ring.strips, ring.columns) for ring in strips.rings], np.ones((len(stood), 2), np.bool_)
-        numbers, amount = polygon_strips(stood, np.arange(len(stood)), present, fineness, most=strips.most)
-        strips.write(stood)
+        placements = gather_strips(rings, numbered, appears, outlook.patches, outlook.viewer.centre)
+        fineness, present = (
+            [(ring.strips, ring.columns) for ring in strips.rings],
+            np.ones((len(placements), 2), np.bool_),
+        )
+        numbers, amount = polygon_strips(
+            placements, np.arange(len(placements)), present, fineness, stride=strips.stride
+        )
+        strips.write(placements)
         strips.write_strips(numbers)
-        strips.shelves.now.stood.texture.use(UNITS["stood"])
+        strips.shelves.now.placements.texture.use(UNITS["placements"])
         strips.shelves.now.strips.texture.use(UNITS["strips"])
         everywhere = np.frombuffer(strips.extents.read(), np.float32).reshape(*strips.extents.size[::-1], 4).copy()
         everywhere[:, :-1, :3] = 0, 1, 1  # but for what pictures are like
@@ -190,7 +195,7 @@ class Scene:
         return Drawn(
             row=np.repeat(np.concatenate([each.rows for each in rings]), amount),
             ring=np.repeat(ring, amount),
-            column=numbers % strips.most % np.repeat(np.array(fineness)[ring, 1], amount),
+            column=numbers % strips.stride % np.repeat(np.array(fineness)[ring, 1], amount),
             picture=data[:, 0, 16].astype(np.int64),
             clip=data[..., :4],
         )

@@ -17,7 +17,7 @@ from tallgrass.systems.frame.block import BODY, FRAME, KIND, FrameBlock, aim, by
 from tallgrass.systems.show.blades.draw import MESSAGE, BladePainter
 from tallgrass.systems.show.blades.pool import BLADE, ORGAN
 from tallgrass.systems.show.blades.store import STANDING
-from tallgrass.systems.show.strips.gather import STOOD
+from tallgrass.systems.show.strips.gather import PLACEMENT
 from tallgrass.systems.site import Site
 
 Laid = Callable[..., Site]
@@ -180,7 +180,7 @@ def test_every_field_of_a_blade_is_an_attribute_of_its_shader(
 
 @pytest.mark.parametrize(
     ("record", "texels"),
-    [(BLADE, 3), (ORGAN, 4), (STANDING, 3), (STOOD, 2)],
+    [(BLADE, 3), (ORGAN, 4), (STANDING, 3), (PLACEMENT, 2)],
     ids=["blade", "organ", "blades", "strips"],
 )
 def test_a_record_of_the_stores_is_as_many_texels_as_its_shaders_read(record: np.dtype[np.void], texels: int) -> None:
