@@ -14,7 +14,7 @@ class Hearing:
     """A pass with one fragment for each receiver.
 
     The representation's `fragment` shader places the receiver; the code of the winds that blow computes its message.
-    `tell` sets the program's other uniforms.
+    `set_uniforms` sets the program's other uniforms.
     """
 
     def __init__(
@@ -22,12 +22,12 @@ class Hearing:
         canvas: Canvas,
         fragment: str,
         defines: Mapping[str, str | int],
-        tell: Callable[[moderngl.Program], None],
+        set_uniforms: Callable[[moderngl.Program], None],
     ) -> None:
-        self._canvas, self._fragment, self._defines, self._tell = canvas, fragment, defines, tell
+        self._canvas, self._fragment, self._defines, self._set_uniforms = canvas, fragment, defines, set_uniforms
         self._array: moderngl.VertexArray | None = None
         self._runs: tuple[int, ...] = ()
-        """The runs of the winds that the array was made for."""
+        """The runs of the winds that the array was program for."""
 
     def array(self) -> moderngl.VertexArray:
         """Return the vertex array that runs the pass in the winds that blow now."""
@@ -35,19 +35,19 @@ class Hearing:
         if self._array is not None and self._runs == canvas.air.runs:
             return self._array
         self._runs = canvas.air.runs
-        made = canvas.air.program(VERTEX, self._fragment, defines={**canvas.block.defines, **self._defines})
-        if self._array is None or self._array.program is not made:
+        program = canvas.air.program(VERTEX, self._fragment, defines={**canvas.block.defines, **self._defines})
+        if self._array is None or self._array.program is not program:
             self.release()
             for name, unit in canvas.units.items():
-                set_uniform(made, name, unit)
-            self._tell(made)
-            self._array = canvas.ctx.vertex_array(made, [])
+                set_uniform(program, name, unit)
+            self._set_uniforms(program)
+            self._array = canvas.ctx.vertex_array(program, [])
         return self._array
 
-    def tell_again(self) -> None:
+    def update_uniforms(self) -> None:
         """Set the program's other uniforms anew, after their values have changed."""
         if self._array is not None:
-            self._tell(self._array.program)
+            self._set_uniforms(self._array.program)
 
     def making(self) -> Iterator[None]:
         """Compile the programs for all orders of winds, one at a time."""

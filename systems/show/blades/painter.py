@@ -21,7 +21,7 @@ from ...frame.block import room_for
 from ...space.grown import Grown
 from ..hearing import Hearing
 from ..representation import Canvas, RepresentationPainter
-from ..strips.draw import tell_sizes, tell_stacks
+from ..strips.draw import set_sizes, set_stacks
 from ..strips.pool import StripsKept
 from ..strips.representation import StripRepresentation
 from ..strips.shown import StripsShown
@@ -136,8 +136,8 @@ class BladesPainter(RepresentationPainter):
         """Set a program's uniforms about blades and strips."""
         for name, value in (("near", self._near), ("models", self._models), ("each", self.store.count)):
             set_uniform(program, name, value)
-        tell_sizes(program, self._strips.stock.forms)
-        tell_stacks(program, self._strips.quality.strip_rings)
+        set_sizes(program, self._strips.stock.forms)
+        set_stacks(program, self._strips.quality.strip_rings)
 
     def texts(self) -> Iterator[Texts]:
         """Return the sources of the ribbons' programs that are not made yet."""
@@ -169,7 +169,7 @@ class BladesPainter(RepresentationPainter):
         assert self._staged is not None
         self.store.release()
         (self._stock, self._strips, self.store), self._staged = self._staged, None
-        self.hearing.tell_again()
+        self.hearing.update_uniforms()
         self.morph.tell_again()
         for program in self.passes:
             self._tell(program)

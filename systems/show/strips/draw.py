@@ -145,7 +145,7 @@ class StripPainter:
         assert self._staged is not None
         self._uploaded.release()
         self._uploaded, self._staged = self._staged, None
-        self.hearing.tell_again()
+        self.hearing.update_uniforms()
         self._outdated = {*self._arrays}
 
     def array(self, number: int, *, deep: bool = False) -> moderngl.VertexArray:
@@ -164,8 +164,8 @@ class StripPainter:
     def _set_uniforms(self, program: moderngl.Program) -> None:
         """Set the uniforms that depend on the strips in use."""
         uploaded = self._uploaded
-        tell_stacks(program, self.rings)
-        tell_sizes(program, uploaded.forms)
+        set_stacks(program, self.rings)
+        set_sizes(program, uploaded.forms)
         set_uniform_array(program, "pictures", uploaded.pictures)
         set_uniform(program, "stride", self.stride)
         set_uniform(program, "strips_per_plane", uploaded.strips_per_plane)
@@ -288,13 +288,13 @@ def _uploading(
     return _Uploaded(forms, rings, texels, ranks, extent_texture(ctx, atlas.extents))
 
 
-def tell_stacks(program: moderngl.Program, rings: Sequence[StripRing], /) -> None:
+def set_stacks(program: moderngl.Program, rings: Sequence[StripRing], /) -> None:
     """Set the uniform `stacks` to each ring's number of columns, sections and strips."""
     stacks = [(ring.columns, ring.sections, ring.strips, 0) for ring in rings]
     set_uniform_array(program, "stacks", filled(stacks, room_for(len(rings))))
 
 
-def tell_sizes(program: moderngl.Program, forms: Sequence[Form], /) -> None:
+def set_sizes(program: moderngl.Program, forms: Sequence[Form], /) -> None:
     """Set the uniform `sizes`, if the program has it, to the margin and the height of each form's strips [m]."""
     sizes = [(0.0, 1.0)] * (2 * sum(form.number == form.kind for form in forms))
     for form in forms:
