@@ -24,7 +24,7 @@ from .space.ground import Ground
 from .space.window import cell_of
 from .tile import cells_on, patch_models
 from .trees.draw import TreePart
-from .trees.standing import GONE
+from .trees.standing import PICTURE_BELOW
 from .wind.blow import places_alone
 from .wind.grass import grass_of
 
@@ -152,11 +152,11 @@ class EveryBlade:
         cells = cells[self.prairie.clearings.spare(cells)]
         carpet_painter(self.painter).lay(self.outlook, cover)
         trees = self.painter.part(TreePart)
-        trees.leaves_from, trees.leaves_seen_at = leaves_from, seen_at
+        trees.leaves_from, trees.detail_eyes = leaves_from, seen_at
         try:
             self.painter.draw(view, blades=self._chunks(cells, view))
         finally:
-            trees.leaves_from, trees.leaves_seen_at = None, ()
+            trees.leaves_from, trees.detail_eyes = None, ()
 
     def _chunks(self, cells: Ints, seen: View) -> Iterator[BladePainter]:
         for start in range(0, len(cells), CHUNK):
@@ -255,7 +255,7 @@ def draw_truth(
         target.clear(depth=1.0)
         site = prairie.site
         cells = cells_within(site.ground, every.outlook.viewer.eye, view_cone(seen), sway=site.sway)
-        leaves_from = 0.0 if reach is None else samples * GONE
+        leaves_from = 0.0 if reach is None else samples * PICTURE_BELOW
         cells = cells_in_picture(prairie, cells, seen)
         every.draw(seen, cells, reach=reach, leaves_from=leaves_from, seen_at=seen_at)
         return box_filtered(target, size, samples)

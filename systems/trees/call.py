@@ -1,4 +1,4 @@
-"""Draw calls of trees: what each is told and reads is remembered, and which there are follows from what is chosen."""
+"""Draw calls of trees: the state of each stream is kept, and the batches of a frame say which are drawn."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -6,109 +6,109 @@ from typing import NamedTuple
 import moderngl
 
 from ...engine.gl.shaders import PackedUniforms, pack, pack_array, set_packed, set_used_uniforms
-from .card import BACKS, CARDS, FAR, IN_ROWS, LEAVES, NEAR, QUAD, WOOD, ModelOnCard, Numbers
-from .choice import Lot
-from .kind import KindOnCard, Read
+from .choice import Batch
+from .kind import Binding, GpuKind
 from .outline import Around
 from .programs import SAMPLED, SOFT, Programs
+from .stream import BACKS, CARDS, FAR, IN_ROWS, LEAVES, NEAR, QUAD, WOOD, GpuModel, Numbers
 from .wood import CLOSED, OPAQUE, SOLID
 
 
 class Pass(NamedTuple):
-    """How trees are drawn."""
+    """One of the passes that draw trees."""
 
     edges: str
-    """Which way pixels are drawn that are covered in part."""
+    """How pixels covered in part are drawn: `HARD` or `SOFT`."""
 
     casts: bool = False
-    """Whether into a shadow map."""
+    """Whether it draws into a shadow map."""
 
     sampled: bool = False
-    """Whether as a reference has them."""
+    """Whether it draws each sample of a pixel, for a reference."""
 
     in_rows: bool = False
-    """Whether some stand for rows of trees."""
+    """Whether some trees stand for rows of trees."""
 
 
-class Call(NamedTuple):
-    """How trees of a stream are drawn, whichever they are."""
+class State(NamedTuple):
+    """Draw state of a model's stream, whichever trees are in it."""
 
     array: moderngl.VertexArray
-    form: int
+    mode: int
     """How vertices make triangles."""
 
     vertices: int
-    """So many are drawn of each; of wood, that is another number every time."""
+    """Number of vertices of an instance; of wood, each draw call has its own."""
 
-    due: PackedUniforms
-    """What its program is told of its kind, its model and of itself."""
+    uniforms: PackedUniforms
+    """Uniforms of its kind, its model and its own."""
 
-    reads: Sequence[Read]
-    """What it reads."""
+    textures: Sequence[Binding]
+    """Textures that it reads, and their units."""
 
 
-class Drawn(NamedTuple):
-    """One draw call of a lot of trees."""
+class DrawCall(NamedTuple):
+    """A draw call of one batch."""
 
     far: float
-    """How far off the farthest of its trees is, along the ground, where they stand among the grass [m]; infinite beyond
-    it, and 0 before it. Soft edges come after grass farther off."""
+    """Distance of its farthest tree along the ground [m]: infinite beyond the grass, and 0 in front of it. Soft edges
+    come after grass farther off."""
 
-    turn: float
-    """Those of which it is less are drawn before it: how far off its nearest tree is [m], or of soft edges, how much
-    nearer than the eye its trees are in the mean."""
+    order: float
+    """Calls with a lower value are drawn first: distance of the nearest tree, or for soft edges the negative mean
+    distance [m]."""
 
-    call: Call
+    state: State
     first: int
     vertices: int
     instances: int
 
 
 class Calls:
-    """The draw calls of the trees that are drawn."""
+    """The draw calls of the trees in a picture."""
 
-    def __init__(self, models: Sequence[tuple[KindOnCard, ModelOnCard]], programs: Programs) -> None:
+    def __init__(self, models: Sequence[tuple[GpuKind, GpuModel]], programs: Programs) -> None:
         self._models, self._programs = models, programs
-        self._lots: Sequence[Lot] = ()
-        self._made: dict[Pass, dict[tuple[int, str], Call]] = {}
-        self._listed: dict[Pass, list[Drawn]] = {}
+        self._batches: Sequence[Batch] = ()
+        self._states: dict[Pass, dict[tuple[int, str], State]] = {}
+        self._calls: dict[Pass, list[DrawCall]] = {}
 
-    def choose(self, lots: Sequence[Lot], /) -> None:
-        """Let other trees be drawn."""
-        self._lots = lots
-        self._listed.clear()
+    def choose(self, batches: Sequence[Batch], /) -> None:
+        """Take the batches that are drawn."""
+        self._batches = batches
+        self._calls.clear()
 
     def clear(self) -> None:
-        """Forget how all are drawn."""
-        self._made.clear()
-        self._listed.clear()
+        """Forget the state of all streams."""
+        self._states.clear()
+        self._calls.clear()
 
-    def of(self, how: Pass, /) -> list[Drawn]:
-        """Return the draw calls of a pass: solid ones from near to far, as they hide what is behind; else from far."""
-        if how not in self._listed:
+    def of_pass(self, how: Pass, /) -> list[DrawCall]:
+        """Return a pass's draw calls in order: opaque ones from near to far, soft edges from far to near."""
+        if how not in self._calls:
             soft = how.edges == SOFT
-            drawn = [one for lot in self._lots if (one := self._drawn(lot, how)) is not None]
-            drawn.sort(key=(lambda one: (-one.far, one.turn)) if soft else (lambda one: one.turn))
-            self._listed[how] = drawn
-        return self._listed[how]
+            calls = [call for batch in self._batches if (call := self._call(batch, how)) is not None]
+            calls.sort(key=(lambda call: (-call.far, call.order)) if soft else (lambda call: call.order))
+            self._calls[how] = calls
+        return self._calls[how]
 
-    def _drawn(self, lot: Lot, how: Pass) -> Drawn | None:
-        """Return how a pass draws a lot, if it does: of what is far off, soft edges have streams of their own."""
-        name, soft = lot.name, how.edges == SOFT
+    def _call(self, batch: Batch, how: Pass) -> DrawCall | None:
+        """Return the draw call of a batch in a pass, or None; of far pictures, soft edges have streams of their own."""
+        name, soft = batch.name, how.edges == SOFT
         if (name == FAR and soft) or (name in BACKS and not soft) or (soft and how.sampled and name not in BACKS):
             return None
-        made = self._made.setdefault(how, {})
-        call = made.get((lot.model, name))
-        if call is None:
-            call = made[lot.model, name] = self._call(lot.model, name, how)
-        _, model = self._models[lot.model]
-        first, vertices, instances = 0, call.vertices, model.hung.get(name, model.streams[name]).count
+        states = self._states.setdefault(how, {})
+        state = states.get((batch.model, name))
+        if state is None:
+            state = states[batch.model, name] = self._state(batch.model, name, how)
+        _, model = self._models[batch.model]
+        first, vertices, instances = 0, state.vertices, model.hung.get(name, model.streams[name]).count
         if name in model.wood:
-            first, vertices = part_of_wood(model, name, soft=soft, whole=how.casts or how.sampled)
-        turn = -lot.mean if soft else lot.nearest
-        return Drawn(lot.far, turn, call, first, vertices, instances) if vertices and instances else None
+            first, vertices = wood_vertices(model, name, soft=soft, whole=how.casts or how.sampled)
+        order = -batch.mean if soft else batch.nearest
+        return DrawCall(batch.far, order, state, first, vertices, instances) if vertices and instances else None
 
-    def _call(self, number: int, name: str, how: Pass) -> Call:
+    def _state(self, number: int, name: str, how: Pass) -> State:
         kind, model = self._models[number]
         sort = LEAVES if name == LEAVES else NEAR if name in CARDS else WOOD if name in model.wood else FAR
         whole = how.edges == SOFT or how.sampled or how.casts
@@ -121,36 +121,36 @@ class Calls:
         stream = model.hung.get(name, model.streams[name])
         array = self._programs.array(drawn_as, stream, model, edges=edges)
         whole_tree = SOLID if how.casts else CLOSED if sort == FAR else OPAQUE
-        own = told_of_call(array.program, corners, ends, kind.solid if sort == NEAR else whole_tree, casts=how.casts)
-        told = {id(each[0]): each for each in kind.due(array.program, model) + own}
-        return Call(
+        own = uniforms_of(array.program, corners, ends, kind.solid if sort == NEAR else whole_tree, casts=how.casts)
+        uniforms = {id(each[0]): each for each in kind.uniforms(array.program, model) + own}
+        return State(
             array,
             moderngl.TRIANGLE_STRIP if sort in (NEAR, FAR) else moderngl.TRIANGLES,
             of_leaves + len(corners) + (0 if ends is None else 2 * len(ends.high)),
-            [*told.values()],
-            kind.reads(array.program, model, noise=sort in (WOOD, FAR)),
+            [*uniforms.values()],
+            kind.textures(array.program, model, noise=sort in (WOOD, FAR)),
         )
 
 
-def draw(calls: Sequence[Drawn], numbers: Numbers, /) -> int:
-    """Draw one after another: each is told and binds only what is not so by those before it; return how many."""
+def draw(calls: Sequence[DrawCall], numbers: Numbers, /) -> int:
+    """Make draw calls one after another, setting only what differs from the state before; return their number."""
     bound, programs = dict[int, object](), set[int]()
-    for one in calls:
-        call = one.call
-        program = call.array.program
+    for call in calls:
+        state = call.state
+        program = state.array.program
         if program.glo not in programs:
             programs.add(program.glo)
             set_used_uniforms(program, numbers)
-        set_packed(call.due)
-        for read in call.reads:
-            if bound.get(read.unit) is not read.texture:
-                bound[read.unit] = read.texture
-                read.texture.use(read.unit)
-        call.array.render(call.form, first=one.first, vertices=one.vertices, instances=one.instances)
+        set_packed(state.uniforms)
+        for texture, unit in state.textures:
+            if bound.get(unit) is not texture:
+                bound[unit] = texture
+                texture.use(unit)
+        state.array.render(state.mode, first=call.first, vertices=call.vertices, instances=call.instances)
     return len(calls)
 
 
-def told_of_call(
+def uniforms_of(
     program: moderngl.Program,
     corners: list[tuple[float, float]],
     around: Around | None,
@@ -158,20 +158,20 @@ def told_of_call(
     *,
     casts: bool,
 ) -> PackedUniforms:
-    """Return what a program is told of a call: how much of a pixel is opaque, and the corners of an outline, if any.
+    """Return the uniforms of a stream: coverage from which on pixels are opaque, and the corners of an outline, if any.
 
-    What `casts` a shadow is nowhere but where it is.
+    In a shadow map (`casts`), nothing is moved behind its place.
     """
-    told = pack(program, {"solid_from": (solid_from,)}) + (pack(program, {"behind": (0.0,)}) if casts else [])
+    uniforms = pack(program, {"solid_from": (solid_from,)}) + (pack(program, {"behind": (0.0,)}) if casts else [])
     if corners:
-        told += pack_array(program, "corners", corners)
+        uniforms += pack_array(program, "corners", corners)
     if around is not None and around.high:  # else its pictures show nothing so opaque, and nothing is drawn
-        told += pack(program, {"high": around.high}) + pack_array(program, "reaches", around.reaches)
-    return told
+        uniforms += pack(program, {"high": around.high}) + pack_array(program, "reaches", around.reaches)
+    return uniforms
 
 
-def part_of_wood(model: ModelOnCard, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:
-    """Return from which vertex on, and how many, are drawn of the wood of a stream's trees."""
-    drawn, run = model.wood[name], model.run[name]
-    end = len(model.model.wood[run].triangles) if whole else drawn.soft if soft else drawn.solid
-    return 3 * model.first_of[run], 3 * end
+def wood_vertices(model: GpuModel, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:
+    """Return the first vertex and the number of vertices that are drawn of a stream's wood."""
+    drawn, wood_class = model.wood[name], model.wood_class[name]
+    end = len(model.model.wood[wood_class].triangles) if whole else drawn.soft if soft else drawn.solid
+    return 3 * model.first_triangle[wood_class], 3 * end

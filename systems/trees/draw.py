@@ -1,4 +1,4 @@
-"""Drawing trees: what of each is shown, and in what order; and the maps of what they leave of the light."""
+"""Drawing trees: level of detail, order, and the maps of their shade."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
@@ -16,98 +16,98 @@ from ..frame.feature import Heard, Part
 from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
-from .call import Calls, Drawn, Pass, draw
-from .card import CARDS, CAST, LEAVES, ModelOnCard, Numbers
-from .choice import Choice, Chosen, Look, Lot, lone
-from .kind import KindOnCard
+from .call import Calls, DrawCall, Pass, draw
+from .choice import Batch, Choice, Chosen, Look, single
+from .kind import GpuKind
 from .motion import PERIOD
 from .programs import HANG, HANG_LEAVES, HARD, SOFT, STAND, Programs
 from .shade import ShadeMap
-from .standing import PLACED, TOLD, Standing
+from .standing import PLACED, STOOD, Standing
+from .stream import CARDS, CAST, LEAVES, GpuModel, Numbers
 from .twig import LEAF_PIXELS
 
 EVERY_LEAF = -2.0, -1.0
-"""What is told in place of `LEAF_PIXELS` where all twigs are drawn leaf by leaf."""
+"""Uniform in place of `LEAF_PIXELS` where all twigs are drawn leaf by leaf."""
 
 
 class TreePart(Part):
-    """Draws trees; in scenes that have no kind of them it makes nothing at all."""
+    """Draws trees; a scene without kinds of trees costs nothing."""
 
     def __init__(
         self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], standing: Callable[[], Standing],
         shading: Callable[[], Standing],
     ) -> None:  # fmt: skip
         self._ctx, self._block, self._units, self._standing, self._shading = ctx, block, units, standing, shading
-        self._kinds: list[KindOnCard] = []
-        self._models: list[tuple[KindOnCard, ModelOnCard]] = []
-        self._made_of: object = None
+        self._kinds: list[GpuKind] = []
+        self._models: list[tuple[GpuKind, GpuModel]] = []
+        self._declared: object = None
         self._programs: Programs | None = None
         self._shade: ShadeMap | None = None
         self._outlook: Outlook | None = None
-        self._numbers: Numbers = {}
-        self._chosen: float | None = None
-        self._rehearses = False
-        self._chosen_by: object = None
+        self._uniforms: Numbers = {}
+        self._leaves_from_chosen: float | None = None
+        self._rehearsing = False
+        self._inputs: object = None
         self._choice: tuple[Standing, Choice] | None = None
-        """The trees of a frame, to be chosen among."""
-        self._lots: list[Lot] = []
-        """Those that are drawn."""
+        """The trees of a frame, to choose from."""
+        self._batches: list[Batch] = []
+        """Batches that are drawn."""
         self._calls: Calls | None = None
-        self._soft_left: list[Drawn] = []
-        """Which of them with soft edges this frame has still to draw."""
+        self._soft_left: list[DrawCall] = []
+        """Draw calls of soft edges that this frame has still to make."""
         self._placed: Stream | None = None
-        """All trees of all streams, one stream after another; and what is made out of them."""
+        """Input and output of `stand.vert`, stream after stream."""
         self._stood: Stream | None = None
         self._air: Heard | None = None
         self._wind: MeanWind | None = None
         self.leaves_from: float | None = None
-        """Height of their own pictures from which all trees are drawn leaf by leaf [pixels], as a reference has them,
-        and lower ones as they are far off; None where that is for the size of their leaves to say."""
-        self.leaves_seen_at: Sequence[Place] = ()
-        """From where that height is seen: it is the greatest of all these places [m]; without any, the viewer's."""
+        """Height of their own pictures from which all trees are drawn leaf by leaf, for a reference, and lower ones as
+        pictures [pixels]; None lets the size of leaves decide."""
+        self.detail_eyes: Sequence[Place] = ()
+        """Eyes that `leaves_from` is measured from: the nearest counts [m]. Without any, the viewer's does."""
         self.held = False
-        """Whether as much of each is shown as in the last frame where this was not so, wherever the viewer is."""
+        """Whether level of detail stays as for the last eye where this was False."""
         self.hidden = False
-        """Whether they are left out, for a picture of what is behind them; their shade stays."""
-        self._from: Doubles = np.zeros(3)
-        """From where what is shown of each was chosen [m]."""
+        """Whether trees are left out, for a picture of what is behind them; their shade stays."""
+        self._detail_eye: Doubles = np.zeros(3)
+        """Eye that level of detail was chosen for [m]."""
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
-        """Let other kinds of trees grow."""
+        """Grow the scene's kinds of trees where they have changed."""
         del record
         scene = grown.scene
         self._wind = mean_wind(scene.wind)
-        made_of = tuple(scene.trees.values()), scene.seed
-        if made_of == self._made_of:
+        declared = tuple(scene.trees.values()), scene.seed
+        if declared == self._declared:
             return
         release_all(*self._kinds)
-        self._made_of = made_of
+        self._declared = declared
         self._kinds = [
-            KindOnCard(self._ctx, self._units, kind, seed=scene.seed + number)
+            GpuKind(self._ctx, self._units, kind, seed=scene.seed + number)
             for number, kind in enumerate(scene.trees.values())
         ]
         self._models = [(kind, model) for kind in self._kinds for model in kind.models]
-        self._lots, self._choice = [], None
+        self._batches, self._choice = [], None
         self._forget()
         if self._kinds and self._shade is None:
             self._shade = ShadeMap(self._ctx)
-            self._placed, self._stood = Stream(self._ctx, PLACED), Stream(self._ctx, TOLD)
+            self._placed, self._stood = Stream(self._ctx, PLACED), Stream(self._ctx, STOOD)
 
     def texts(self) -> Iterator[Texts]:
-        """Return what its programs that are not there yet are made of."""
+        """Return the sources of programs that are not compiled yet."""
         return iter(()) if self._programs is None else self._programs.texts(in_rows=self._standing().in_rows)
 
     def making(self) -> Iterator[None]:
-        """Make them, one at a time."""
+        """Compile these programs, one at a time."""
         return iter(()) if self._programs is None else self._programs.making(in_rows=self._standing().in_rows)
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
-        """Pretend until the next frame that a tree of each model is drawn in every way that there is."""
+        """Draw a tree of each model in every way in the next frame."""
         del record
-        self._rehearses = True
+        self._rehearsing = True
 
     def _forget(self) -> None:
-        self._chosen_by = self._calls = None
+        self._inputs = self._calls = None
         if self._programs is not None:
             self._programs.release()
             self._programs = None
@@ -115,55 +115,55 @@ class TreePart(Part):
             self._shade.lose()
 
     def defines(self) -> Mapping[str, str | int]:
-        """Tell all programs whether there are any kinds."""
+        """Define `TREES` for all programs if there are any kinds."""
         return {"TREES": 1} if self._kinds else {}
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
-        """Write where the maps lie for a viewer."""
+        """Write the placement of the shade maps, and their sway, into the frame's record."""
         self._outlook = outlook
         if self._shade is not None and self._kinds:
             self._shade.follow(outlook.viewer.eye, self._shading(), record)
             self._shade.sway(self._standing(), self._wind, record, time=outlook.viewer.time)
 
     def use(self) -> None:
-        """Bind the map."""
+        """Bind the shade maps."""
         if self._shade is not None and self._kinds:
             self._shade.use()
 
     def prepare(self) -> int:
-        """Choose what is drawn of each tree, and draw the maps where they are due; return the number of draw calls."""
+        """Choose each tree's level of detail, and draw shade maps that are pack; return the number of draw calls."""
         if not self._kinds or self._outlook is None:
             return 0
-        programs = self._ready()
+        programs = self._make_programs()
         viewer = self._outlook.viewer
         patch = float(self._block.record["patch_side"][0])
-        self._numbers = {
+        self._uniforms = {
             "leaf_pixels": LEAF_PIXELS if self.leaves_from is None else EVERY_LEAF,
             "moment": (viewer.time % PERIOD,),
             "middle": tuple(((viewer.centre + 0.5) * patch).tolist()),
         }
         assert self._shade is not None
-        calls = self._shade.prepare(self._kinds, programs, self._shading(), self._numbers)
-        self._chosen = self.leaves_from
+        calls = self._shade.prepare(self._kinds, programs, self._shading(), self._uniforms)
+        self._leaves_from_chosen = self.leaves_from
         self._choose(self._standing(), self._outlook)
-        if self._rehearses:
-            self._rehearses, self._chosen_by = False, None
-            self._draw_all(programs)
+        if self._rehearsing:
+            self._rehearsing, self._inputs = False, None
+            self._rehearse(programs)
         return calls
 
-    def _draw_all(self, programs: Programs) -> None:
-        """Have a tree of each model drawn in every way that there is."""
+    def _rehearse(self, programs: Programs) -> None:
+        """Add a batch with a tree for each stream that is empty."""
         assert self._placed is not None
         count = self._placed.count
         for number, (_, model) in enumerate(self._models):
             programs.array(CAST, model.bare)
-            self._lots += [lone(number, name, count + more) for more, name in enumerate(model.rehearse())]
-            count = self._lots[-1].first + 1
-        self._place(np.zeros(count, PLACED))
+            self._batches += [single(number, name, count + more) for more, name in enumerate(model.rehearse())]
+            count = self._batches[-1].first + 1
+        self._send_placed(np.zeros(count, PLACED))
 
-    def _ready(self) -> Programs:
-        """Return the programs, made and with all kinds baked."""
-        if self._programs is not None and self._programs.made_of != self._block.defines:
+    def _make_programs(self) -> Programs:
+        """Return the programs, after baking kinds that are not baked yet."""
+        if self._programs is not None and self._programs.defines != self._block.defines:
             self._forget()
         if self._programs is None:
             self._programs = Programs(self._ctx, self._block, self._units)
@@ -174,62 +174,63 @@ class TreePart(Part):
         return self._programs
 
     def _choose(self, standing: Standing, outlook: Outlook) -> None:
-        """Send what is drawn of each tree, unless that is what was sent last."""
+        """Choose and send what is drawn of each tree, unless its inputs are unchanged."""
         record, viewer = self._block.record[0], outlook.viewer
-        seen = record["clip"].tobytes(), float(record["half_screen"][1]), viewer.eye, viewer.sides.tobytes()
-        chosen_by = standing, *seen, self.leaves_from, self.leaves_seen_at, self.held
-        if self._chosen_by == chosen_by:
+        view = record["clip"].tobytes(), float(record["half_screen"][1]), viewer.eye, viewer.sides.tobytes()
+        inputs = standing, *view, self.leaves_from, self.detail_eyes, self.held
+        if self._inputs == inputs:
             return
-        self._chosen_by = chosen_by
+        self._inputs = inputs
         if self._choice is None or self._choice[0] is not standing:
             models = [model.model for _, model in self._models]
             self._choice = standing, Choice(standing, models, [kind.declared.variety for kind, _ in self._models])
-        self._send(self._choice[1].of(self._look(outlook)))
+        self._send(self._choice[1].choose(self._look(outlook)))
 
     def _look(self, outlook: Outlook) -> Look:
-        """Return from where trees are seen, and how."""
+        """Return the viewpoint that trees are chosen for."""
         record, eye = self._block.record[0], np.array(outlook.viewer.eye)
         if not self.held:
-            self._from = eye
+            self._detail_eye = eye
         clip = record["clip"].reshape(4, 4).T.astype(np.float64)
         focal = float(record["half_screen"][1] * np.linalg.norm(clip[1, :3]))
-        seen_at: Sequence[Place | Doubles] = (self._from,) if self.held else ()
-        if self.leaves_from is not None and self.leaves_seen_at:
-            seen_at = self.leaves_seen_at
-        return Look(eye, outlook.viewer.sides, clip, focal, self._reach(outlook), seen_at, self.leaves_from)
+        detail_eyes: Sequence[Place | Doubles] = (self._detail_eye,) if self.held else ()
+        if self.leaves_from is not None and self.detail_eyes:
+            detail_eyes = self.detail_eyes
+        return Look(eye, outlook.viewer.sides, clip, focal, self._reach(outlook), detail_eyes, self.leaves_from)
 
     def _send(self, chosen: Chosen) -> None:
-        """Send trees to be drawn, and where they stand."""
-        before, (self._lots, told, placed) = self._lots, chosen
-        for number, name in {(lot.model, lot.name) for lot in before} - {(lot.model, lot.name) for lot in self._lots}:
+        """Send instances, and where they stand."""
+        before, (self._batches, instances, placed) = self._batches, chosen
+        filled = {(batch.model, batch.name) for batch in self._batches}
+        for number, name in {(batch.model, batch.name) for batch in before} - filled:
             self._models[number][1].empty(name)
-        for lot, rows in zip(self._lots, told, strict=True):
-            _, model = self._models[lot.model]
-            model.write(lot.name, rows)
-            if lot.name in model.wood:
-                model.show_wood(lot.name, lot.wide, lot.foliage)
-            elif lot.name in CARDS:
-                model.show_cards(lot.name, lot.keep, lot.leaves)
-            elif lot.name == LEAVES:
-                model.most[LEAVES] = 1 if self.leaves_from is None else len(model.model.twigs)
-        self._place(placed)
+        for batch, rows in zip(self._batches, instances, strict=True):
+            _, model = self._models[batch.model]
+            model.write(batch.name, rows)
+            if batch.name in model.wood:
+                model.show_wood(batch.name, batch.pixel_radius, batch.foliage)
+            elif batch.name in CARDS:
+                model.show_cards(batch.name, batch.keep, batch.leaves)
+            elif batch.name == LEAVES:
+                model.most_twigs[LEAVES] = 1 if self.leaves_from is None else len(model.model.twigs)
+        self._send_placed(placed)
 
-    def _place(self, placed: NDArray[np.void]) -> None:
-        """Send where all trees stand that are drawn."""
+    def _send_placed(self, placed: NDArray[np.void]) -> None:
+        """Send where all drawn trees stand."""
         assert self._placed is not None
         assert self._stood is not None
         assert self._calls is not None
-        self._calls.choose(self._lots)
+        self._calls.choose(self._batches)
         self._placed.write(placed)
         self._stood.room(len(placed))
 
     def _reach(self, outlook: Outlook) -> float:
-        """Return how far off grass stands that is drawn from far to near [m]."""
+        """Return the distance up to which grass is drawn from far to near [m]."""
         *standing, _ = outlook.lens.reach_in(outlook.lens.reach)
         return (max(standing, default=-1.0) + 1.0) * float(self._block.record["patch_side"][0])
 
     def breathe(self, air: Heard, /) -> int:
-        """Make out of each tree what is the same all over it; return the number of draw calls."""
+        """Run `stand.vert` for each tree and `hang.vert` for each twig; return the number of draw calls."""
         programs, calls, self._air = self._programs, 0, air
         if not self._kinds or programs is None:
             return 0
@@ -238,49 +239,51 @@ class TreePart(Part):
         assert self._placed is not None
         assert self._stood is not None
         if self._placed.count:
-            array = programs.made(STAND, self._placed)
-            set_used_uniforms(array.program, self._numbers)
+            array = programs.feedback(STAND, self._placed)
+            set_used_uniforms(array.program, self._uniforms)
             array.transform(self._stood.buffer, moderngl.POINTS, vertices=self._placed.count)
             calls = 1
-        for lot in self._lots:
-            _, model = self._models[lot.model]
-            told = model.told[id(model.streams[lot.name])]
+        for batch in self._batches:
+            _, model = self._models[batch.model]
+            stood = model.stood[id(model.streams[batch.name])]
             self._ctx.copy_buffer(
-                told.buffer, self._stood.buffer, lot.amount * TOLD.itemsize, read_offset=lot.first * TOLD.itemsize
+                stood.buffer, self._stood.buffer, batch.size * STOOD.itemsize, read_offset=batch.first * STOOD.itemsize
             )
-        return calls + sum(self._hang(lot, programs) for lot in self._lots if lot.name in CARDS or lot.name == LEAVES)
+        return calls + sum(
+            self._hang(batch, programs) for batch in self._batches if batch.name in CARDS or batch.name == LEAVES
+        )
 
-    def _hang(self, lot: Lot, programs: Programs) -> int:
-        """Make out of each twig what is the same all over its card; return the number of draw calls."""
-        (kind, model), name = self._models[lot.model], lot.name
-        stream, hung, most = model.streams[name], model.hung[name], model.most[name]
-        hung.room(lot.amount * most)
+    def _hang(self, batch: Batch, programs: Programs) -> int:
+        """Run `hang.vert` for a batch's twigs; return the number of draw calls."""
+        (kind, model), name = self._models[batch.model], batch.name
+        stream, hung, most = model.streams[name], model.hung[name], model.most_twigs[name]
+        hung.room(batch.size * most)
         if not hung.count:
             return 0
-        array = programs.made(HANG_LEAVES if name == LEAVES else HANG, stream, model.told[id(stream)])
-        kind.tell(array.program, model, self._numbers, {"whole": (most == len(model.model.twigs),)})
-        array.transform(hung.buffer, moderngl.POINTS, vertices=most, instances=lot.amount)
+        array = programs.feedback(HANG_LEAVES if name == LEAVES else HANG, stream, model.stood[id(stream)])
+        kind.set_uniforms(array.program, model, self._uniforms, {"whole": (most == len(model.model.twigs),)})
+        array.transform(hung.buffer, moderngl.POINTS, vertices=most, instances=batch.size)
         return 1
 
     def draw_solid(self) -> int:
-        """Draw all that covers pixels wholly."""
-        if self._kinds and self._air is not None and (self._chosen, self.leaves_from) != (None, None):
+        """Draw the opaque pass; return the number of draw calls."""
+        if self._kinds and self._air is not None and (self._leaves_from_chosen, self.leaves_from) != (None, None):
             self.prepare()
             self.breathe(self._air)
         self.begin_soft()
-        return draw(self._of(HARD), self._numbers)
+        return draw(self._pass_calls(HARD), self._uniforms)
 
     def cast(self, light: tuple[float, float, float], /) -> int:
-        """Write the depth of all that covers most of a texel of a shadow map."""
+        """Draw into the depth of a shadow map; return the number of draw calls."""
         del light
-        return draw(self._of(HARD, casts=True), self._numbers)
+        return draw(self._pass_calls(HARD, casts=True), self._uniforms)
 
     def begin_soft(self) -> None:
-        """Have all soft edges of a frame left to draw."""
-        self._soft_left = self._of(SOFT)
+        """Begin the pass of soft edges."""
+        self._soft_left = self._pass_calls(SOFT)
 
     def draw_soft(self, beyond: float = 0.0) -> int:
-        """Draw their soft edges that are so far off at least."""
+        """Draw soft edges at a distance of `beyond` or farther [m]; return the number of draw calls."""
         calls = self._soft_left
         if not calls:
             return 0
@@ -288,19 +291,19 @@ class TreePart(Part):
         written, target.depth_mask = target.depth_mask, False
         ends = next((number for number, call in enumerate(calls) if call.far < beyond), len(calls))
         self._soft_left = calls[ends:]
-        drawn = draw(calls[:ends], self._numbers)
+        drawn = draw(calls[:ends], self._uniforms)
         target.depth_mask = written
         return drawn
 
     def soft_left(self) -> float | None:
-        """Return how far off the farthest tree of the next of them is."""
+        """Return the distance of the farthest tree of the next soft edges, or None [m]."""
         return self._soft_left[0].far if self._soft_left else None
 
-    def _of(self, edges: str, *, casts: bool = False) -> list[Drawn]:
-        """Return what is drawn with such edges."""
+    def _pass_calls(self, edges: str, *, casts: bool = False) -> list[DrawCall]:
+        """Return the draw calls of the pass with these edges."""
         if self._calls is None or self.hidden:
             return []
-        return self._calls.of(Pass(edges, casts, self.leaves_from is not None, self._standing().in_rows))
+        return self._calls.of_pass(Pass(edges, casts, self.leaves_from is not None, self._standing().in_rows))
 
     def release(self) -> None:
         """Give everything back."""

@@ -27,7 +27,7 @@ from .habit import HABITS
 from .model import models_of
 from .place import placed
 from .scatter import SQUARE
-from .standing import STANDING, Standing, tell_apart
+from .standing import STANDING, Standing, individualise
 from .wild import Felled, Seedling, Wild, seedlings
 
 NOBODY = np.zeros((0, 2), np.float32)
@@ -318,5 +318,5 @@ def _rows(found: Found, grown: Grown) -> NDArray[np.void]:
     rows["root"][:, 0], rows["root"][:, 2] = place.T
     rows["root"][:, 1] = height_at(grown.ground.terrain, place)
     rows["yaw"] = [pose.yaw for _, _, pose in found]
-    tell_apart(rows)
+    individualise(rows)
     return rows

@@ -17,7 +17,7 @@ from .felled import Place
 from .habit import HABITS
 from .place import stands
 from .scatter import SQUARE, Scatter, Squares, apart
-from .standing import STANDING, WHOLE_TO, tell_apart
+from .standing import DENSE_TO, STANDING, individualise
 
 MOST_ENTITIES = 20_000
 """Trees of density that are all entities; of more, those are near viewers."""
@@ -108,7 +108,7 @@ class Forest:
         return {(i, j): self._known[0, i, j] for _, i, j in wanted}
 
     def around(self, eye: tuple[float, float, float], but: Iterable[Square], /) -> Rows:
-        """Return those about an eye (x, y, z) [m], but those on some squares: fewer and fewer from `WHOLE_TO` on."""
+        """Return those about an eye (x, y, z) [m], but those on some squares: fewer and fewer from `DENSE_TO` on."""
         left_out = {(0, *square) for square in but}
         wanted = [each for level in range(LEVELS) for each in self._ring(eye, level) if each not in left_out]
         self._grow(wanted)
@@ -134,7 +134,7 @@ class Forest:
 
     def _ring(self, eye: tuple[float, float, float], level: int) -> list[tuple[int, int, int]]:
         """Return the squares of a level that are shown about an eye, which is anywhere on its own."""
-        side, outer = SQUARE * 2**level, WHOLE_TO * 2**level
+        side, outer = SQUARE * 2**level, DENSE_TO * 2**level
         own = np.floor(np.array(eye[::2]) / side).astype(int)
         steps = np.arange(-round(outer / side) - 1, round(outer / side) + 2)
         i, j = np.meshgrid(steps, steps, indexing="ij")
@@ -228,7 +228,7 @@ class Forest:
         rows["height"] = np.clip(tall * grown_to(kind.young, unit(stream(own, 7))), LOWEST, HIGHEST)
         rows["yaw"] = np.pi * (2.0 * unit(stream(own, 6)) - 1.0)
         rows["foliage"], rows["kind"], rows["ring"] = kind.foliage, number, level + 1
-        tell_apart(rows)
+        individualise(rows)
         return rows
 
 

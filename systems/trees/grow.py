@@ -14,14 +14,14 @@ POINTS = 14, 9, 4
 """Points along a stem of each level."""
 
 PIPE = 2.2
-"""Power of radii whose sum is kept where a stem forks: da Vinci's 2, as measured 1.8 to 2.3 (Minamino and Tateno,
-Tree Branching: Leonardo da Vinci's Rule versus Biomechanical Models, 2014)."""
+"""Power of radii whose sum is kept where a stem forks: da Vinci's 2, as measured 1.8 to 2.3 (Minamino and Tateno, Tree
+Branching: Leonardo da Vinci's Rule versus Biomechanical Models, 2014)."""
 
 THINNEST = 0.004
 """Radius at the end of a branch [m]."""
 
 MOST_TWIGS = 3600
-"""Of more, so many are left, each as large as to have the leaves of those that are not."""
+"""Greatest number of twigs. Of more, a sample is kept, each larger so that the leaf area stays."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,20 +29,20 @@ class Stems:
     """Stems of one level."""
 
     spine: Doubles
-    """Points along each, from its foot on [m], shape (n, points, 3); y is up."""
+    """Points from foot to tip [m], shape (n, points, 3); y is up."""
 
     parent: Rows
-    """Which stem of the level before bears each, shape (n,)."""
+    """Index of the bearing stem in the level before, shape (n,)."""
 
     at: Doubles
-    """Where on that it stands, of its length, shape (n,)."""
+    """Position of the foot along the bearing stem, of its length, shape (n,)."""
 
     radius: Doubles
-    """At each point [m], shape (n, points)."""
+    """Radius at each point [m], shape (n, points)."""
 
     @property
     def length(self) -> Doubles:
-        """How long each is [m], shape (n,)."""
+        """Length of each [m], shape (n,)."""
         return np.asarray(np.linalg.norm(np.diff(self.spine, axis=1), axis=-1).sum(axis=1))
 
 
@@ -54,21 +54,21 @@ class Twigs:
     """[m], shape (n, 3)."""
 
     along: Floats
-    """Which way each goes, unit vectors (n, 3)."""
+    """Direction of each, unit vectors (n, 3)."""
 
     face: Floats
-    """Which way its leaves lie flat, unit vectors (n, 3), square to `along`."""
+    """Normal of the plane of its leaves, unit vectors (n, 3), perpendicular to `along`."""
 
     length: Floats
     """[m], shape (n,)."""
 
     limb: Rows
-    """On which limb it stands, shape (n,)."""
+    """Index of the limb that bears it, shape (n,)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Tree:
-    """A tree that has grown: trunk, limbs and branches, and its twigs."""
+    """A grown tree: trunk, limbs, branches and twigs."""
 
     levels: tuple[Stems, Stems, Stems]
     twigs: Twigs
@@ -76,7 +76,7 @@ class Tree:
     """[m]."""
 
     limb_of: Rows
-    """The limb that each branch stands on, shape (branches,)."""
+    """Index of the limb that bears each branch, shape (branches,)."""
 
 
 def grown(habit: Habit, height: float, /, *, seed: int) -> Tree:
@@ -93,7 +93,7 @@ def grown(habit: Habit, height: float, /, *, seed: int) -> Tree:
 
 def _trunk(habit: Habit, height: float, draw: np.random.Generator) -> Stems:
     start = np.array([[0.0, 1.0, 0.0]])
-    spine = _walk(np.zeros((1, 3)), start, np.array([height]), POINTS[0], 0.25, 0.3 * (1.0 - habit.straight), draw)
+    spine = _spines(np.zeros((1, 3)), start, np.array([height]), POINTS[0], 0.25, 0.3 * (1.0 - habit.straight), draw)
     return Stems(spine, np.zeros(1, np.intp), np.zeros(1), np.zeros((1, POINTS[0])))
 
 
@@ -109,63 +109,63 @@ def _limbs(habit: Habit, trunk: Stems, height: float, draw: np.random.Generator)
     length = height * shoots.length * profile * draw.uniform(0.78, 1.08, count)
     down = np.interp(place, (0.0, 1.0), shoots.down) * draw.normal(1.0, 0.1, count)
     parent = np.zeros(count, np.intp)
-    foot, start = _leaving(trunk, parent, at, down, around)
-    spine = _walk(foot, start, length, POINTS[1], shoots.lift, shoots.crook, draw)
+    foot, start = _junctions(trunk, parent, at, down, around)
+    spine = _spines(foot, start, length, POINTS[1], shoots.lift, shoots.crook, draw)
     return Stems(spine, parent, at, np.zeros((count, POINTS[1])))
 
 
 def _shoots(
     shoots: Shoots, on: Stems, draw: np.random.Generator, /, *, points: int, relative: bool
 ) -> Stems:  # fmt: skip
-    """Return the stems that stand on some, more of them on longer ones, shorter towards the ends."""
-    long = on.length
-    counts = np.maximum(np.round(shoots.each * long + draw.uniform(-0.5, 0.5, len(long))), 2).astype(np.intp)
-    parent = np.repeat(np.arange(len(long)), counts)
+    """Return the stems that `on` bears: more on longer ones, shorter towards the tips."""
+    lengths = on.length
+    counts = np.maximum(np.round(shoots.each * lengths + draw.uniform(-0.5, 0.5, len(lengths))), 2).astype(np.intp)
+    parent = np.repeat(np.arange(len(lengths)), counts)
     number = np.arange(len(parent)) - np.repeat(np.cumsum(counts) - counts, counts)
     at = np.clip(0.12 + 0.88 * (number + draw.uniform(0.2, 0.8, len(parent))) / counts[parent], 0.0, 1.0)
     # Side shoots of a limb lie about level: they stand to its left and right in turn, more than above and below.
     around = np.pi * (number % 2) + draw.normal(0.0, 0.75, len(parent))
     down = np.interp(at, (0.0, 1.0), shoots.down) * draw.normal(1.0, 0.18, len(parent))
     length = shoots.length * (1.0 - 0.55 * at) * draw.uniform(0.7, 1.15, len(parent))
-    length = np.maximum(length * long[parent] if relative else length, 0.12)
-    foot, start = _leaving(on, parent, at, down, around)
-    spine = _walk(foot, start, length, points, shoots.lift, shoots.crook, draw)
+    length = np.maximum(length * lengths[parent] if relative else length, 0.12)
+    foot, start = _junctions(on, parent, at, down, around)
+    spine = _spines(foot, start, length, points, shoots.lift, shoots.crook, draw)
     return Stems(spine, parent, at, np.zeros((len(parent), points)))
 
 
 def _twigs(shoots: Shoots, branches: Stems, draw: np.random.Generator) -> tuple[Twigs, Rows]:
-    """Return the twigs, and the branch that bears each."""
+    """Return the twigs, and the index of the branch that bears each."""
     stems = _shoots(shoots, branches, draw, points=3, relative=False)
     # One more at the end of each branch goes on along it.
     tip, last = branches.spine[:, -1], branches.spine[:, -1] - branches.spine[:, -2]
     foot = np.concatenate([stems.spine[:, 0], tip])
     way = np.concatenate([stems.spine[:, -1] - stems.spine[:, 0], last / np.linalg.norm(last, axis=1, keepdims=True)])
-    own = np.linalg.norm(way[: len(stems.at)], axis=1)
-    length = np.concatenate([own, draw.uniform(0.8, 1.1, len(tip)) * shoots.length])
+    lengths = np.linalg.norm(way[: len(stems.at)], axis=1)
+    length = np.concatenate([lengths, draw.uniform(0.8, 1.1, len(tip)) * shoots.length])
     bearer = np.concatenate([stems.parent, np.arange(len(tip))])
-    chosen, larger = _some(len(foot), draw)
+    chosen, larger = _sampled(len(foot), draw)
     hangs = np.array([0.0, 2.0 * min(shoots.lift, 0.0), 0.0])  # what turns downwards hangs in the end
-    along = _unit(_unit(way[chosen]) + hangs)
-    face = _square_to(along, np.array([0.0, 1.0, 0.0]) + draw.normal(0.0, 0.45, along.shape))
+    along = _normalized(_normalized(way[chosen]) + hangs)
+    face = _perpendicular(along, np.array([0.0, 1.0, 0.0]) + draw.normal(0.0, 0.45, along.shape))
     bearer = bearer[chosen]
     found = [each.astype(np.float32) for each in (foot[chosen], along, face, length[chosen] * larger)]
     return Twigs(found[0], found[1], found[2], found[3], branches.parent[bearer]), bearer
 
 
-def _some(count: int, draw: np.random.Generator) -> tuple[Rows, float]:
-    """Return which of so many twigs there are, so that any first ones stand for all; and how much larger they are."""
+def _sampled(count: int, draw: np.random.Generator) -> tuple[Rows, float]:
+    """Return the indices of twigs that are kept, in an order whose every start is a fair sample; and their scale."""
     order = draw.permutation(count)
     kept = order[:MOST_TWIGS]
     return kept, float(np.sqrt(count / len(kept)))
 
 
 def _thickened(trunk: Stems, limbs: Stems, branches: Stems, bearer: Rows, base: float) -> tuple[Stems, Stems, Stems]:
-    """Return stems with their radii, by the twigs that each point bears beyond it; the trunk's foot has `base`."""
+    """Return stems with radii that follow from the twigs each point carries; `base` is the trunk's at its foot [m]."""
     on_branch = np.bincount(bearer, minlength=len(branches.at)).astype(np.float64)
     last = POINTS[2] - 1
     carried = on_branch[:, None] * (1.0 - np.arange(last + 1) / (last + 1.0)) + 1.0
-    on_limb = _beyond(branches, carried[:, 0], len(limbs.at), POINTS[1]) + 1.0
-    on_trunk = _beyond(limbs, on_limb[:, 0], 1, POINTS[0]) + 1.0
+    on_limb = _carried(branches, carried[:, 0], len(limbs.at), POINTS[1]) + 1.0
+    on_trunk = _carried(limbs, on_limb[:, 0], 1, POINTS[0]) + 1.0
     unit = base / on_trunk[0, 0] ** (1.0 / PIPE)
     found = []
     for stems, count in ((trunk, on_trunk), (limbs, on_limb), (branches, carried)):
@@ -175,40 +175,40 @@ def _thickened(trunk: Stems, limbs: Stems, branches: Stems, bearer: Rows, base: 
     return found[0], found[1], found[2]
 
 
-def _beyond(stems: Stems, count: Doubles, bearers: int, points: int) -> Doubles:
-    """Return how much stands at or beyond each point of what bears `stems`, each of which counts so much."""
+def _carried(stems: Stems, count: Doubles, bearers: int, points: int) -> Doubles:
+    """Return the sum of `count` of the stems at or beyond each point of what bears them, (bearers, points)."""
     sums = np.zeros((bearers, points))
     np.add.at(sums, (stems.parent, np.minimum((stems.at * (points - 1)).astype(np.intp) + 1, points - 1)), count)
     return np.cumsum(sums[:, ::-1], axis=1)[:, ::-1]
 
 
-def _leaving(on: Stems, parent: Rows, at: Doubles, down: Doubles, around: Doubles) -> tuple[Doubles, Doubles]:
-    """Return where shoots leave the stems that bear them, and which way: `down` from those, and `around` them."""
+def _junctions(on: Stems, parent: Rows, at: Doubles, down: Doubles, around: Doubles) -> tuple[Doubles, Doubles]:
+    """Return the feet of shoots and their directions: angles `down` from the bearing stem and `around` it [rad]."""
     points = on.spine.shape[1]
     place = at * (points - 1)
     low = np.minimum(place.astype(np.intp), points - 2)
     part = (place - low)[:, None]
     first, second = on.spine[parent, low], on.spine[parent, low + 1]
-    along = _unit(second - first)
-    aside = _square_to(along, np.array([0.0, 1.0, 0.0]) + 1e-3)
+    along = _normalized(second - first)
+    aside = _perpendicular(along, np.array([0.0, 1.0, 0.0]) + 1e-3)
     level = np.cross(along, aside)
-    # Measured from the level side: so 0 and half a turn are left and right of a limb.
+    # Measured from the horizontal: 0 and half a turn are left and right of a limb.
     out = np.cos(around)[:, None] * level + np.sin(around)[:, None] * aside
     return first + part * (second - first), np.cos(down)[:, None] * along + np.sin(down)[:, None] * out
 
 
-def _walk(
+def _spines(
     foot: Doubles, start: Doubles, length: Doubles, points: int, lift: float, crook: float, draw: np.random.Generator
 ) -> Doubles:
-    """Return the points (n, points, 3) of stems that go from their feet on, and turn on their way."""
-    spine, way = np.empty((len(foot), points, 3)), _unit(start)
+    """Return the points (n, points, 3) of stems that turn at each step."""
+    spine, direction = np.empty((len(foot), points, 3)), _normalized(start)
     spine[:, 0] = foot
     stride = (length / (points - 1))[:, None]
     for point in range(1, points):
-        spine[:, point] = spine[:, point - 1] + stride * way
-        turned = way + draw.normal(0.0, crook, way.shape)
+        spine[:, point] = spine[:, point - 1] + stride * direction
+        turned = direction + draw.normal(0.0, crook, direction.shape)
         turned[:, 1] += lift
-        way = _unit(turned)
+        direction = _normalized(turned)
     return spine
 
 
@@ -222,13 +222,13 @@ def _scaled(tree: Tree, scale: float) -> Tree:
     )  # fmt: skip
 
 
-def _unit(vector: Doubles) -> Doubles:
+def _normalized(vector: Doubles) -> Doubles:
     return np.asarray(vector / np.maximum(np.linalg.norm(vector, axis=-1, keepdims=True), 1e-12))
 
 
-def _square_to(along: Doubles, toward: Doubles) -> Doubles:
-    """Return unit vectors square to others, as near to a direction as they can be."""
+def _perpendicular(along: Doubles, toward: Doubles) -> Doubles:
+    """Return unit vectors perpendicular to `along`, as near to `toward` as possible."""
     toward = np.broadcast_to(toward, along.shape)
     rest = toward - along * (along * toward).sum(axis=-1, keepdims=True)
     flat = np.linalg.norm(rest, axis=-1, keepdims=True) < 1e-2
-    return _unit(np.where(flat, np.cross(along, np.array([1.0, 0.0, 0.0])) + 1e-6, rest))
+    return _normalized(np.where(flat, np.cross(along, np.array([1.0, 0.0, 0.0])) + 1e-6, rest))

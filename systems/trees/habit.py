@@ -1,4 +1,4 @@
-"""Habits: the proportions by which trees of a sort grow, after Weber and Penn."""
+"""Habits: proportions of trees, after Weber and Penn."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -9,22 +9,22 @@ from ...engine.declared.tree import HabitName
 
 @dataclass(frozen=True, slots=True)
 class Shoots:
-    """How stems of a level stand on those that bear them (Weber and Penn, 1995, their parameters of a level)."""
+    """Stems of a level on those that bear them (Weber and Penn, 1995, their parameters of a level)."""
 
     each: float
-    """Stems on each metre of what bears them; of limbs, on the whole trunk."""
+    """Stems per metre of what bears them; of limbs, on the whole trunk."""
 
     length: float
-    """Of the longest one: of the tree's height for limbs, of the limb's length for branches, [m] for twigs."""
+    """Length of the longest: limbs of the tree's height, branches of the limb's length, twigs in [m]."""
 
     down: tuple[float, float]
     """Angle from what bears them, at its foot and at its tip [rad]."""
 
     lift: float
-    """How much a stem turns upwards on its way, below 0 downwards: the share of "up" added to its direction."""
+    """Upward turn of a stem at each step, downward below 0: the share of "up" added to its direction."""
 
     crook: float
-    """How much it turns any way, likewise."""
+    """Random turn at each step, as a share of its direction."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,35 +32,35 @@ class Leaf:
     """The leaves of a twig."""
 
     form: int
-    """Which outline `leaf.glsl` draws."""
+    """Outline, an index that `leaf.glsl` draws."""
 
     length: float
-    """Of a blade, without its stalk; of a pine, of its needles [m]."""
+    """Length of a blade without its stalk; of a pine, of its needles [m]."""
 
     width: float
-    """Where it is broadest [m]."""
+    """Greatest width [m]."""
 
     count: int
-    """On a twig."""
+    """Number on a twig."""
 
     shoots: int
-    """Shoots of a twig that they stand on: itself and those on its sides."""
+    """Number of shoots that bear a twig's leaves: itself and its side shoots."""
 
     angle: float
-    """From the twig [rad]."""
+    """Angle from the twig [rad]."""
 
     area: float
-    """Of the quad that it is drawn in, so much is leaf."""
+    """Area of a leaf, of its quad's."""
 
     @property
     def quads(self) -> int:
-        """Quads that a twig is drawn with, leaf by leaf: of its leaves, and of its shoots' stems."""
+        """Number of quads of a twig drawn leaf by leaf: of its leaves, and of its shoots' stems."""
         return self.count + self.shoots
 
     def finer(self, times: float) -> "Leaf":
-        """Return leaves so many times as small, on as many more shoots, each of which bears as many more of them.
+        """Return leaves `times` as small, on as many more shoots, each with as many more leaves.
 
-        What has no side shoots hangs: there are as many more shoots as leaves, one below the other.
+        A twig without side shoots hangs: it gets as many more shoots as leaves, one below the other.
         """
         shoots = round(self.shoots * times) if self.shoots > 1 else round(times * times)
         count = round(self.count * times * times / shoots) * shoots
@@ -72,42 +72,42 @@ class Habit:
     """How trees of a sort grow."""
 
     slender: float
-    """The trunk's diameter near the ground, of the height."""
+    """Diameter of the trunk near the ground, of the height."""
 
     bare: float
     """Part of the trunk that bears no limbs."""
 
     crown: tuple[float, ...]
-    """Length of limbs from the lowest to the highest, of the longest, evenly along the crown."""
+    """Lengths of limbs at equal steps from the lowest to the highest, of the longest."""
 
     straight: float
-    """How straight the trunk is: 1 goes up like a pole."""
+    """Straightness of the trunk: 1 is a pole."""
 
     whorled: int
-    """Limbs that stand together around the trunk; 1 stand one after another by the golden angle."""
+    """Number of limbs in a whorl around the trunk; 1 places them one by one at the golden angle."""
 
     limbs: Shoots
     branches: Shoots
     twigs: Shoots
     leaf: Leaf
     bark: tuple[str, str]
-    """Colour of young bark, on thin stems, and of old (sRGB)."""
+    """Colours of young bark, on thin stems, and of old (sRGB)."""
 
     ripens: tuple[float, float]
-    """Radius of a stem on which bark begins to be as on old ones, and on which it is [m]."""
+    """Radius of a stem on which bark begins to age, and on which it is old [m]."""
 
     rough: float
-    """How deeply the bark is furrowed, 0 to 1; below 0 it is smooth with dark bands across, as of birches."""
+    """Depth of the bark's furrows, 0 to 1; below 0 it is smooth with dark bands across, as birches have."""
 
     leaves: tuple[str, str]
-    """Colour of leaves, dark and bright (sRGB)."""
+    """Colours of leaves, dark and bright (sRGB)."""
 
     height: tuple[float, float]
-    """Of grown ones [m]."""
+    """Range of heights of grown trees [m]."""
 
 
 GOLDEN = pi * (3.0 - sqrt(5.0))
-"""Angle around a stem from what stands on it to the next: it is cut in the golden ratio [rad]."""
+"""Golden angle between neighbours around a stem [rad]."""
 
 OVATE, LOBED, LANCE, NEEDLES, DELTOID = range(5)
 """Outlines of leaves."""
@@ -167,5 +167,5 @@ HABITS: Mapping[HabitName, Habit] = {
         leaves=("#3c5a24", "#7f9c42"), height=(3.0, 4.6),
     ),
 }  # fmt: skip
-"""By the names that scenes have. Proportions are read off grown trees that stand free; leaves are those of *Quercus
-robur*, *Betula pendula*, *Pinus sylvestris*, *Populus nigra*, *Salix alba* and *Crataegus monogyna*."""
+"""Habits by the names that scenes use. Proportions are read off grown trees that stand free; leaves are those of
+*Quercus robur*, *Betula pendula*, *Pinus sylvestris*, *Populus nigra*, *Salix alba* and *Crataegus monogyna*."""

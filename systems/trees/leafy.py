@@ -1,35 +1,37 @@
-"""Which twigs are drawn leaf by leaf."""
+"""Twigs that are drawn leaf by leaf."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 from ..space.frustum import beyond
-from .card import drawn_of
 from .model import Model
-from .standing import LEAFY, SHOWN
+from .standing import INSTANCE, TWIG_INSTANCE
+from .stream import twigs_drawn
 from .wood import SWAYS
 
 
-def leafy(model: Model, told: np.void, eye: Doubles, sides: Doubles, within: float) -> NDArray[np.intp]:
-    """Return which twigs of a tree, a record of `SHOWN`, are so near an eye [m], and in the picture, nearest first.
+def near_twigs(model: Model, instance: np.void, eye: Doubles, sides: Doubles, within: float) -> NDArray[np.intp]:
+    """Return the numbers of a tree's twigs within a distance of the eye [m] and in the picture, nearest first.
 
-    `sides` are those of the picture, as `Viewer` has them.
+    `instance` is the tree's record of `INSTANCE`, and `sides` the picture's, as `Viewer` has them.
     """
-    (cosine, sine), scale = told["turn"].tolist(), float(told["scale"])
+    (cosine, sine), scale = instance["turn"].tolist(), float(instance["scale"])
     x, y, z = model.twigs["foot"].astype(np.float64).T
-    foot = scale * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=1) + told["root"]
-    off = np.linalg.norm(foot - eye, axis=1)
-    near = np.argsort(off)[: int((off < within).sum())]
-    near = near[near < drawn_of(len(model.twigs), float(told["keep"] * (1.0 - told["gone"]) * told["foliage"]))]
+    foot = scale * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=1) + instance["root"]
+    distance = np.linalg.norm(foot - eye, axis=1)
+    near = np.argsort(distance)[: int((distance < within).sum())]
+    near = near[
+        near < twigs_drawn(len(model.twigs), float(instance["keep"] * (1.0 - instance["gone"]) * instance["foliage"]))
+    ]
     reach = scale * (2.0 * model.habit.twigs.length + SWAYS * model.height)
     return np.asarray(near[beyond(foot[near], sides) <= reach])
 
 
-def leaf_by_leaf(trees: NDArray[np.void], twigs: NDArray[np.intp]) -> NDArray[np.void]:
-    """Return twigs, by their numbers (n,), of trees (n,), records of `SHOWN`, as records of `LEAFY`."""
-    rows = np.zeros(len(trees), LEAFY)
-    for name in SHOWN.names or ():
+def twig_instances(trees: NDArray[np.void], twigs: NDArray[np.intp]) -> NDArray[np.void]:
+    """Return records of `TWIG_INSTANCE`: `trees` (n,) are each twig's tree, and `twigs` (n,) their numbers."""
+    rows = np.zeros(len(trees), TWIG_INSTANCE)
+    for name in INSTANCE.names or ():
         rows[name] = trees[name]
     rows["first"] = twigs
     return rows

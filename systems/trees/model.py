@@ -38,7 +38,7 @@ class Model:
     """Records of `BARK`, shape (n,)."""
 
     wood: tuple[Wood, ...]
-    """What is drawn of those, for each of `RUNS` and what is farther off."""
+    """What is drawn of those, for each of `PIXEL_RADII` and what is farther off."""
 
     middle: float
     """Height of the middle of its pictures from all around [m]."""

@@ -1,5 +1,5 @@
 // Pigments of a kind of tree.
-#include "systems/trees/told.py"
+#include "systems/trees/parameter.py"
 
 const float FURROWED_MEAN = 0.925, BANDED_MEAN = 0.88;  // how bright bark is with what it has on it, of its ground, in the mean
 const vec2 SOILED = vec2(0.3, 2.8);  // heights between which soil and moss on bark end, of the grass's, and with noise of it

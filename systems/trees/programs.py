@@ -1,4 +1,4 @@
-"""The programs that trees are drawn with, each made when it is first asked for, or ahead of that."""
+"""Programs that draw trees, compiled ahead or when they are first asked for."""
 
 from collections.abc import Iterator, Mapping
 
@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from ...engine.gl.shaders import Texts
 from ...engine.gl.stream import Stream, release_all
 from ..frame.block import FrameBlock, joined
-from .card import CAST, FAR, IN_ROWS, LEAVES, NEAR, PICTURED, WOOD, ModelOnCard
 from .grow import MOST_TWIGS
 from .habit import HABITS
 from .standing import HUNG, HUNG_LEAVES
+from .stream import CAST, FAR, IN_ROWS, LEAVES, NEAR, PICTURED, WOOD, GpuModel
 
 SORTS: Mapping[str, tuple[str, str, Mapping[str, str | int]]] = {
     NEAR: ("card", "card", {}),
@@ -23,67 +23,67 @@ SORTS: Mapping[str, tuple[str, str, Mapping[str, str | int]]] = {
     IN_ROWS: ("far", "far", {"STANDS": 1, "IN_ROWS": 1}),
     CAST: ("far", "far", {"CAST": 1}),
 }
-"""By what is drawn: vertex and fragment shader, and what they are told."""
+"""Vertex shader, fragment shader and defines of each way to draw."""
 
 HARD, SOFT, SAMPLED = "HARD", "SOFT", "SAMPLED"
-"""Which way pixels are drawn that are covered in part, as shaders are told: those that are covered nearly wholly, as
-opaque; the others, blended; or all of them, opaque in as many samples of a pixel as are covered."""
+"""Ways to draw pixels covered in part, as defines: opaque where coverage is nearly whole; blended where it is less; or
+opaque in as many samples of a pixel as are covered."""
 
 STAND, HANG, HANG_LEAVES = "stand", "hang", "hang leaves"
-"""What is made out: once a tree, once a twig on its card, and once a twig leaf by leaf."""
+"""Transform feedback passes: once a tree, once a twig on its card, and once a twig leaf by leaf."""
 
-MADE: Mapping[str, tuple[str, tuple[str, ...], Mapping[str, str | int]]] = {
+FEEDBACK: Mapping[str, tuple[str, tuple[str, ...], Mapping[str, str | int]]] = {
     STAND: ("stand", ("moved", "veil", "among", "sent_up"), {}),
     HANG: ("hang", HUNG.names or (), {"STANDS": 1}),
     HANG_LEAVES: ("hang", HUNG_LEAVES.names or (), {"STANDS": 1, "LEAVES": 1}),
 }
-"""By that: the shader, what it writes, and what it is told."""
+"""Vertex shader, outputs and defines of each of these passes."""
 
 MOST_QUADS = max(MOST_TWIGS, *(habit.leaf.quads for habit in HABITS.values()))
-"""Quads that are drawn at most of a tree or a twig: its twigs on cards as they are baked, or its leaves."""
+"""Greatest number of quads of a draw: a baked tree's twigs on cards, or a twig's leaves."""
 
 
 class Programs:
-    """Programs and vertex arrays of one GL context, for trees in scenes that are told the same."""
+    """Programs and vertex arrays of one GL context, for scenes with the same defines."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
         self._ctx, self._block, self._units = ctx, block, units
-        self.made_of = dict(block.defines)
+        self.defines = dict(block.defines)
         self._programs: dict[tuple[str, str, bool], moderngl.Program] = {}
-        self._makers: dict[str, moderngl.Program] = {}
+        self._feedback_programs: dict[str, moderngl.Program] = {}
         self._arrays: dict[tuple[int, str, str, bool], moderngl.VertexArray] = {}
         self._quads = ctx.buffer(_quads())
 
     def texts(self, *, in_rows: bool) -> Iterator[Texts]:
-        """Return what is not there yet of all that may be drawn is made of, far trees in rows or one by one."""
-        for sort, edges in self._due(in_rows=in_rows):
+        """Return the sources of programs not compiled yet; `in_rows` says whether far trees stand for rows."""
+        for sort, edges in self._missing(in_rows=in_rows):
             yield self._block.texts(*_shaders(sort, edges=edges, baked=False))
 
     def making(self, *, in_rows: bool) -> Iterator[None]:
-        """Make what is not there yet of that, one at a time."""
-        for sort, edges in self._due(in_rows=in_rows):
+        """Compile these programs, one at a time."""
+        for sort, edges in self._missing(in_rows=in_rows):
             self._program(sort, edges=edges, baked=False)
             yield
-        for what in MADE.keys() - self._makers:
-            self._maker(what)
+        for what in FEEDBACK.keys() - self._feedback_programs:
+            self._feedback_program(what)
             yield
 
-    def _due(self, *, in_rows: bool) -> list[tuple[str, str]]:
+    def _missing(self, *, in_rows: bool) -> list[tuple[str, str]]:
         sorts = NEAR, LEAVES, WOOD, IN_ROWS if in_rows else FAR
         drawn = [*((sort, edges) for sort in sorts for edges in (HARD, SOFT)), (CAST, HARD)]
         return [(sort, edges) for sort, edges in drawn if (sort, edges, False) not in self._programs]
 
     def array(
-        self, sort: str, stream: Stream, model: ModelOnCard | None = None, /, *, edges: str = HARD, baked: bool = False
+        self, sort: str, stream: Stream, model: GpuModel | None = None, /, *, edges: str = HARD, baked: bool = False
     ) -> moderngl.VertexArray:  # fmt: skip
-        """Return what draws trees of a stream: with such edges, or as they are baked; `WOOD` is a model's."""
+        """Return the vertex array of a stream for these edges, or for baking; `WOOD` needs its model."""
         key = id(stream), sort, edges, baked
         if key not in self._arrays:
             program, indices = self._program(sort, edges=edges, baked=baked), self._quads
             contents = [stream.binding(program)]
             if model is not None:
-                if not baked and (told := model.told.get(id(stream))) is not None:
-                    contents.append(told.binding(program))
+                if not baked and (stood := model.stood.get(id(stream))) is not None:
+                    contents.append(stood.binding(program))
                 if sort == WOOD:
                     contents.insert(0, model.bark(program))
                     indices = model.triangles
@@ -93,23 +93,23 @@ class Programs:
             )
         return self._arrays[key]
 
-    def made(self, what: str, stream: Stream, told: Stream | None = None) -> moderngl.VertexArray:
-        """Return what makes out what `MADE` has of each tree of a stream, or with `told` of each of its twigs."""
+    def feedback(self, what: str, stream: Stream, stood: Stream | None = None) -> moderngl.VertexArray:
+        """Return the vertex array of a feedback pass: over a stream's trees, or with `stood` over each tree's twigs."""
         key = id(stream), what, HARD, False
         if key not in self._arrays:
-            program = self._maker(what)
-            each = "/v" if told is None else "/i"
-            streams = [one.binding(program, each=each) for one in (stream, told) if one is not None]
+            program = self._feedback_program(what)
+            each = "/v" if stood is None else "/i"
+            streams = [one.binding(program, each=each) for one in (stream, stood) if one is not None]
             self._arrays[key] = self._ctx.vertex_array(program, streams)
         return self._arrays[key]
 
-    def _maker(self, what: str) -> moderngl.Program:
-        if what not in self._makers:
-            name, written, defines = MADE[what]
+    def _feedback_program(self, what: str) -> moderngl.Program:
+        if what not in self._feedback_programs:
+            name, written, defines = FEEDBACK[what]
             shader = f"systems/trees/{name}.vert"
-            made = joined(self._ctx, self._block, self._units, shader, None, defines, varyings=written)
-            self._makers[what] = made
-        return self._makers[what]
+            program = joined(self._ctx, self._block, self._units, shader, None, defines, varyings=written)
+            self._feedback_programs[what] = program
+        return self._feedback_programs[what]
 
     def _program(self, sort: str, *, edges: str, baked: bool) -> moderngl.Program:
         key = sort, edges, baked
@@ -120,16 +120,18 @@ class Programs:
 
     def release(self) -> None:
         """Give everything back."""
-        release_all(*self._arrays.values(), *self._programs.values(), *self._makers.values(), self._quads)
+        release_all(*self._arrays.values(), *self._programs.values(), *self._feedback_programs.values(), self._quads)
 
 
 def _shaders(sort: str, *, edges: str, baked: bool) -> tuple[str, str, Mapping[str, str | int]]:
-    """Return the vertex and the fragment shader of what is drawn, and what they are told."""
-    vertex, fragment, told = SORTS[sort]
-    told = {**told, edges: 1} if not baked else {**{k: v for k, v in told.items() if k != "STANDS"}, "BAKED": 1}
-    return f"systems/trees/{vertex}.vert", f"systems/trees/{fragment}.frag", told
+    """Return the vertex shader, fragment shader and defines of a way to draw."""
+    vertex, fragment, defines = SORTS[sort]
+    defines = (
+        {**defines, edges: 1} if not baked else {**{k: v for k, v in defines.items() if k != "STANDS"}, "BAKED": 1}
+    )
+    return f"systems/trees/{vertex}.vert", f"systems/trees/{fragment}.frag", defines
 
 
 def _quads() -> NDArray[np.uint32]:
-    """Return the corners of quads, four each, as two triangles each."""
+    """Return indices that make two triangles of each four corners."""
     return (np.arange(MOST_QUADS, dtype=np.uint32)[:, None] * 4 + np.array([0, 1, 2, 2, 1, 3], np.uint32)).reshape(-1)

@@ -12,11 +12,11 @@ from ...engine.gl.guest import borrow
 from ...engine.gl.stream import Stream, release_all
 from ...engine.gl.units import BORROWED
 from ..wind.mean import MeanWind
-from .card import CAST, QUAD, Numbers
-from .kind import KindOnCard
+from .kind import GpuKind
 from .motion import CROWN_BENDS, TONES_APART, TRUNK_LEANS, TRUNK_SWINGS, tones, trunk_hertz
 from .programs import Programs
-from .standing import SHOWN, Standing, shown
+from .standing import INSTANCE, Standing, far_instances
+from .stream import CAST, QUAD, Numbers
 
 UNIT = BORROWED[0] - 1
 """The texture unit that the map is bound to: a host's, and given back in the end."""
@@ -68,7 +68,7 @@ class ShadeMap:
 
     def sway(self, standing: Standing, wind: MeanWind | None, record: NDArray[np.void], /, *, time: float) -> None:
         """Write how far the mean wind blows crowns aside just now, which the maps do not have."""
-        row, (high, _) = record[0], standing.usual
+        row, (high, _) = record[0], standing.medians
         strength, heading = (wind.strength, radians(wind.direction)) if wind else (0.0, 0.0)
         row["trees_aside"] = strength * CROWN_BENDS * high * np.array([sin(heading), -cos(heading)])
         row["trees_tones"] = tones(trunk_hertz(max(high, 1.0), USUAL_TRUNK * high), time)
@@ -81,7 +81,7 @@ class ShadeMap:
             across = np.array([sun[2], 0.0, -sun[0]])
             across = across / np.linalg.norm(across) if np.linalg.norm(across) > 1e-3 else np.array([1.0, 0.0, 0.0])
             self._axes = np.stack([across, np.cross(sun, across)])
-        (_, low), self._due = standing.usual, []
+        (_, low), self._due = standing.medians, []
         for step in STEPS:
             middle = np.array([round(eye[0] / step) * step, low, round(eye[2] / step) * step])
             at = self._axes @ middle if step != STEPS[2] else middle[::2]
@@ -95,7 +95,7 @@ class ShadeMap:
         borrow(UNIT, self._texture.glo)
         self._sampler.use(UNIT)
 
-    def prepare(self, kinds: Sequence[KindOnCard], programs: Programs, standing: Standing, numbers: Numbers, /) -> int:
+    def prepare(self, kinds: Sequence[GpuKind], programs: Programs, standing: Standing, numbers: Numbers, /) -> int:
         """Draw those that are due; return the number of draw calls."""
         due = [number for number, (made_of, _) in enumerate(self._due) if self._drawn[number] != made_of]
         if not due:
@@ -117,22 +117,22 @@ class ShadeMap:
                     if stream is None or not stream.count:
                         continue
                     array = programs.array(CAST, stream)
-                    kind.tell(array.program, model, {**numbers, "tile": tile})
+                    kind.set_uniforms(array.program, model, {**numbers, "tile": tile})
                     array.render(moderngl.TRIANGLES, vertices=QUAD, instances=stream.count)
                     calls += 1
             ctx.enable_only(moderngl.NOTHING)
         return calls
 
-    def _send(self, kinds: Sequence[KindOnCard], standing: Standing) -> None:
+    def _send(self, kinds: Sequence[GpuKind], standing: Standing) -> None:
         if self._standing is standing and self._streams:
             return
         self._standing = standing
         for number, model in enumerate(model for kind in kinds for model in kind.models):
-            own = standing.of(number)
+            own = standing.of_model(number)
             own = own[own["ring"] < 2]  # what is farther off shades nothing that is seen to be shaded
             if id(model) not in self._streams:
-                self._streams[id(model)] = Stream(self._ctx, SHOWN)
-            self._streams[id(model)].write(shown(own, np.float32(model.model.height), np.float32(0.0)))
+                self._streams[id(model)] = Stream(self._ctx, INSTANCE)
+            self._streams[id(model)].write(far_instances(own, np.float32(model.model.height), np.float32(0.0)))
 
     def release(self) -> None:
         """Give everything back."""

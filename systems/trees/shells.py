@@ -1,4 +1,4 @@
-"""Shells of grass about the eye: trees in one are drawn together, and their soft edges come after the same grass."""
+"""Shells of grass about the eye: trees of one are drawn together, and their soft edges after the grass beyond it."""
 
 from math import ceil, inf, log
 
@@ -8,26 +8,26 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles
 
 SHELL = 0.75
-"""How near the near end of a shell is, of its far end."""
+"""Near end of a shell, of its far end."""
 
 SHELLS = 7
-"""Shells that have trees of their own. The nearest goes to the eye: up to a quarter of its way, grass is blades."""
+"""Number of shells among the grass. The nearest goes to the eye: up to a quarter of its reach, grass is blades."""
 
 
-def shells_of(off: Doubles, reach: float, /) -> NDArray[np.intp]:
-    """Return the shells of trees so far off along the ground, shape (n,) [m]; grass stands up to `reach` [m].
+def shells_of(distance: Doubles, reach: float, /) -> NDArray[np.intp]:
+    """Return the shells (n,) of trees at distances along the ground [m]; grass stands up to `reach` [m].
 
-    They are 0 beyond all grass that stands, and then from far to near. They end at powers of `SHELL`, and stay where
-    they are while the grass ends elsewhere: trees change theirs seldom.
+    Shell 0 lies beyond all grass, and the others count from far to near. Their ends are powers of `SHELL`, and so do
+    not move with the reach: trees seldom change shells.
     """
     outmost = ceil(log(reach) / -log(SHELL)) if reach > 0.0 else 0
     ends = SHELL ** (np.arange(SHELLS) - outmost)
-    return np.where(off < reach, (off[:, None] < ends).sum(axis=1), 0)
+    return np.where(distance < reach, (distance[:, None] < ends).sum(axis=1), 0)
 
 
-def farthest_of(shell: int, off: float, /) -> float:
-    """Return how far off trees count as at most [m], which all stand in a shell, up to so far off along the ground [m].
+def farthest_of(shell: int, distance: float, /) -> float:
+    """Return the distance that a shell's trees count as [m]; the farthest is `distance` off along the ground [m].
 
-    That is infinite beyond all grass, and 0 for single leaves, which are before it.
+    It is infinite for shell 0, beyond all grass, and 0 for single leaves, which are in front of it.
     """
-    return {0: inf, SHELLS + 1: 0.0}.get(shell, off)
+    return {0: inf, SHELLS + 1: 0.0}.get(shell, distance)

@@ -1,4 +1,4 @@
-"""Trees as they stand in a frame, and what of each is drawn."""
+"""Trees as they stand in a frame, and the level of detail of each."""
 
 from dataclasses import dataclass, field
 
@@ -16,99 +16,100 @@ STANDING = np.dtype(
         ("model", "i4"), ("phase", "f4"), ("tint", "f4"), ("ring", "i4"),
     ]
 )  # fmt: skip
-"""A tree: where it stands [m], height [m], heading [rad], how many of its leaves it has, number of its kind; which of
-the kind's models it is; what sets it apart from others in the wind, 0 to 1, and in brightness, -1 to 1; 0, or in which
-ring about the viewer it is shown, where it stands for four times as many from each to the next."""
+"""A tree: place [m], height [m], heading [rad], share of its leaves, index of its kind; index of its model in the kind;
+random numbers for its phase in the wind, 0 to 1, and its brightness, -1 to 1; its ring about the viewer, or 0. A tree
+of a ring stands for four times as many as one of the ring before."""
 
-WHOLE_TO = 512.0
-"""How far off all trees of a large forest are shown [m]: there one is 15 to 30 pixels high. Each ring goes twice as far
-as the one before."""
+DENSE_TO = 512.0
+"""Distance up to which all trees of a large forest are shown [m]: there one is 15 to 30 pixels high. Each ring reaches
+twice as far as the one before."""
 
 RING_FADES = 0.1
-"""Over which part of the way to its end a ring fades out, and the next one in."""
+"""Part of a ring's reach over which it cross-fades into the next one."""
 
-WIDEST = 80.0
-"""How broad the row of trees is at most that one in a ring farther off stands for [m]: ground is uneven."""
+WIDEST_ROW = 80.0
+"""Greatest breadth of the row of trees that a tree of a farther ring stands for [m]: ground is uneven."""
 
-COLUMN = 1.2
-"""Distance from tree to tree in it, of a crown's radius."""
+ROW_SPACING = 1.2
+"""Distance between trees in such a row [crown radii]."""
 
-SHOWN = np.dtype(
+INSTANCE = np.dtype(
     [
         ("root", "3f4"), ("scale", "f4"), ("turn", "2f4"), ("phase", "f4"), ("tint", "f4"),
         ("keep", "f4"), ("gone", "f4"), ("foliage", "f4"), ("columns", "f4"), ("shows", "f4"),
     ]
 )  # fmt: skip
-"""What shaders are told of a tree, as `tree.glsl` has it."""
+"""Instance attributes of a tree; `tree.glsl` describes each."""
 
-LEAFY = np.dtype([*SHOWN.descr, ("first", "f4")])
-"""Of a twig that is drawn leaf by leaf, that of its tree, and the twig's number."""
+TWIG_INSTANCE = np.dtype([*INSTANCE.descr, ("first", "f4")])
+"""Instance attributes of a twig drawn leaf by leaf: those of its tree, and the twig's number."""
 
 PLACED = np.dtype([("root", "3f4"), ("crown_at", "f4"), ("phase", "f4"), ("hertz", "f4")])
-"""Where a tree stands, and how high above that the middle of its crown is [m]; what sets it apart in the wind, and how
-fast its trunk swings [Hz]: what `stand.vert` asks of it."""
+"""Input of `stand.vert`: place of a tree, height of its crown's middle above that [m], phase in the wind and frequency
+of its trunk [Hz]."""
 
-TOLD = np.dtype([("blown", "4f4"), ("misty", "4f4"), ("stands_in", "4f4"), ("lawn_sends", "3f4")])
-"""What they make out of it once a tree: `stand.vert` writes it."""
+STOOD = np.dtype([("blown", "4f4"), ("misty", "4f4"), ("stands_in", "4f4"), ("lawn_sends", "3f4")])
+"""Output of `stand.vert`, once a tree."""
 
 HUNG = np.dtype([("hung_at", "4f4"), ("hung_axes", "4u4"), ("hung_light", "4u4")])
-"""And once a twig on its card: `hang.vert` writes it."""
+"""Output of `hang.vert`, once a twig on its card."""
 
 HUNG_LEAVES = np.dtype([*HUNG.descr, ("hung_haze", "2u4")])
-"""And once a twig leaf by leaf."""
+"""Output of `hang.vert`, once a twig drawn leaf by leaf."""
 
-WHOLE, FEWER_BY = 620.0, 1.4
-"""Height from which on all twigs of a tree are drawn [pixels], and the power of lower ones' height by which fewer are.
+ALL_TWIGS_FROM, TWIG_POWER = 620.0, 1.4
+"""Height from which all twigs of a tree are drawn [pixels], and the power of the height that their share follows below
+it.
 
-Those that are left stand for several, so that they hide as much (Cook and others, Stochastic Simplification of
-Aggregate Detail, 2007)."""
+Those left stand for several, so that they hide as much (Cook and others, Stochastic Simplification of Aggregate Detail,
+2007)."""
 
-FEWEST = 0.08
-"""Share of them that is drawn at least."""
+FEWEST_TWIGS = 0.08
+"""Least share of its twigs that is drawn of a tree."""
 
-BEGINS = float(LINES)
-"""Height of its picture below which a tree begins to be drawn as it is far off: no texel of that is larger than a pixel
-[pixels]."""
+FADES_BELOW = float(LINES)
+"""Height of a tree's picture below which it begins to fade in [pixels]: no texel of it is larger than a pixel."""
 
-GONE = 0.75 * BEGINS
-"""That at which it is all drawn so: the change takes a third of the way there [pixels]."""
+PICTURE_BELOW = 0.75 * FADES_BELOW
+"""Height of its picture below which a tree is drawn as that alone [pixels]."""
 
 
 BAREST = 1.0 / 3.0
-"""Share of its leaves at which a tree is drawn as it is near by down to a third of such heights, and with three times
-as large a part of its twigs: pictures show no limbs that leaves hide. Barer ones are no further."""
+"""Share of its leaves down to which a tree keeps its twigs longer than a full one, and draws more of them: at a third,
+down to a third of the height, and three times as large a share. Pictures show no limbs that leaves hide. Barer trees
+are treated as this one."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Standing:
-    """All trees of a frame; another frame has another object only where any is another."""
+    """All trees of a frame; the same object from frame to frame while no tree changes."""
 
     rows: NDArray[np.void]
     """Records of `STANDING`, shape (n,)."""
 
     _sorted: list[NDArray[np.void]] = field(default_factory=list, init=False)
     _models: list[NDArray[np.intp]] = field(default_factory=list, init=False)
-    _usual: list[float] = field(default_factory=list, init=False)
+    _medians: list[float] = field(default_factory=list, init=False)
     _rings: list[int] = field(default_factory=list, init=False)
 
     @property
-    def usual(self) -> tuple[float, float]:
-        """The median of their heights, and of the heights that they stand at [m]; 0 where there are none."""
-        if not self._usual:
+    def medians(self) -> tuple[float, float]:
+        """Median of the trees' heights, and of the elevations of their feet [m]; 0 where there are none."""
+        if not self._medians:
             both = self.rows["height"], self.rows["root"][:, 1]
-            self._usual.extend(float(np.median(each)) if len(each) else 0.0 for each in both)
-        high, low = self._usual
+            self._medians.extend(float(np.median(each)) if len(each) else 0.0 for each in both)
+        high, low = self._medians
         return high, low
 
     @property
     def in_rows(self) -> bool:
-        """Whether some stand for rows of trees."""
+        """Whether any tree stands for a row of trees."""
         if not self._rings:
             self._rings.append(int(self.rows["ring"].max(initial=0)))
         return self._rings[0] > 1
 
     def by_model(self) -> tuple[NDArray[np.void], NDArray[np.intp]]:
-        """Return all of them, model after model, and the number of each one's model, of all models of all kinds."""
+        """Return the trees sorted by model, and the model of each, as an index into those of all kinds."""
         if not self._sorted:
             number = (self.rows["kind"] * MODELS + self.rows["model"]).astype(np.intp)
             order = np.argsort(number, kind="stable")
@@ -116,55 +117,58 @@ class Standing:
             self._models.append(number[order])
         return self._sorted[0], self._models[0]
 
-    def of(self, model: int, /) -> NDArray[np.void]:
-        """Return those of a model, by its number of all, records of `STANDING`."""
+    def of_model(self, model: int, /) -> NDArray[np.void]:
+        """Return the trees of a model, an index into those of all kinds, as records of `STANDING`."""
         rows, number = self.by_model()
         first, end = np.searchsorted(number, (model, model + 1))
         return rows[first:end]
 
 
-def tell_apart(rows: NDArray[np.void], /) -> None:
-    """Write what each tree has of its own, by where it stands."""
+def individualise(rows: NDArray[np.void], /) -> None:
+    """Write each tree's random numbers and its model, hashed from its place."""
     x, z = (np.ascontiguousarray(rows["root"][:, axis]).view(np.int32) for axis in (0, 2))
-    own = hash3(42, x, z)
-    rows["model"] = np.minimum(unit(stream(own, 1)) * MODELS, MODELS - 1)
-    rows["phase"], rows["tint"] = unit(stream(own, 2)), 2.0 * unit(stream(own, 3)) - 1.0
+    hashed = hash3(42, x, z)
+    rows["model"] = np.minimum(unit(stream(hashed, 1)) * MODELS, MODELS - 1)
+    rows["phase"], rows["tint"] = unit(stream(hashed, 2)), 2.0 * unit(stream(hashed, 3)) - 1.0
 
 
-def shown(rows: NDArray[np.void], height: Floats | np.float32, variety: Floats | np.float32, /) -> NDArray[np.void]:
-    """Return what shaders are told of trees far off, records of `SHOWN`.
+def far_instances(
+    rows: NDArray[np.void], height: Floats | np.float32, variety: Floats | np.float32, /
+) -> NDArray[np.void]:
+    """Return trees as records of `INSTANCE`, drawn as pictures alone.
 
-    Their models' own heights are so much [m]; `variety` is how far they differ in brightness, both of shape (n,) or ().
+    `height` is that of their models [m], and `variety` the spread of their brightness, each of shape (n,) or ().
     """
-    told = np.zeros(len(rows), SHOWN)
-    told["root"], told["scale"] = rows["root"], rows["height"] / height
-    told["turn"] = np.stack([np.cos(rows["yaw"]), np.sin(rows["yaw"])], axis=1)
-    told["phase"], told["foliage"] = rows["phase"], rows["foliage"]
-    told["tint"] = 1.0 + variety * rows["tint"]
-    told["keep"], told["gone"] = FEWEST, 1.0
-    told["columns"] = told["shows"] = 1.0
-    return told
+    instances = np.zeros(len(rows), INSTANCE)
+    instances["root"], instances["scale"] = rows["root"], rows["height"] / height
+    instances["turn"] = np.stack([np.cos(rows["yaw"]), np.sin(rows["yaw"])], axis=1)
+    instances["phase"], instances["foliage"] = rows["phase"], rows["foliage"]
+    instances["tint"] = 1.0 + variety * rows["tint"]
+    instances["keep"], instances["gone"] = FEWEST_TWIGS, 1.0
+    instances["columns"] = instances["shows"] = 1.0
+    return instances
 
 
-def come_near(told: NDArray[np.void], pixels: Doubles, pictured: Doubles, /) -> None:
-    """Write how much is drawn of trees, records of `SHOWN`, that stand so high in a picture, shape (n,) [pixels].
+def set_detail(instances: NDArray[np.void], pixels: Doubles, pictured: Doubles, /) -> None:
+    """Write the share of twigs and the fade to the picture into records of `INSTANCE`.
 
-    `pictured` is how high their own pictures are there.
+    `pixels` is the height of each tree in the picture, and `pictured` that of its own picture there, shape (n,)
+    [pixels].
     """
-    leafy = np.maximum(told["foliage"], BAREST)
-    told["keep"] = np.clip((pixels / WHOLE) ** FEWER_BY / leafy, FEWEST, 1.0)
-    told["gone"] = np.clip((BEGINS - pictured) / (BEGINS - GONE), 0.0, 1.0)
+    foliage = np.maximum(instances["foliage"], BAREST)
+    instances["keep"] = np.clip((pixels / ALL_TWIGS_FROM) ** TWIG_POWER / foliage, FEWEST_TWIGS, 1.0)
+    instances["gone"] = np.clip((FADES_BELOW - pictured) / (FADES_BELOW - PICTURE_BELOW), 0.0, 1.0)
 
 
-def shows(ring: NDArray[np.integer], off: Doubles, /) -> Doubles:
-    """Return how much trees of rings (n,) are shown so far off along the ground [m], (n,), in [0, 1]."""
-    end = WHOLE_TO * 2.0 ** (ring - 1.0)
-    out = np.clip((end - off) / (RING_FADES * end), 0.0, 1.0)
-    into = np.clip((off - 0.5 * end) / (RING_FADES * 0.5 * end) + 1.0, 0.0, 1.0)
+def ring_opacity(ring: NDArray[np.integer], distance: Doubles, /) -> Doubles:
+    """Return the opacity of trees of rings (n,) at distances (n,) along the ground [m], in [0, 1]."""
+    end = DENSE_TO * 2.0 ** (ring - 1.0)
+    out = np.clip((end - distance) / (RING_FADES * end), 0.0, 1.0)
+    into = np.clip((distance - 0.5 * end) / (RING_FADES * 0.5 * end) + 1.0, 0.0, 1.0)
     return np.where(ring > 0, out, 1.0) * np.where(ring > 1, into, 1.0)
 
 
 def columns_of(rows: NDArray[np.void], radius: Doubles, /) -> Doubles:
-    """Return how many trees stand side by side in what each shows, (n,), whose crowns have such a radius [m]."""
+    """Return the number of trees in the row that each stands for, (n,); `radius` is that of their crowns [m]."""
     most = 4.0 ** np.maximum(rows["ring"] - 1.0, 0.0)
-    return np.asarray(np.maximum(np.minimum(np.floor(WIDEST / (COLUMN * radius)), most), 1.0))
+    return np.asarray(np.maximum(np.minimum(np.floor(WIDEST_ROW / (ROW_SPACING * radius)), most), 1.0))

@@ -3,7 +3,7 @@
 #include "lib/light.glsl"
 #include "systems/trees/crown.glsl"
 #include "systems/trees/motion.py"
-#include "systems/trees/told.py"
+#include "systems/trees/parameter.py"
 
 in vec3 root;     // where it stands [m]
 in float scale;   // how much larger it is than its model

@@ -1,4 +1,4 @@
-"""How thin wood is drawn: none narrower than a pixel, and less of what would cover less of one."""
+"""Thin stems: at least a pixel wide, and of lower coverage instead."""
 
 from typing import NamedTuple
 
@@ -7,40 +7,40 @@ import numpy as np
 from ...components.arrays import Doubles
 
 OPAQUE, FAINTEST = 0.8, 0.02
-"""Coverage of a pixel from which on what is there is opaque, and below which it is left out."""
+"""Coverage from which on a pixel is opaque, and below which it is discarded."""
 
 SOLID = 0.58
-"""Coverage from which on that is so of twigs on cards, and of all of a tree in a shadow map.
+"""That coverage of twigs on cards, and of everything in a shadow map.
 
-From a half on, as much would be opaque as is covered in the mean, and soft edges of what sticks out would come
-besides. Of needles it is more, as `solid_above` says.
+From a half on, as much would be opaque as is covered in the mean, but the soft edges of what sticks out come on top.
+Needles have a higher one, from `solid_above`.
 
 Soft parts are drawn from near to far: fainter ones let little of what is behind come to the front."""
 
 CLOSED = 0.9
-"""Coverage from which on that is so of pictures of trees far off: most of a sparse crown covers a little less, and as
-opaque would hide up to a tenth too much of the sky."""
+"""That coverage of pictures far off: most of a sparse crown covers a little less, and as opaque would hide up to a
+tenth too much of the sky."""
 
 THINNEST = 0.5
-"""Half the width that a stem has at least [pixels]."""
+"""Least half width of a stem [pixels]."""
 
 AWAY = 0.15
-"""How far off a stem counts as at least [m]."""
+"""Least distance of a stem [m]: nearer ones count as so far."""
 
 THINS = 0.35, 0.65
-"""Coverage at which a stem is left out among leaves, and from which on it is drawn in full."""
+"""Coverage below which a stem among leaves is left out, and from which on it is drawn in full."""
 
 FADES = 2.0, 4.0
-"""Width from which on a stem's edges begin to fade, and from which on they do so over a whole pixel [pixels]."""
+"""Width from which on a stem's edges are soft, and from which on they are soft over a whole pixel [pixels]."""
 
 LEAFY = 0.95
 """Share of its leaves from which on a tree's thin stems are left out."""
 
 FLAT = 1e-9
-"""Determinant below which a matrix shows no perspective."""
+"""Determinant below which a matrix has no perspective."""
 
 SWAYS = 0.1
-"""How much nearer or farther off the wind sways what is a tree's, of its reach."""
+"""Greatest displacement by the wind, of a tree's reach."""
 
 GLSL = {
     "OPAQUE": OPAQUE, "FAINTEST": FAINTEST, "THINNEST": THINNEST, "AWAY": AWAY, "THINS": THINS, "FADES": FADES,
@@ -48,38 +48,38 @@ GLSL = {
 
 
 class Parts(NamedTuple):
-    """Which of the triangles of wood are drawn, of those of its distance, in their order."""
+    """Numbers of leading triangles of `Wood` that are drawn."""
 
     solid: int
-    """So many first ones may cover pixels wholly."""
+    """Number of leading triangles that may cover whole pixels."""
 
     soft: int
-    """So many first ones cover some pixels in part, at their edges."""
+    """Number of leading triangles that may cover a part of a pixel, at their edges."""
 
 
 def nearest_ahead(clip: Doubles, middle: Doubles, eye: Doubles, reach: Doubles, /) -> Doubles:
-    """Return how far ahead of the eye what is seen of trees lies at least, shape (n,) [m].
+    """Return the least depth of what is seen of trees, shape (n,) [m].
 
-    `reach` is how far each goes from its middle, and how far aside (n, 2) [m]: no part of it is nearer than that leaves
-    over of its distance along the ground, nor farther from straight ahead than a picture's corner.
+    `reach` is the radius of each tree's bounding sphere and of the circle it stands in (n, 2) [m]. A part in the
+    picture is at most a picture's corner away from straight ahead, so its depth is bounded by the distance along the
+    ground, too.
     """
     ahead = middle @ clip[3, :3] + clip[3, 3] - reach[:, 0] * np.linalg.norm(clip[3, :3])
     rows = clip[[0, 1, 3], :3]
     if abs(np.linalg.det(rows)) < FLAT:
         return np.asarray(ahead)
     corners = np.linalg.solve(rows, np.array([[-1.0, 1.0, -1.0, 1.0], [-1.0, -1.0, 1.0, 1.0], [1.0] * 4]))
-    off = np.hypot(middle[:, 0] - eye[0], middle[:, 2] - eye[2]) - reach[:, 1]
-    return np.asarray(np.maximum(ahead, off / np.linalg.norm(corners, axis=0).max()))
+    distance = np.hypot(middle[:, 0] - eye[0], middle[:, 2] - eye[2]) - reach[:, 1]
+    return np.asarray(np.maximum(ahead, distance / np.linalg.norm(corners, axis=0).max()))
 
 
-def parts(radii: Doubles, wide: float, foliage: float, /) -> Parts:
-    """Return what is drawn of the wood of trees that have so many of their leaves, or more.
+def parts(radii: Doubles, pixel_radius: float, foliage: float, /) -> Parts:
+    """Return the triangles drawn of trees with at least a share of `foliage` of their leaves.
 
-    `radii` are those of the model's triangles, as `Wood` has them; `wide` is the radius of one that is a pixel wide,
-    where a tree is nearest [m of the model].
+    `radii` are those of `Wood`; `pixel_radius` is that of a stem a pixel wide at the nearest tree [m of the model].
     """
 
-    def so_thick(radius: float) -> int:
+    def count(radius: float) -> int:
         return len(radii) - int(np.searchsorted(radii, radius))
 
-    return Parts(so_thick(OPAQUE * wide), so_thick(THINS[0] * wide) if foliage >= LEAFY else len(radii))
+    return Parts(count(OPAQUE * pixel_radius), count(THINS[0] * pixel_radius) if foliage >= LEAFY else len(radii))

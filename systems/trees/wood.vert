@@ -8,7 +8,7 @@
 #include "systems/trees/pigment.glsl"
 #include "systems/trees/wood.py"
 
-in uvec4 stem;    // of the model: the stem's middle; its radius; 0 to STEM_ONE within their ranges
+in uvec4 stem;    // of the model: the stem's middle; its radius; 0 to STEM_SCALE within their ranges
 in vec4 side;     // which way the vertex lies from that, a unit vector, and how much farther out the corners of what has flat sides
                   // are than what it stands for; or which way a ribbon goes, and -1 or 1 on its edge
 in vec4 own;      // around the stem and along it [m]; what sets its limb apart, and the frequency of that
@@ -54,7 +54,7 @@ vec3 aside_of(vec3 middle_at) {
 
 void main() {
     on_skin = own.xy;
-    vec4 stem_at = stem_least + stem_range * (vec4(stem) / STEM_ONE), meets = vec4(2.0 * shading.xyz - 1.0, shading.w) * most_shading.xxxy;
+    vec4 stem_at = stem_least + stem_range * (vec4(stem) / STEM_SCALE), meets = vec4(2.0 * shading.xyz - 1.0, shading.w) * most_shading.xxxy;
 #ifdef BAKED
     inside = meets;
     facing = 2.0 * side.xyz - 1.0;

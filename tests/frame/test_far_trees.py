@@ -52,7 +52,7 @@ def prairie(ctx: moderngl.Context, stage: Stage) -> Iterator[Prairie]:
 @pytest.mark.parametrize("habit", HABITS)
 def test_where_a_tree_begins_to_be_a_picture_no_texel_is_larger_than_a_pixel(habit: str) -> None:
     for model in models_of(habit, 4):
-        assert model.lines >= standing.BEGINS > standing.GONE
+        assert model.lines >= standing.FADES_BELOW > standing.PICTURE_BELOW
 
 
 def test_a_picture_is_as_blurred_as_the_mean_over_a_pixel() -> None:
@@ -65,8 +65,8 @@ def test_clumps_of_one_picture_give_way_to_those_of_another_in_no_lattice(
     stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Half-way between a picture that is bright all over and one that is dark."""
-    monkeypatch.setattr(standing, "GONE", 1e5)
-    monkeypatch.setattr(standing, "BEGINS", 2e5)
+    monkeypatch.setattr(standing, "PICTURE_BELOW", 1e5)
+    monkeypatch.setattr(standing, "FADES_BELOW", 2e5)
     between = math.pi / COLUMNS
     tree = esper.create_entity(Tree("thorn", height=HIGH), Pose(30.0, 0.0, between))
     stage.shot(prairie, looking(30.0, 2.0, 50.0, view=10.0))
@@ -179,8 +179,8 @@ def test_a_trunk_has_a_dark_foot_far_off_as_it_has_near_by(
     scene = grass.replace("habit: hawthorn, height: [3.8, 3.8]", "habit: pine, height: [15, 15], foliage: 0.01")
     aim, dark = looking(0.0, 1.2, 50.0, view=3.5), list[float]()
     for gone in (1.0, 1e5):  # as wood, and as a picture
-        monkeypatch.setattr(standing, "GONE", gone)
-        monkeypatch.setattr(standing, "BEGINS", 2.0 * gone)
+        monkeypatch.setattr(standing, "PICTURE_BELOW", gone)
+        monkeypatch.setattr(standing, "FADES_BELOW", 2.0 * gone)
         with private_world(), little_prairie(scene=scene, ctx=ctx) as made:
             trunk = stage.shot(made, aim)[:, 46:50].mean(axis=(1, 2))
         dark.append(float(trunk[48:76].mean() / trunk[10:20].mean()))  # up to 1.2 m over the ground, and at 2.3 m

@@ -12,10 +12,10 @@ from tallgrass.components.arrays import Bytes
 from tallgrass.systems.reference import draw_truth, without_trees
 from tallgrass.systems.trees import standing
 from tallgrass.systems.trees.bake import CARD
-from tallgrass.systems.trees.card import CARDS, FAR
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.lies import LIES, Lies, lies_of
 from tallgrass.systems.trees.outline import ROUNDED, solid_above
+from tallgrass.systems.trees.stream import CARDS, FAR
 from tallgrass.systems.trees.twig import PICTURES
 from tallgrass.systems.trees.wood import SOLID
 from tallgrass.testing import Stage, little_prairie, looking, private_world
@@ -112,8 +112,8 @@ def test_from_above_the_ground_hides_nothing_of_a_tree_and_it_is_as_bright_as_wi
     stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As a picture, whose square reaches under the ground."""
-    monkeypatch.setattr(standing, "GONE", 1e5)
-    monkeypatch.setattr(standing, "BEGINS", 2e5)
+    monkeypatch.setattr(standing, "PICTURE_BELOW", 1e5)
+    monkeypatch.setattr(standing, "FADES_BELOW", 2e5)
     stage.shot(prairie, looking(9.0, 24.0, 24.0))
     drawn = stage.shot(prairie, ABOVE)
     truth = draw_truth(prairie, *stage.matrices(ABOVE), (SIZE, SIZE)).picture.astype(np.float64)

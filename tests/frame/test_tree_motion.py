@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from tallgrass import Pose, Prairie, Tree
 from tallgrass.systems.trees import standing
-from tallgrass.systems.trees.card import CARDS
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.standing import HUNG
+from tallgrass.systems.trees.stream import CARDS
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 
 SCENE = """\
@@ -107,11 +107,11 @@ def test_w4_near_and_far_it_bends_as_far_and_swings_in_the_same_time(
             prairie.advance(0.25)
         return np.convolve(found, np.full(4, 0.25), "valid")  # limbs, which swing once a second, are left out
 
-    monkeypatch.setattr(standing, "FEWEST", 0.25)  # of a tree that is high enough for twigs
+    monkeypatch.setattr(standing, "FEWEST_TWIGS", 0.25)  # of a tree that is high enough for twigs
     seen = []
     for gone in (1.0, 1e5):
-        monkeypatch.setattr(standing, "GONE", gone)
-        monkeypatch.setattr(standing, "BEGINS", 2.0 * gone)
+        monkeypatch.setattr(standing, "PICTURE_BELOW", gone)
+        monkeypatch.setattr(standing, "FADES_BELOW", 2.0 * gone)
         esper.delete_entity(next(entity for entity, _ in esper.get_component(Tree)), immediate=True)
         esper.create_entity(Tree("oak", 13.0), Pose(0.0, 0.0))
         prairie.time = 114.0

@@ -8,10 +8,10 @@ import pytest
 
 from tallgrass import Prairie
 from tallgrass.engine.camera import Camera
-from tallgrass.systems.trees.call import Drawn, Pass, draw
-from tallgrass.systems.trees.card import Numbers
+from tallgrass.systems.trees.call import DrawCall, Pass, draw
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.programs import HARD
+from tallgrass.systems.trees.stream import Numbers
 from tallgrass.systems.trees.wood import CLOSED
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 from tallgrass.testing.little import SPARSE
@@ -85,9 +85,9 @@ def test_what_is_told_only_once_is_what_each_call_would_be_told(
 ) -> None:
     """Calls leave out what those before them have told and bound."""
 
-    def each_alone(calls: Sequence[Drawn], numbers: Numbers) -> int:
+    def each_alone(calls: Sequence[DrawCall], numbers: Numbers) -> int:
         for one in calls:
-            for told, *_ in one.call.due:
+            for told, *_ in one.state.uniforms:
                 told[0] = None
         return sum(draw([one], numbers) for one in calls)
 
@@ -104,8 +104,8 @@ def test_nothing_that_casts_a_shadow_is_told_that_it_is_farther_off_than_it_is(s
     calls = vars(prairie.painter.part(TreePart))["_calls"]
 
     def behind(*, casts: bool) -> list[object]:
-        told = [(one.call, one.call.array.program.extra.get("behind")) for one in calls.of(Pass(HARD, casts))]
-        return [value for call, own in told for each, value, _ in call.due if each is own]
+        told = [(one.state, one.state.array.program.extra.get("behind")) for one in calls.of_pass(Pass(HARD, casts))]
+        return [value for state, own in told for each, value, _ in state.uniforms if each is own]
 
     assert behind(casts=False)
     assert behind(casts=True) == [(0.0,)] * len(behind(casts=False))
@@ -115,10 +115,10 @@ def test_soft_edges_are_blended_from_far_to_near_whichever_kind_is_told_first(st
     first = stage.shot(prairie, FAR_OFF)
     assert prairie.painter is not None
     calls = vars(prairie.painter.part(TreePart))["_calls"]
-    lots = vars(calls)["_lots"]
-    calls.choose(sorted(lots, key=lambda lot: -lot.model))
+    batches = vars(calls)["_batches"]
+    calls.choose(sorted(batches, key=lambda batch: -batch.model))
     np.testing.assert_array_equal(stage.shot(prairie, FAR_OFF), first)
-    calls.choose(lots)
+    calls.choose(batches)
 
 
 def test_nothing_of_trees_is_made_in_a_scene_without_any(ctx: moderngl.Context, stage: Stage) -> None:

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from tallgrass import Prairie
 from tallgrass.systems.reference import cropped, draw_truth
-from tallgrass.systems.trees.card import FAR, LEAVES
 from tallgrass.systems.trees.draw import TreePart
-from tallgrass.systems.trees.standing import GONE
+from tallgrass.systems.trees.standing import PICTURE_BELOW
+from tallgrass.systems.trees.stream import FAR, LEAVES
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 
 SCENE = """\
@@ -88,7 +88,7 @@ def test_n3_within_a_reach_trees_that_nowhere_come_near_are_drawn_as_they_are_fa
     reference(stage, prairie)
     assert streams(prairie)[FAR] == [0, 0]
     assert min(streams(prairie)[LEAVES]) > 0
-    assert SIZE[1] < GONE  # higher than any tree in this picture
+    assert SIZE[1] < PICTURE_BELOW  # higher than any tree in this picture
     far = reference(stage, prairie, reach=99)
     assert streams(prairie)[LEAVES] == [0, 0]
     assert min(streams(prairie)[FAR]) > 0

@@ -15,7 +15,7 @@ from tallgrass import Lamp, Pose, Prairie, Shade, Tree
 from tallgrass.app.bench.steps import held
 from tallgrass.components.arrays import Floats
 from tallgrass.systems.reference import draw_truth
-from tallgrass.systems.trees import bake, card, going, kind, standing
+from tallgrass.systems.trees import bake, going, kind, standing, stream
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.outline import CORNERS, Around
 from tallgrass.systems.trees.shade import ShadeMap
@@ -75,8 +75,8 @@ def plant(prairie: Prairie) -> Iterator[Plant]:
 
 def seen_far(monkeypatch: pytest.MonkeyPatch, gone: float) -> None:
     """Let trees be pictures where they are lower than this [pixels]."""
-    monkeypatch.setattr(standing, "GONE", gone)
-    monkeypatch.setattr(standing, "BEGINS", 2.0 * gone)
+    monkeypatch.setattr(standing, "PICTURE_BELOW", gone)
+    monkeypatch.setattr(standing, "FADES_BELOW", 2.0 * gone)
 
 
 def changed(one: Picture, other: Picture) -> float:
@@ -119,7 +119,7 @@ def test_streams_that_are_rehearsed_have_wood_only_where_it_is_drawn(ctx: modern
         assert own.painter is not None
         for _, model in vars(own.painter.part(TreePart))["_models"]:
             model.rehearse()
-            assert set(model.wood) == set(model.run) == set(card.WOODS)
+            assert set(model.wood) == set(model.wood_class) == set(stream.WOODS)
 
 
 @pytest.mark.slow
@@ -220,7 +220,7 @@ def test_f10_a_tree_is_darker_in_the_shade_of_a_games_own_thing(
 def test_far_off_it_looks_as_it_does_near_by(
     stage: Stage, prairie: Prairie, plant: Plant, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(standing, "FEWEST", 0.25)  # of a tree that is high enough for twigs
+    monkeypatch.setattr(standing, "FEWEST_TWIGS", 0.25)  # of a tree that is high enough for twigs
     bare, seen = stage.shot(prairie, AHEAD), []
     for gone in (1.0, 1e5):
         seen_far(monkeypatch, gone)
@@ -266,9 +266,9 @@ def test_n3_held_a_tree_is_shown_as_in_the_frame_before_from_wherever_it_is_seen
     def told() -> Any:
         assert prairie.painter is not None
         (ash,) = vars(prairie.painter.part(TreePart))["_kinds"]
-        streams = [each.streams[name] for each in ash.models for name in card.CARDS if each.streams[name].count]
+        streams = [each.streams[name] for each in ash.models for name in stream.CARDS if each.streams[name].count]
         (one,) = streams
-        return np.frombuffer(one.buffer.read(standing.SHOWN.itemsize), standing.SHOWN)["keep"]
+        return np.frombuffer(one.buffer.read(standing.INSTANCE.itemsize), standing.INSTANCE)["keep"]
 
     plant(0.0, 0.0)
     stage.shot(prairie, looking(0.0, 1.7, 4.6, pitch=14.0, view=57.0))
@@ -313,7 +313,7 @@ def test_wood_that_is_left_out_of_a_pass_would_cover_no_pixel_in_it(
     seen = []
     for whole in (False, True):
         if whole:
-            monkeypatch.setattr(card, "parts", lambda radii, *_: Parts(len(radii), len(radii)))
+            monkeypatch.setattr(stream, "parts", lambda radii, *_: Parts(len(radii), len(radii)))
         tree = plant(0.0, away)
         seen.append(stage.shot(prairie, AHEAD))
         esper.delete_entity(tree, immediate=True)

@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 from tallgrass.components.arrays import Doubles
 from tallgrass.engine.camera import View, projection_matrix, view_matrix
 from tallgrass.systems.space.frustum import picture_sides
-from tallgrass.systems.trees.card import BACKS, CARDS, FAR, LEAVES, SHARES, TOO_FEW, WOODS
 from tallgrass.systems.trees.choice import Choice, Chosen, Look
 from tallgrass.systems.trees.model import MODELS, Model, models_of
 from tallgrass.systems.trees.shells import SHELL
-from tallgrass.systems.trees.standing import GONE, STANDING, Standing
+from tallgrass.systems.trees.standing import PICTURE_BELOW, STANDING, Standing
+from tallgrass.systems.trees.stream import BACKS, CARDS, FAR, LEAVES, SHARES, TOO_FEW, WOODS
 from tallgrass.testing import looking
 
 PIXELS, REACH = 900.0, 120.0
@@ -41,20 +41,22 @@ def chosen(
 ) -> Chosen:
     view = View(view_matrix(CAMERA), projection_matrix(CAMERA.view, 1.0))
     look = Look(EYE, picture_sides(view), view.clip.astype(np.float64), PIXELS, reach, leaves_from=leaves_from)
-    return Choice(Standing(rows), models, [0.1] * len(models)).of(look)
+    return Choice(Standing(rows), models, [0.1] * len(models)).choose(look)
 
 
 def by_stream(found: Chosen) -> dict[tuple[int, str], bytes]:
-    """Return what is told of each stream, by the number of its model and its name."""
-    told = {(lot.model, lot.name): rows.tobytes() for lot, rows in zip(found.lots, found.told, strict=True)}
-    assert len(told) == len(found.lots)
-    return told
+    """Return what is instances of each stream, by the number of its model and its name."""
+    instances = {
+        (batch.model, batch.name): rows.tobytes() for batch, rows in zip(found.batches, found.instances, strict=True)
+    }
+    assert len(instances) == len(found.batches)
+    return instances
 
 
 def roots(found: Chosen, model: int, *names: str) -> Doubles:
     """Return where those stand that are in some streams of a model."""
-    parts = zip(found.lots, found.told, strict=True)
-    some = [rows["root"] for lot, rows in parts if lot.model == model and lot.name in names]
+    parts = zip(found.batches, found.instances, strict=True)
+    some = [rows["root"] for batch, rows in parts if batch.model == model and batch.name in names]
     return np.concatenate([np.zeros((0, 3)), *some])
 
 
@@ -79,20 +81,22 @@ def test_a_tree_is_in_as_many_streams_as_it_is_drawn_in_ways(models: list[Model]
         assert cards == wood
         assert len(set(far)) == len(far) > 0
         assert far == back
-    told = np.concatenate([rows for lot, rows in zip(found.lots, found.told, strict=True) if lot.name == FAR])
-    between = {tuple(each["root"]) for each in told if each["gone"] < 1.0}
+    instances = np.concatenate(
+        [rows for batch, rows in zip(found.batches, found.instances, strict=True) if batch.name == FAR]
+    )
+    between = {tuple(each["root"]) for each in instances if each["gone"] < 1.0}
     near = {tuple(root) for model in range(len(models)) for root in roots(found, model, *CARDS)}
-    assert between == near & {tuple(each["root"]) for each in told}
+    assert between == near & {tuple(each["root"]) for each in instances}
     assert between
 
 
 def test_streams_are_from_near_to_far_and_soft_edges_of_pictures_from_far_to_near(models: list[Model]) -> None:
     found, seen = chosen(a_wood(models), models), set[bool]()
-    for lot, rows in zip(found.lots, found.told, strict=True):
+    for batch, rows in zip(found.batches, found.instances, strict=True):
         off = np.linalg.norm(rows["root"] - EYE, axis=1)
-        if lot.amount > 1 and lot.name != LEAVES:
-            seen.add(lot.name in BACKS)
-            steps = np.diff(off[::-1] if lot.name in BACKS else off)
+        if batch.size > 1 and batch.name != LEAVES:
+            seen.add(batch.name in BACKS)
+            steps = np.diff(off[::-1] if batch.name in BACKS else off)
             assert steps.min() > -2.0  # the middle of a tree counts, which is higher on a high one
     assert seen == {False, True}
 
@@ -101,17 +105,17 @@ def test_what_is_placed_and_how_far_off_it_is_is_of_the_trees_of_each_stream(mod
     rows_of_all = a_wood(models)
     found = chosen(rows_of_all, models)
     height = {tuple(each["root"]): each["height"] for each in rows_of_all}
-    assert sum(lot.amount for lot in found.lots) == len(found.placed)
-    for lot, rows in zip(found.lots, found.told, strict=True):
-        placed = found.placed[lot.first : lot.first + lot.amount]
+    assert sum(batch.size for batch in found.batches) == len(found.placed)
+    for batch, rows in zip(found.batches, found.instances, strict=True):
+        placed = found.placed[batch.first : batch.first + batch.size]
         assert np.array_equal(placed["root"], rows["root"])
-        larger = np.array([height[tuple(root)] for root in rows["root"]]) / models[lot.model].height
+        larger = np.array([height[tuple(root)] for root in rows["root"]]) / models[batch.model].height
         assert np.allclose(rows["scale"], larger)
-        assert np.allclose(placed["crown_at"], larger * models[lot.model].middle)
+        assert np.allclose(placed["crown_at"], larger * models[batch.model].middle)
         off = np.linalg.norm(placed["root"] + placed["crown_at"][:, None] * (0.0, 1.0, 0.0) - EYE, axis=1)
-        assert (lot.nearest, lot.mean) == pytest.approx((off.min(), off.mean()))
-        assert lot.foliage == rows["foliage"].min()
-        assert lot.keep == (rows["keep"] * (1.0 - rows["gone"])).max()
+        assert (batch.nearest, batch.mean) == pytest.approx((off.min(), off.mean()))
+        assert batch.foliage == rows["foliage"].min()
+        assert batch.keep == (rows["keep"] * (1.0 - rows["gone"])).max()
 
 
 def test_trees_with_fewest_twigs_are_drawn_apart_only_where_they_are_many_of_a_model(models: list[Model]) -> None:
@@ -119,14 +123,14 @@ def test_trees_with_fewest_twigs_are_drawn_apart_only_where_they_are_many_of_a_m
     rows = a_wood(models, count=sum(counts))
     rows["kind"], rows["model"], rows["foliage"] = 0, np.repeat((0, 1), counts), 1.0
     pictured = np.array([2.0 * model.half / model.height for model in models[:2]])
-    rows["root"], rows["height"] = (0.0, 0.0, -60.0), 60.0 * 1.1 * GONE / PIXELS / pictured[rows["model"]]
+    rows["root"], rows["height"] = (0.0, 0.0, -60.0), 60.0 * 1.1 * PICTURE_BELOW / PIXELS / pictured[rows["model"]]
     rows["root"][:, 0] = np.linspace(-3.0, 3.0, len(rows))
-    names = [(lot.model, lot.name) for lot in chosen(rows, models, reach=40.0).lots if lot.name in CARDS]
+    names = [(batch.model, batch.name) for batch in chosen(rows, models, reach=40.0).batches if batch.name in CARDS]
     assert names == [(0, CARDS[len(SHARES) - 1]), (1, CARDS[len(SHARES)])]
 
 
 def test_the_fewer_leaves_a_tree_has_the_smaller_it_becomes_a_picture(models: list[Model]) -> None:
-    rows, high = a_wood(models, count=2), 0.9 * GONE / PIXELS * models[0].height / (2.0 * models[0].half)
+    rows, high = a_wood(models, count=2), 0.9 * PICTURE_BELOW / PIXELS * models[0].height / (2.0 * models[0].half)
     rows["kind"] = rows["model"] = 0
     rows["foliage"], rows["root"], rows["height"] = (1.0, 0.5), (0.0, 0.0, -60.0), 60.0 * high
     rows["root"][:, 0] = -3.0, 3.0
@@ -137,26 +141,26 @@ def test_the_fewer_leaves_a_tree_has_the_smaller_it_becomes_a_picture(models: li
 
 def test_trees_among_the_grass_are_in_streams_by_shells_of_it_and_all_beyond_it_in_others(models: list[Model]) -> None:
     found, shells = chosen(a_wood(models), models), set[str]()
-    for lot, rows in zip(found.lots, found.told, strict=True):
+    for batch, rows in zip(found.batches, found.instances, strict=True):
         off = np.hypot(rows["root"][:, 0], rows["root"][:, 2])
-        if lot.name in (*CARDS, *WOODS, *BACKS):
-            assert lot.far == (pytest.approx(off.max()) if off.max() < REACH else np.inf)
-            assert off.min() > (SHELL * lot.far if 0.25 * REACH < off.max() < REACH else 0.0)
+        if batch.name in (*CARDS, *WOODS, *BACKS):
+            assert batch.far == (pytest.approx(off.max()) if off.max() < REACH else np.inf)
+            assert off.min() > (SHELL * batch.far if 0.25 * REACH < off.max() < REACH else 0.0)
             assert off.max() < REACH or off.min() >= REACH
-            shells |= {lot.name} if off.max() < REACH else set()
+            shells |= {batch.name} if off.max() < REACH else set()
     assert all(shells.intersection(names) for names in (CARDS, WOODS, BACKS))
 
 
 def test_twigs_that_are_drawn_leaf_by_leaf_are_of_trees_that_are_near(models: list[Model]) -> None:
     found = chosen(a_wood(models), models)
-    leaves = [lot for lot in found.lots if lot.name == LEAVES]
+    leaves = [batch for batch in found.batches if batch.name == LEAVES]
     assert leaves
-    for lot in leaves:
-        of, near = roots(found, lot.model, LEAVES), roots(found, lot.model, *CARDS)
-        assert lot.amount == len(of)
+    for batch in leaves:
+        of, near = roots(found, batch.model, LEAVES), roots(found, batch.model, *CARDS)
+        assert batch.size == len(of)
         assert {*map(tuple, of)} < {*map(tuple, near)}
         assert np.linalg.norm(of - EYE, axis=1).max() < np.linalg.norm(near - EYE, axis=1).max()
-        assert lot.far == 0.0  # no grass is behind them
+        assert batch.far == 0.0  # no grass is behind them
 
 
 def test_as_a_reference_has_them_each_tree_that_is_high_enough_is_drawn_with_every_leaf(models: list[Model]) -> None:
@@ -176,4 +180,4 @@ def test_where_no_tree_is_in_the_picture_nothing_is_drawn(models: list[Model]) -
     behind["root"][:, 0] = 0.0
     for rows in (behind, behind[:0]):
         found = chosen(rows, models)
-        assert (found.lots, found.told, len(found.placed)) == ([], [], 0)
+        assert (found.batches, found.instances, len(found.placed)) == ([], [], 0)

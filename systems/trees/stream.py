@@ -1,0 +1,160 @@
+"""A grown tree in one GL context, and the streams of instances that are drawn as it is."""
+
+from collections.abc import Mapping
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.gl.stream import Records, Stream, release_all
+from .bark import PACKED, PIXEL_RADII, packed, ranges_of
+from .lies import Lies
+from .model import Model
+from .outline import NOWHERE
+from .shells import SHELLS
+from .standing import HUNG, HUNG_LEAVES, INSTANCE, ROW_SPACING, STOOD, TWIG_INSTANCE
+from .twig import RANKS, ROW, TWIG
+from .wood import Parts, parts
+
+Numbers = Mapping[str, tuple[float, ...]]
+"""Uniforms of programs, by name."""
+
+NEAR, FAR, LEAVES, WOOD, CAST, PICTURED = "near", "far", "leaves", "wood", "cast", "pictured"
+"""Ways to draw trees: twigs on cards, pictures far off, twigs leaf by leaf, and wood; far pictures into shade maps, and
+twigs on cards into far pictures."""
+
+IN_ROWS = "in rows"
+"""Way to draw pictures far off where some stand for rows of trees, in a large forest."""
+
+QUAD = 6
+"""Vertices of a quad as two triangles."""
+
+SHARES = 2 / 3, 1 / 3, 1 / 6
+"""Limits between shares of twigs. The cards of trees between two are drawn together, as many of each as any has."""
+
+TOO_FEW = 6
+"""Number of trees with the smallest share of twigs below which a draw call of their own does not pay."""
+
+BACKS = tuple(f"back{number}" for number in range(SHELLS + 1))
+"""Streams of far pictures from far to near, as soft edges are blended: beyond the grass, and by its shells. The stream
+`FAR` has all pictures, from near to far."""
+
+CARDS = tuple(f"{NEAR}{number}" for number in range(len(SHARES) + 1 + SHELLS))
+WOODS = tuple(f"{WOOD}{number}" for number in range(len(PIXEL_RADII) + 1 + SHELLS))
+"""Streams of cards and of wood: beyond the grass by `SHARES` and by `PIXEL_RADII`, then by shells of grass."""
+
+SHELL_OF = {
+    FAR: 0, LEAVES: SHELLS + 1,
+    **{name: number for number, name in enumerate(BACKS)},
+    **{name: max(number - len(SHARES), 0) for number, name in enumerate(CARDS)},
+    **{name: max(number - len(PIXEL_RADII), 0) for number, name in enumerate(WOODS)},
+}  # fmt: skip
+"""Shell of grass that each stream's trees stand in: 0 is beyond all grass; single leaves are in front of it."""
+
+STREAMS = (LEAVES, *CARDS, *WOODS, FAR, *BACKS)
+"""All streams of a model: at equal distance, trees of the first ones are drawn first."""
+
+FIRST_OF = {name: number for number, name in enumerate(STREAMS)}
+
+ROOM = 16
+"""Trees that a stream has room for at first: there are many streams, and most have few trees."""
+
+
+def twigs_drawn(twigs: int, share: float, /) -> int:
+    """Return the number of a tree's twigs that are drawn where a share of them is seen."""
+    dwindling = 0.5 / RANKS  # as `size_of` of twig.glsl has it
+    return min(int(twigs * (share + dwindling)) + 1, twigs)
+
+
+class GpuModel:
+    """A grown tree in one GL context, and the streams of instances that are drawn as it is."""
+
+    def __init__(self, ctx: moderngl.Context, model: Model) -> None:
+        self.model = model
+        ranges = ranges_of(model.vertices)
+        self.numbers: Numbers = {
+            "tall": (model.height,), "twigs": (len(model.twigs),),
+            "ball": (model.middle, model.half), "slim": (model.slim,), "lines": (model.lines,),
+            "lawn_shade": model.shade,
+            "column": (ROW_SPACING * model.radius,), **ranges._asdict(),
+        }  # fmt: skip
+        """Uniforms of the model."""
+        self.twigs = Records(ctx, TWIG, ROW, rows=-(-len(model.twigs) // ROW))
+        self.twigs.write(model.twigs)
+        self.vertices = ctx.buffer(packed(model.vertices, ranges))
+        self.triangles = ctx.buffer(np.concatenate([each.triangles for each in model.wood]))
+        self.first_triangle: list[int] = np.cumsum([0, *(len(each.triangles) for each in model.wood)]).tolist()
+        """First triangle of each of `PIXEL_RADII`."""
+        self.bare = Stream(ctx, TWIG_INSTANCE)
+        self._alone = np.zeros(1, TWIG_INSTANCE)
+        for name in ("keep", "columns", "shows", "scale", "foliage", "tint"):
+            self._alone[name] = 1.0
+        self._alone["turn"] = 1.0, 0.0
+        self.bare.write(self._alone)
+        self.streams = {name: Stream(ctx, INSTANCE, rows=ROOM) for name in (*WOODS, FAR, *BACKS, *CARDS)}
+        self.streams[LEAVES] = Stream(ctx, TWIG_INSTANCE)
+        self.stood = {id(each): Stream(ctx, STOOD, rows=ROOM) for each in self.streams.values()}
+        """Outputs of `stand.vert` for each stream, by the stream's id."""
+        self.hung = {**{name: Stream(ctx, HUNG) for name in CARDS}, LEAVES: Stream(ctx, HUNG_LEAVES)}
+        """Outputs of `hang.vert` for streams of twigs."""
+        self.most_twigs = dict.fromkeys(self.streams, 0)
+        """Greatest number of twigs that a tree of a stream draws."""
+        self.wood = dict.fromkeys(WOODS, Parts(0, 0))
+        """Triangles that the trees of a stream of wood draw."""
+        self.wood_class = dict.fromkeys(WOODS, 0)
+        """Index in `PIXEL_RADII` of a stream's wood."""
+        self.far: moderngl.TextureArray | None = None
+        """Pictures of the model from all around, and the optical depths before what they show."""
+        self.met: moderngl.TextureArray | None = None
+        self.lies = Lies()
+        """Normals of its leaves."""
+        self.around = self.core = NOWHERE
+        """Outlines of its pictures, and of what in them is dense enough to be drawn as opaque."""
+
+    def bark(self, program: moderngl.Program) -> tuple[moderngl.Buffer | str, ...]:
+        """Return the vertex buffer of its wood as content of a vertex array: the attributes that a program has."""
+        names, forms = list(PACKED.names or ()), ("4u2", "4f1", "4f2", "3f2 2x", "4f1")
+        ends = [*(PACKED.fields[name][1] for name in names), PACKED.itemsize] if PACKED.fields else []
+        kept = [
+            form if name in program else f"{end - start}x"
+            for name, form, start, end in zip(names, forms, ends, ends[1:], strict=False)
+        ]
+        return self.vertices, " ".join(kept), *(name for name in names if name in program)
+
+    def write(self, name: str, rows: NDArray[np.void]) -> None:
+        """Send a stream's instances."""
+        stream = self.streams[name]
+        stream.write(rows)
+        self.stood[id(stream)].room(len(rows))
+
+    def empty(self, name: str) -> None:
+        """Empty a stream."""
+        stream = self.streams[name]
+        for each in (stream, self.stood[id(stream)], self.hung.get(name, stream)):
+            each.room(0)
+
+    def show_wood(self, name: str, pixel_radius: float, foliage: float) -> None:
+        """Choose the triangles that a stream of wood draws, as `parts` returns them."""
+        self.wood_class[name] = wood_class = int(np.searchsorted(PIXEL_RADII, pixel_radius))
+        self.wood[name] = parts(self.model.wood[wood_class].radii, pixel_radius, foliage)
+
+    def show_cards(self, name: str, keep: float, leaves: float) -> None:
+        """Set the number of twigs that a stream draws; `keep` and `leaves` are those of its `Batch`."""
+        twigs = len(self.model.twigs)
+        self.most_twigs[name] = twigs if keep >= SHARES[0] else twigs_drawn(twigs, leaves)
+
+    def rehearse(self) -> list[str]:
+        """Put a tree into each empty stream, to draw it once; return these streams' names."""
+        empty = [name for name, stream in self.streams.items() if not stream.count]
+        for name in empty:
+            self.write(name, self._alone if name == LEAVES else self._alone[[*(INSTANCE.names or ())]].astype(INSTANCE))
+            self.most_twigs[name] = 1
+            if name in self.wood:
+                self.wood[name] = Parts(1, 1)
+        return empty
+
+    def release(self) -> None:
+        """Give everything back."""
+        release_all(self.twigs, self.vertices, self.triangles, self.bare)
+        release_all(*self.streams.values(), *self.stood.values(), *self.hung.values())
+        release_all(*(each for each in (self.far, self.met) if each is not None))
