@@ -1,4 +1,4 @@
-"""What there is on a site at one time, and what a prairie tells of it to those who ask."""
+"""The state of a site at one time, and the questions about it that a prairie answers."""
 
 import logging
 from collections.abc import Callable
@@ -21,7 +21,7 @@ from ..engine.world import World
 from .around.clearing import Clearings
 from .around.outlook import Outlooks
 from .entities import PatchEntities
-from .features import begun, one
+from .features import begin_all, feature_of
 from .frame.feature import Start
 from .grow.record import Postures
 from .light.feature import Lighting
@@ -38,15 +38,15 @@ from .winds import Winds
 
 log = logging.getLogger("tallgrass")
 
-Felt = Callable[[Floats, int], Floats]
-"""Gives the messages (n, 2) that grass of a kind, by its number, feels now at ground positions (n, 2) [m]."""
+MessagesAt = Callable[[Floats, int], Floats]
+"""Returns the present messages (n, 2) at ground positions (n, 2) [m] to grass of the kind with a number."""
 
 
 class Answering(Underflowing):
-    """What stands, blows and walks on a site at one time, and answers what is asked of it."""
+    """A site with its winds, pressers and clearings at one time, which answers questions about them."""
 
     viewers: Outlooks
-    """What is kept for each viewer, by its name."""
+    """Outlook of each viewer, by the viewer's name."""
 
     _released = False
 
@@ -54,13 +54,13 @@ class Answering(Underflowing):
         self.site: Site = site
         self.world = world
         self.viewers, self.clearings = Outlooks(world), Clearings()
-        self.features = begun(Start(world, site, Quarantine(live=live), live))
-        self.winds, self.pressers = one(Winds, self.features), one(Pressers, self.features)
-        self._mown, self._shining = one(Mowing, self.features).mown, one(Lighting, self.features).shining
-        self._clock, self._missed = 0.0, set[str]()
-        # Systems keep these two, and must not keep the prairie by them
+        self.features = begin_all(Start(world, site, Quarantine(live=live), live))
+        self.winds, self.pressers = feature_of(Winds, self.features), feature_of(Pressers, self.features)
+        self._mown, self._shining = feature_of(Mowing, self.features).mown, feature_of(Lighting, self.features).shining
+        self._clock, self._never_drawn = 0.0, set[str]()
+        # Systems hold these two: as bound methods they would keep the prairie alive
         self._entities = partial(_entities_on, world, self.clearings, self.viewers)
-        self._felt = partial(_felt_of, self.winds, self.pressers)
+        self._messages_to = partial(_messages_to, self.winds, self.pressers)
 
     @property
     def scene(self) -> Scene:
@@ -69,15 +69,15 @@ class Answering(Underflowing):
 
     @property
     def wind_failures(self) -> dict[str, str]:
-        """One sentence for each wind that is left out now, by its name, as `systems.failures` has them of systems."""
+        """Reason, a sentence, why each wind is left out now, by its name; `systems.failures` is the same of systems."""
         return {source.name: why for source, why in self.winds.quarantine.reasons.items()}
 
     @property
     def time(self) -> float:
-        """The scene's time [s], to the nearest microsecond: however it was cut into steps, it is the same instant.
+        """Time of the scene [s], to the nearest microsecond: it does not depend on the steps of `advance`.
 
-        You may set it: then all that the scene declares is as at that time. If you go back, what your own pressers have
-        trodden is forgotten; what is cut stays cut. Raises ValueError and TypeError for anything but a time.
+        You may set it: everything that the scene declares is then as at that time. If you go back, the trails of your
+        own pressers are forgotten; cut grass stays cut. Raises ValueError and TypeError for anything but a time.
         """
         return round(self._clock, 6)
 
@@ -92,27 +92,31 @@ class Answering(Underflowing):
         self.viewers.begin_anew()
 
     def advance(self, dt: float) -> None:
-        """Move time on by `dt` [s]: ValueError below 0 and beyond 1e9 s in all, TypeError for anything but a number."""
+        """Advance time by `dt` [s].
+
+        Raises ValueError for a `dt` below 0 and a time beyond 1e9 s, TypeError for anything but a number.
+        """
         self._must_be_there("move its time on")
         must_be_step(dt)
-        later = self._clock + float(dt)  # in single precision, time would soon stand still
+        later = self._clock + float(dt)  # float32 would soon round short steps to nothing
         must_be_time(later, "a prairie advances", "to")
         self._clock = later
         self.winds.pass_to(self.time)
 
     @property
     def light(self) -> Light:
-        """The light that is asked for now: what the scene declares, until `shine` changes it; hours pass in it.
+        """Light as it is meant to be now: what the scene declares and `shine` has changed. Its hour moves with time.
 
-        Where there is an hour, azimuth and elevation are those that follow from it; at night the elevation is below 0.
+        If it has an hour, azimuth and elevation follow from that; at night the elevation is negative.
         """
         return self._shining.told_at(self.time)
 
     @property
     def sun(self) -> Sun:
-        """Sun and sky as they shine now: direction and linear radiance, for what a game lights itself.
+        """Direction and linear radiance of sun and sky as they shine now, to light a game's own objects with.
 
-        A sun that is on its way to where `light` has it stands as in the last frame. Clouds and shadows are not in it.
+        After `shine` it approaches `light` from frame to frame, and is that of the last one. Clouds and shadows are not
+        included.
         """
         return self._shining.sun_at(self.time)
 
@@ -122,32 +126,33 @@ class Answering(Underflowing):
         return height_at(self.site.ground.terrain, as_places(xz))
 
     def normal_at(self, xz: ArrayLike) -> Floats:
-        """Return the ground's normals, unit vectors (x, y, z) of shape (n, 3), at ground positions as `height_at`."""
+        """Return the ground's unit normals (x, y, z), shape (n, 3), at ground positions (x, z) [m], shape (n, 2)."""
         self._must_be_there("ask about it")
         return normal_at(self.site.ground.terrain, as_places(xz))
 
     def pick(self, origin: ArrayLike, direction: ArrayLike) -> Floats:
-        """Return where rays first meet the ground (x, y, z) [m], shape (n, 3), and NaN where they never do.
+        """Return the points (x, y, z) [m] where rays first meet the ground, shape (n, 3); NaN for rays that miss it.
 
-        They begin at `origin` [m] and go along `direction`, both of shape (n, 3), or (3,) for one; one origin may serve
-        many directions. One that begins below the ground meets it there. Raises ValueError for anything but rays.
+        Rays start at `origin` [m] and go along `direction`. Both have shape (n, 3), or (3,) for one ray; one origin may
+        serve many directions. A ray that starts below the ground meets it at its origin. Raises ValueError for anything
+        but rays.
         """
         self._must_be_there("ask about it")
         return pick(self.site.ground.terrain, *as_rays(origin, direction))
 
     def grass_at(self, xz: ArrayLike) -> GrassAt:
-        """Return what grows at ground positions (x, z) [m], shape (n, 2), and how high it stands there now."""
+        """Return the kind, densities and present height of the grass at ground positions (x, z) [m], shape (n, 2)."""
         self._must_be_there("ask about it")
-        felt = partial(self._felt_at, time=self.time)
-        one(Trees, self.features).note(self.time)
-        return grass_at(self.site, self.clearings, self._mown, felt, as_places(xz))
+        messages_at = partial(self._messages_at, time=self.time)
+        feature_of(Trees, self.features).note(self.time)
+        return grass_at(self.site, self.clearings, self._mown, messages_at, as_places(xz))
 
     def wind_at(self, xz: ArrayLike, time: float | None = None, *, kind: str | None = None) -> Floats:
-        """Return what grass at ground positions (x, z) [m], shape (n, 2), feels at `time` [s], or now.
+        """Return the messages (n, 2) of all winds at ground positions (x, z) [m], shape (n, 2), at `time` [s], or now.
 
-        Messages of shape (n, 2): vectors along the bending direction whose norm is the posture index, in [0, 1], of
-        grass of stiffness 1. They are those of grass of a `kind`, or else of the kind that grows most densely at each
-        place. Raises ValueError for an unknown kind and a time that is negative or not finite, TypeError for no time.
+        A message is a vector in the direction of bending; its length is the posture index, in [0, 1], of grass of
+        stiffness 1. The receiver is grass of a `kind`, by default the densest at each position. Raises ValueError for
+        an unknown kind and a time that is negative or not finite, TypeError for anything but a time.
         """
         self._must_be_there("ask about it")
         number, then = self.scene.number_of(kind), self.time if time is None else time
@@ -155,67 +160,68 @@ class Answering(Underflowing):
         return self.winds.at(as_places(xz), time=float(then), kind=number)
 
     def bent_at(self, xz: ArrayLike, *, kind: str | None = None) -> Floats:
-        """Return what grass at ground positions (x, z) [m], shape (n, 2), feels now of winds and of pressers.
+        """Return the messages (n, 2) of winds and pressers at ground positions (x, z) [m], shape (n, 2), now.
 
-        Messages of shape (n, 2), of grass of a `kind` or of the densest, as those of `wind_at`: where nobody walks or
-        has walked, they are the same. Every presser has come to where its `Pose` is now. Whether grass is cut, cleared
-        or grows there at all makes no difference: `grass_at` tells. Raises ValueError for an unknown kind.
+        They are messages as `wind_at` returns them, to grass of a `kind` or of the densest, and the same where nothing
+        is trodden. Each presser presses at its present `Pose`. Cut grass and bare ground have messages too: `grass_at`
+        tells whether grass grows. Raises ValueError for an unknown kind.
         """
         self._must_be_there("ask about it")
-        return self._felt_at(as_places(xz), self.scene.number_of(kind), time=self.time)
+        return self._messages_at(as_places(xz), self.scene.number_of(kind), time=self.time)
 
     def patch_at(self, xz: ArrayLike, *, viewer: str = "main") -> NDArray[np.int64]:
-        """Return the entity of the patch at each ground position (x, z) [m], shape (n, 2), as a viewer has it: (n,).
+        """Return a viewer's entity, shape (n,), of the patch at each ground position (x, z) [m], shape (n, 2).
 
-        It has `Patch` and `Lod`. 0 stands for places off the terrain or too far away from the viewer to be kept, and
-        for all before it has looked once. Raises ValueError for places that are no pairs, TypeError for a viewer that
-        is no name.
+        It has the components `Patch` and `Lod`. It is 0 off the terrain, too far from the viewer for a patch to be
+        kept, and everywhere before the viewer has looked once. Raises ValueError for positions that are no pairs,
+        TypeError for a viewer that is no name.
         """
         self._must_be_there("ask about it")
         must_be_viewer(viewer)
         cells = cell_of(as_places(xz), patch=self.site.ground.patch)
         if viewer not in self.viewers:
-            self._miss(viewer)
+            self._warn_of(viewer)
             return np.zeros(len(cells), np.int64)
         return self._entities(self.site).at(self.viewers[viewer], cells)
 
-    def _miss(self, viewer: str) -> None:
-        """Say once of a viewer that it has never looked, where another has."""
+    def _warn_of(self, viewer: str) -> None:
+        """Log once that a viewer was never drawn while another was."""
         others = self.viewers.values()
-        if others and viewer not in self._missed:
-            self._missed.add(viewer)
+        if others and viewer not in self._never_drawn:
+            self._never_drawn.add(viewer)
             known = others[0].viewer.name
             log.warning("patch_at finds nothing: viewer '%s' was never drawn, but '%s' was", viewer, known)
 
     def __reduce_ex__(self, protocol: object) -> NoReturn:
-        """Say what to keep in its place, as no prairie can be pickled or copied."""
+        """Refuse to be pickled or copied: raise TypeError."""
         raise TypeError("a prairie cannot be pickled or copied: keep state(), and restore it in another of the scene")
 
     def _must_be_there(self, purpose: str) -> None:
+        """Raise RuntimeError after `release`; its message ends with the `purpose`, a verb and its object."""
         if self._released:
             raise RuntimeError(f"this prairie has been released: load it again to {purpose}")
 
-    def _felt_at(self, place: Floats, kind: int | None, /, *, time: float) -> Floats:
-        """Return what grass of a kind, or of the densest, feels at places (n, 2) [m] once all have come, (n, 2)."""
+    def _messages_at(self, place: Floats, kind: int | None, /, *, time: float) -> Floats:
+        """Return the messages (n, 2) at places (n, 2) [m] to a kind, or the densest, after all pressers have moved."""
         self.pressers.note(time)
-        return self._felt(self.winds.standing(place, kind=kind), time=time)
+        return self._messages_to(self.winds.standing(place, kind=kind), time=time)
 
 
 def _entities_on(world: World, clearings: Clearings, viewers: Outlooks, site: Site, /) -> PatchEntities:
-    """Return what keeps the entities of patches on a site."""
+    """Return the keeper of patch entities on a site."""
     return PatchEntities(world, clearings, site.representations, viewers.values)
 
 
-def _felt_of(winds: Winds, pressers: Pressers, receivers: ReceiverArrays, /, *, time: float) -> Floats:
-    """Return what receivers feel at `time` [s] of the winds and of those who walk there, shape (n, 2)."""
+def _messages_to(winds: Winds, pressers: Pressers, receivers: ReceiverArrays, /, *, time: float) -> Floats:
+    """Return the messages (n, 2) of winds and pressers to receivers at `time` [s]."""
     return pressers.over(winds.heard(receivers, time=time), receivers)
 
 
-def grass_at(site: Site, clearings: Clearings, mown: Mown, felt: Felt, place: Floats, /) -> GrassAt:
-    """Return what grows at ground positions (n, 2) [m].
+def grass_at(site: Site, clearings: Clearings, mown: Mown, messages_at: MessagesAt, place: Floats, /) -> GrassAt:
+    """Return the grass at ground positions (n, 2) [m].
 
-    It stands as high as nine of ten plants of its kind do at most, or as it is cut, and lower as its blades are bent.
-    Where kinds grow together the tallest counts.
+    Its height is that of the canopy, which nine of ten plants stay below, or the height to which it is cut, times the
+    fraction that bending leaves. Where kinds grow together, the tallest counts.
     """
     density = density_at(site.ground.density, place)
     grows = density >= PRESENT
@@ -225,16 +231,16 @@ def grass_at(site: Site, clearings: Clearings, mown: Mown, felt: Felt, place: Fl
     for number, growth in enumerate(site.growths):
         here = np.flatnonzero(grows[number] & ~taken)
         if len(here):
-            up = upright(growth.postures, np.hypot(*felt(place[here], number).T))
-            height[here] = np.maximum(height[here], np.minimum(site.canopy[number], left[here]) * up)
+            fraction = bent_height(growth.postures, np.hypot(*messages_at(place[here], number).T))
+            height[here] = np.maximum(height[here], np.minimum(site.canopy[number], left[here]) * fraction)
     bare = np.flatnonzero(~grows.any(axis=0))
     taken[bare] |= (natural_at(site.ground.density, place[bare]) >= PRESENT).any(axis=0)
     names = [*site.scene.grass, ""]
     return GrassAt(kind, tuple(names[number] for number in kind), np.ascontiguousarray(density.T), height, taken)
 
 
-def upright(postures: Postures, message: Floats, /) -> Floats:
-    """Return how high blades stand that feel messages of these lengths (n,), of their height in calm air, (n,)."""
+def bent_height(postures: Postures, message: Floats, /) -> Floats:
+    """Return the height of blades bent by messages of lengths (n,), as a fraction of their height in calm air, (n,)."""
     highest = postures.shape[0, :, :, 1].max(axis=1)
     calm = np.interp(0.0, postures.index, highest)
     return np.asarray(

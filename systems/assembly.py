@@ -1,11 +1,11 @@
-"""The systems that a prairie comes with, each made from what it needs."""
+"""The built-in systems of a prairie, each made from its inputs."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from ..engine.schedule import HasRun, Phase, Schedule
 from .around.outlook import Outlook, Outlooks
-from .blow import Blow, Hear, Now
+from .blow import Blow, Hear, WindsAt
 from .cull import Cull
 from .draw import Draw
 from .entities import PatchEntities
@@ -29,7 +29,7 @@ BuiltIn = tuple[Phase, str, HasRun]
 
 @dataclass(frozen=True, slots=True)
 class Assembly:
-    """What the systems of a prairie share, whatever its site."""
+    """Inputs of a prairie's systems that do not depend on its site."""
 
     viewers: Outlooks
     winds: Winds
@@ -37,13 +37,13 @@ class Assembly:
     screen: Screen
     governor: Governor
     entities: Callable[[Site], PatchEntities]
-    """Gives what keeps the entities of patches on a site."""
+    """Returns the keeper of patch entities on a site."""
 
     hear: Hear
-    """Gives what receivers feel of the winds and of those who walk there."""
+    """Returns the messages of winds and pressers to receivers."""
 
     def on(self, site: Site, /) -> list[BuiltIn]:
-        """Return the systems of a site in running order."""
+        """Return the built-in systems on a site in running order."""
         return built_in(
             site,
             self.viewers,
@@ -57,11 +57,11 @@ class Assembly:
         )
 
     def stage(self, site: Site, before: Site, /) -> bool:
-        """Bring a piece of another site into GL, or make a viewer's store ready for it; return whether all is."""
+        """Upload a piece of another site, or prepare one viewer's pools for it; return whether all of it is there."""
         if not self.screen.stage(site):
             return False
-        ready = (is_ready(each, site.representations, before.representations) for each in self.viewers.values())
-        return all(ready)  # it ends with the first that was not
+        ready = (is_ready(outlook, site.representations, before.representations) for outlook in self.viewers.values())
+        return all(ready)  # stops at the first viewer that was not ready
 
 
 def built_in(
@@ -70,14 +70,14 @@ def built_in(
     entities: PatchEntities,
     /,
     *,
-    now: Now,
+    now: WindsAt,
     hear: Hear,
     painter: Callable[[], Painter],
     governor: Governor,
     note: Callable[[float], Trodden] = lambda _: UNTRODDEN,
     bent: Callable[[float], float] = lambda _: 0.0,
 ) -> list[BuiltIn]:
-    """Return the systems of a site in running order: phase, name, and the system itself."""
+    """Return the built-in systems on a site in running order: phase, name, and the system itself."""
     ground, shown, reach = site.ground, site.representations, site.reach
     patch, change = ground.patch, site.transitions
 
@@ -101,8 +101,8 @@ def built_in(
     ]  # fmt: skip
 
 
-def settle_in(schedule: Schedule, built: list[BuiltIn], before: list[BuiltIn], /) -> None:
-    """Let built-in systems run in place of those `before` them; what a game has replaced or removed stays so."""
+def replace_built_in(schedule: Schedule, built: list[BuiltIn], before: list[BuiltIn], /) -> None:
+    """Replace the built-in systems `before`, except those that a game has itself replaced or removed."""
     for (_, name, system), (_, _, old) in zip(built, before, strict=True):
         if name in schedule and schedule[name].run == old.run:
             schedule.replace(name, system, trusted=True)

@@ -1,4 +1,4 @@
-"""Blowing: which winds there are, for every receiver that is seen (paper, section 3.2)."""
+"""Blowing: the winds of a frame, and their messages to receivers (paper, section 3.2)."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -18,40 +18,40 @@ from .wind.grass import grass_of
 
 
 class Hear(Protocol):
-    """What gives receivers their messages."""
+    """A function that returns the messages to receivers."""
 
     def __call__(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
-        """Return the messages (n, 2) that receivers hear at a time [s]."""
+        """Return the messages (n, 2) to receivers at `time` [s]."""
 
 
-Now = Callable[[float], Sequence[Blowing]]
-"""Gives the winds that act at a time [s], the strongest claim first."""
+WindsAt = Callable[[float], Sequence[Blowing]]
+"""Returns the winds that act at a time [s], the strongest claim first."""
 
 
 @dataclass(frozen=True, slots=True)
 class Blown:
-    """What blows in a frame."""
+    """The winds of a frame."""
 
     winds: Sequence[Blowing] = ()
-    """The winds that act, the strongest claim first."""
+    """Winds that act, the strongest claim first."""
 
-    at: float = 0.0
-    """The instant that they were asked for [s]."""
+    time: float = 0.0
+    """Time at which they act [s]."""
 
     heard: int = 0
-    """Receivers of blades and strips that heard them."""
+    """Number of receivers of blades and strips that hear them."""
 
 
 @dataclass(slots=True)
 class Blow:
-    """The system `wind`: the winds of this frame, and what they tell those receivers that a game has asked for.
+    """The system `wind`: notes the winds of the frame, and computes the messages that a game has asked for.
 
-    The others hear them on the graphics card. What a game has written into messages since the frame before stands
-    above what the wind says.
+    All other messages are computed on the graphics card. Messages that a game has written since the frame before
+    override those of the winds.
     """
 
     outlooks: Iterable[Outlook]
-    now: Now
+    now: WindsAt
     hear: Hear
     growths: Sequence[Growth]
 
@@ -61,40 +61,40 @@ class Blow:
             time = outlook.viewer.time
             winds, heard = list(self.now(time)), 0
             for receiving in hearing(outlook):
-                receiving.letters.blow(partial(self._tell, receiving, time))
+                receiving.letters.blow(partial(self._messages, receiving, time))
                 if not receiving.still:
                     heard += len(receiving.slots) * receiving.per_slot
             outlook.note(Blown(winds, time, heard))
 
-    def _tell(self, receiving: Receiving, time: float, slots: NDArray[np.int64]) -> Floats:
-        """Return what the receivers of some slots of a pool hear, shape (n, 2)."""
+    def _messages(self, receiving: Receiving, time: float, slots: NDArray[np.int64]) -> Floats:
+        """Return the messages (n, 2) at `time` [s] to the receivers in some slots of a pool."""
         place = receiving.pool.places(slots).reshape(-1, 2)
         alone = places_alone(place, grass_of(self.growths, receiving.pool.kind(slots)))
         return self.hear(replace(alone, still=len(place) if receiving.still else 0), time=time)
 
 
 def hearing(outlook: Outlook, /) -> list[Receiving]:
-    """Return all receivers around a viewer; those that take no part in the small oscillations come last."""
+    """Return all receivers around a viewer, those without small oscillations last."""
     every = [receiving for kept in outlook.kept.values() for receiving in kept.receiving]
     return sorted(every, key=lambda receiving: receiving.still)
 
 
 def receivers_shown(outlook: Outlook, growths: Sequence[Growth], /, *, patch: float, margin: float) -> ReceiverArrays:
-    """Return all receivers that winds without a twin tell something, pool after pool.
+    """Return the receivers shown whose messages winds without a twin have to compute, pool after pool.
 
-    `patch` is a patch's side, and `margin` how far receivers may stand outside of it [m].
+    `patch` is a patch's side, and `margin` the distance that receivers may stand outside of their patch [m].
     """
-    order = hearing(outlook)
-    told = [receiving.told for receiving in order]
-    places = [receiving.pool.places(slots).reshape(-1, 2) for receiving, (_, slots) in zip(order, told, strict=True)]
-    rows = np.concatenate([rows for rows, _ in told])
-    each = [np.full(len(slots), receiving.per_slot) for receiving, (_, slots) in zip(order, told, strict=True)]
-    kind = np.concatenate([receiving.pool.kind(slots) for receiving, (_, slots) in zip(order, told, strict=True)])
+    every = hearing(outlook)
+    shown = [receiving.told for receiving in every]
+    places = [receiving.pool.places(slots).reshape(-1, 2) for receiving, (_, slots) in zip(every, shown, strict=True)]
+    rows = np.concatenate([rows for rows, _ in shown])
+    counts = [np.full(len(slots), receiving.per_slot) for receiving, (_, slots) in zip(every, shown, strict=True)]
+    kind = np.concatenate([receiving.pool.kind(slots) for receiving, (_, slots) in zip(every, shown, strict=True)])
     return ReceiverArrays(
         place=np.concatenate(places),
         grass=grass_of(growths, kind),
-        patch=np.repeat(np.arange(len(rows)), np.concatenate(each)),
+        patch=np.repeat(np.arange(len(rows)), np.concatenate(counts)),
         middle=outlook.patches.middle[rows].astype(np.float32),
         radius=HALF_DIAGONAL * (patch + 2.0 * margin),
-        still=sum(len(place) for receiving, place in zip(order, places, strict=True) if receiving.still),
+        still=sum(len(place) for receiving, place in zip(every, places, strict=True) if receiving.still),
     )

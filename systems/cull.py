@@ -1,4 +1,4 @@
-"""Culling: which patches the view cone may hold, and from high above the picture (paper, section 2.2, figure 5)."""
+"""Culling: patches that may be in the view cone, and from high above in the frustum (paper, section 2.2, figure 5)."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -12,19 +12,19 @@ from .space.cone import HALF_DIAGONAL, beyond_cone
 from .space.frustum import beyond_sides
 
 HIGH_UP = 10.0
-"""Height over all ground around from which on the picture's upper and lower sides are worth asking for [m]."""
+"""Height above the highest ground around from which the frustum's upper and lower planes are worth testing [m]."""
 
 
 @dataclass(slots=True)
 class Cull:
-    """The system `cull`: which patches the view cone of each viewer that looks may hold."""
+    """The system `cull`: marks the patches that may be in the view cone of each viewer that looks."""
 
     outlooks: Iterable[Outlook]
     patch: float
     """Side of a patch [m]."""
 
     sway: float
-    """How far grass may reach beyond its patch [m]."""
+    """Distance that grass may reach beyond its patch [m]."""
 
     def run(self) -> None:
         """Cull for every viewer that looks."""

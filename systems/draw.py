@@ -1,4 +1,4 @@
-"""Drawing: what was gathered is drawn into the host's framebuffer."""
+"""Drawing: what was uploaded is drawn into the host's framebuffer."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -11,11 +11,11 @@ from .painter import Painter
 
 @dataclass(slots=True)
 class Draw:
-    """The system `draw`: the receivers of what is shown hear the winds, and it is drawn, as fine as time lets it be."""
+    """The system `draw`: lets receivers hear the winds and draws the picture, as finely as the governor allows."""
 
     outlooks: Iterable[Outlook]
     painter: Callable[[], Painter]
-    """Gives the painter of the GL context that is drawn in."""
+    """Returns the painter of the current GL context."""
 
     governor: Governor
 

@@ -1,4 +1,4 @@
-"""The entities of patches: a few are made at a time, and those that a game deletes are noticed."""
+"""The entities of patches: made a batch at a time; a patch whose entity a game deletes is cleared."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -16,30 +16,30 @@ from .show.representation import Representation
 from .space.window import window_rows
 
 BATCH = 200
-"""Most entities made, and most deleted, in one frame: otherwise a frame takes long when a viewer leaps."""
+"""Maximum number of entities made, and of those deleted, in one frame: it would take long when a viewer leaps."""
 
 
 @dataclass(slots=True)
 class PatchEntities:
     """Keeps an entity with `Patch` and `Lod` for every patch around a viewer.
 
-    One that somebody else has deleted takes the grass of its patch away.
+    Where somebody else has deleted one, its patch is cleared.
     """
 
     world: World
     clearings: Clearings
     representations: Sequence[Representation] = ()
     everyone: Callable[[], Iterable[Outlook]] = tuple
-    """Gives the outlooks of all viewers, those too that do not look in this frame."""
+    """Returns the outlooks of all viewers, also of those that do not look in this frame."""
 
-    def hear(self, looking: Iterable[Outlook], /) -> None:
-        """Clear the patches whose entities somebody else has deleted since the frame before, of all viewers."""
+    def notice_deleted(self, looking: Iterable[Outlook], /) -> None:
+        """Clear the patches, of all viewers, whose entities somebody else has deleted since the frame before."""
         lost = self.world.lost()
         for outlook in dict.fromkeys((*looking, *self.everyone())):
             self.clear(outlook, lost)
 
     def clear(self, outlook: Outlook, lost: list[int], /) -> None:
-        """Clear the patches whose entities are lost; where the whole world was cleared, forget them all."""
+        """Clear the patches whose entities are in `lost`; forget all entities if the whole world was cleared."""
         patches = outlook.patches
         if outlook.generation != self.world.generation:
             outlook.generation = self.world.generation
@@ -53,10 +53,10 @@ class PatchEntities:
             outlook.entity_changes += 1
             self.clearings.clear(_cell(patches, row))
 
-    def go_on(self, outlook: Outlook, fresh: NDArray[np.int32], /) -> None:
-        """Delete the entities of rows that other patches are in now, and find out what grows there.
+    def update(self, outlook: Outlook, fresh: NDArray[np.int32], /) -> None:
+        """Give up the entities of `fresh` rows, whose patches are new, and look up which patches are cleared.
 
-        Patches that have none yet get theirs, the nearest first; `BATCH` at most are made, and as many deleted.
+        Patches without an entity get one, the nearest first. At most `BATCH` are made, and as many deleted.
         """
         patches = outlook.patches
         if fresh.size:
@@ -69,12 +69,12 @@ class PatchEntities:
         if fresh.size or outlook.cleared != self.clearings.version:
             patches.grows[:] = self.clearings.spare(patches.cell)
             outlook.cleared = self.clearings.version
-        self._turn_over(outlook)
+        self._make_and_delete(outlook)
 
-    def _turn_over(self, outlook: Outlook) -> None:
-        """Make entities and delete those that are left, in turn.
+    def _make_and_delete(self, outlook: Outlook) -> None:
+        """Make entities and delete given-up ones alternately.
 
-        Python's collector sets in when many more objects have been made than deleted, and goes through the whole game.
+        Many more objects made than deleted would start Python's garbage collector, which scans the whole game.
         """
         if outlook.complete_at == outlook.entity_changes:
             return
@@ -90,7 +90,7 @@ class PatchEntities:
                 self.world.delete(entity)
 
     def _make(self, outlook: Outlook, rows: list[int]) -> Iterator[int]:
-        """Make the entities of the patches in some rows, one after another, and give each."""
+        """Make and yield the entities of the patches in some rows, one after another."""
         patches, outlook.entity_changes = outlook.patches, outlook.entity_changes + len(rows)
         carried = components(outlook, self.representations, rows)
         stand = zip(patches.cell[rows].tolist(), patches.model[rows].tolist(), patches.turn[rows].tolist(), strict=True)
@@ -100,7 +100,7 @@ class PatchEntities:
             yield entity
 
     def at(self, outlook: Outlook, cells: NDArray[np.int32], /) -> NDArray[np.int64]:
-        """Return the entity of each cell (n, 2), made where there is none yet, shape (n,); 0 where none can be."""
+        """Return the entity of each cell (n, 2), made if it is missing, shape (n,); 0 for cells without a patch."""
         self.world.check()
         self.clear(outlook, [])  # the world may have been cleared since this viewer looked
         patches = outlook.patches
@@ -112,7 +112,7 @@ class PatchEntities:
 
 
 def components(outlook: Outlook, representations: Sequence[Representation], rows: list[int], /) -> list[list[object]]:
-    """Return what the representations give the entity of each of some patches to carry."""
+    """Return the components that the representations add to the entity of the patch in each of some rows."""
     given = zip(rows, *(each.components(outlook, rows) for each in representations), strict=True)
     return [[*chain.from_iterable(parts)] for _, *parts in given]
 

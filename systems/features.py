@@ -1,4 +1,4 @@
-"""The features that there are, and the texture units that they and the representations read from."""
+"""The list of features, and the texture units of all samplers."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeVar
@@ -23,37 +23,38 @@ from .winds import Winds
 FEATURES: tuple[type[Feature], ...] = (
     Winds, Pressers, Land, Earth, Lighting, GivenHaze, Mowing, Lamps, Shadows, Bodies, Trees,
 )  # fmt: skip
-"""In the order in which they are made, told of a scene read again, and drawn."""
+"""All features, in the order in which they are made, take over a scene read again, and are drawn."""
 
 STAGE = len(FREE)
-"""Units that a shader stage has at least, in OpenGL 3.3: all programs make do with so many, in all stages."""
+"""Minimum number of texture units of a shader stage in OpenGL 3.3; no program uses more in all stages together."""
 
 
-def dealt(
+def assign_units(
     throughout: Sequence[str], asked: Sequence[str], own: Mapping[str, tuple[Iterable[str], Iterable[str]]], /
 ) -> dict[str, int]:
     """Return the texture unit of each sampler, one of `FREE`.
 
-    What is bound `throughout` a frame comes first. After it comes what each of `own` has, by its name, what its passes
-    over receivers read and then all else: each binds them itself when it draws, so all share these units. What any pass
-    over receivers reads, `asked`, comes last. Raises RuntimeError where a program would need more than `STAGE`.
+    Samplers bound `throughout` a frame have the first units. Next come the samplers of each owner in `own`: those of
+    its passes over receivers, then those of its drawing. Each owner binds its own when it draws, so all owners share
+    these units. The samplers that any pass over receivers reads, `asked`, have the last units. Raises RuntimeError if a
+    program would need more than `STAGE`.
     """
     units = dict(zip(throughout, FREE, strict=False))
     units |= dict(zip(asked, reversed(FREE), strict=False))
-    for who, (passed, drawn) in own.items():
-        first, rest = list(dict.fromkeys(passed)), list(drawn)
-        names = [*first, *(name for name in rest if name not in first)]
+    for owner, (passed, drawn) in own.items():
+        first = list(dict.fromkeys(passed))
+        names = [*first, *(name for name in drawn if name not in first)]
         for needed in ([*throughout, *first, *asked], [*throughout, *names]):
             if len(needed) > STAGE:
                 raise RuntimeError(
-                    f"{who} reads {len(needed)} textures at once where OpenGL 3.3 has {STAGE}: {', '.join(needed)}"
+                    f"{owner} reads {len(needed)} textures at once where OpenGL 3.3 has {STAGE}: {', '.join(needed)}"
                 )
         units |= dict(zip(names, FREE[len(throughout) :], strict=False))
     return units
 
 
 UNITS = (
-    dealt(
+    assign_units(
         ["received", *(name for each in FEATURES for name in each.samplers)],
         [name for each in FEATURES for name in each.asked],
         {
@@ -64,16 +65,16 @@ UNITS = (
     | BORROWED
     | {"tree_shade": TREE_SHADE}
 )
-"""The texture unit of each sampler."""
+"""Texture unit of each sampler."""
 
-Sort = TypeVar("Sort", bound=Feature)
-
-
-def begun(start: Start, /) -> list[Feature]:
-    """Return all features of a prairie."""
-    return [each.begin(start) for each in FEATURES]
+OneFeature = TypeVar("OneFeature", bound=Feature)
 
 
-def one(sort: type[Sort], features: Iterable[Feature], /) -> Sort:
+def begin_all(start: Start, /) -> list[Feature]:
+    """Return all features, begun for one prairie."""
+    return [feature.begin(start) for feature in FEATURES]
+
+
+def feature_of(kind: type[OneFeature], features: Iterable[Feature], /) -> OneFeature:
     """Return the feature of a class."""
-    return next(each for each in features if isinstance(each, sort))
+    return next(feature for feature in features if isinstance(feature, kind))

@@ -1,4 +1,4 @@
-"""Gathering: what is shown is sent to the graphics card."""
+"""Gathering: what a frame shows is uploaded to the graphics card."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -9,11 +9,11 @@ from .painter import Painter
 
 @dataclass(slots=True)
 class Gather:
-    """The system `gather`: what each representation and each feature shows is sent to the graphics card."""
+    """The system `gather`: uploads what each representation and each feature shows."""
 
     outlooks: Iterable[Outlook]
     painter: Callable[[], Painter]
-    """Gives the painter of the GL context that is drawn in."""
+    """Returns the painter of the current GL context."""
 
     def run(self) -> None:
         """Gather for every viewer that looks."""

@@ -115,7 +115,7 @@ class Painter(Holding):
                 return self._prepare()
         scene, blown = site.scene, outlook.noted(Blown, Blown())
         to = mean_yaw(scene.wind)
-        air.write(blown.winds, time=blown.at, seed=scene.seed, mixing=scene.mixing, to=to)
+        air.write(blown.winds, time=blown.time, seed=scene.seed, mixing=scene.mixing, to=to)
         air.tell(partial(_receivers, outlook, site), self.quarantine, numbers=partial(numbers_of, outlook, self._first))
         with aside(self.ctx, target):
             calls = self._prepare()

@@ -21,8 +21,8 @@ from ..engine.world import World
 from .around.asked import Frame
 from .around.outlook import Outlook
 from .around.transitions import SEAMLESS, Transitions
-from .assembly import Assembly, settle_in
-from .features import one
+from .assembly import Assembly, replace_built_in
+from .features import feature_of
 from .frame.feature import Feature, doing
 from .govern import Governor
 from .painter import Painter
@@ -88,11 +88,11 @@ class Prairie(Tending):
         self.statistics, self.systems = Statistics(blades_field=site.blades), Schedule(live, self.world.come_back)
         screen = Screen(ctx, self.features, self.winds, linear=linear)
         self._saving = Saving(
-            self.world, self.winds, self.pressers, self._mown, self.clearings, self._shining, one(Trees, self.features),
-            self._seasons,
+            self.world, self.winds, self.pressers, self._mown, self.clearings, self._shining,
+            feature_of(Trees, self.features), self._seasons,
         )  # fmt: skip
         self._assembly = Assembly(
-            self.viewers, self.winds, self.pressers, screen, self.governor, self._entities, self._felt
+            self.viewers, self.winds, self.pressers, screen, self.governor, self._entities, self._messages_to
         )
         self._built = self._assembly.on(self.site)
         for phase, name, system in self._built:
@@ -369,7 +369,7 @@ class Prairie(Tending):
         for outlook in self.viewers.values():
             settle_on(outlook, self.site, before, self.world)
         self._built, built = self._assembly.on(self.site), self._built
-        settle_in(self.systems, self._built, built)
+        replace_built_in(self.systems, self._built, built)
         for feature in self.features:
             feature.settle(self.site, before, time=self.time)
         self.statistics.blades_field = self.site.blades

@@ -12,7 +12,7 @@ from ..components.wind import WindPrimitive
 from ..engine.scene.validate import changed
 from ..engine.terrain.change import set_heights
 from .answering import Answering
-from .features import one
+from .features import feature_of
 from .land.earth import Earth
 from .light.given import GivenHaze, Haze
 from .mow.sown import clear, sow
@@ -149,7 +149,7 @@ class Tending(Answering):
         `release`.
         """
         self._must_be_there("change its ground")
-        one(Earth, self.features).hand_in(texture, side, linear=linear)
+        feature_of(Earth, self.features).hand_in(texture, side, linear=linear)
 
     def shadows(self, maps: Iterable[ShadowMap]) -> None:
         """Let a game's shadow maps darken ground and grass from the next frame on, in place of those before.
@@ -159,7 +159,7 @@ class Tending(Answering):
         anything but shadow maps, ValueError for more than four, RuntimeError after `release`.
         """
         self._must_be_there("hand in shadow maps")
-        one(Shadows, self.features).hand_in(maps, self._origin)
+        feature_of(Shadows, self.features).hand_in(maps, self._origin)
 
     @property
     def haze(self) -> Haze | None:
@@ -170,9 +170,9 @@ class Tending(Answering):
         set it anew. A `linear` prairie takes radiance. How far one sees stays the scene's `light.haze`. Setting it
         raises ValueError for anything but colours.
         """
-        return one(GivenHaze, self.features).haze
+        return feature_of(GivenHaze, self.features).haze
 
     @haze.setter
     def haze(self, haze: Haze | None) -> None:
         self._must_be_there("set its haze")
-        one(GivenHaze, self.features).give(haze)
+        feature_of(GivenHaze, self.features).give(haze)

@@ -104,7 +104,7 @@ class Tile:
 
     def run(self) -> None:
         """Tile around every viewer that looks."""
-        self.entities.hear(self.outlooks)
+        self.entities.notice_deleted(self.outlooks)
         for outlook in self.outlooks:
             make_room(outlook, self.entities.representations, self.entities.world)
             patches, viewer = outlook.patches, outlook.viewer
@@ -116,7 +116,7 @@ class Tile:
             if fresh.size or outlook.away_inputs != seen:
                 outlook.away_inputs = seen
                 patches.away[:] = seen_from(patches.distance, patches.height, viewer.eye[1], patch=patch)
-            self.entities.go_on(outlook, fresh)
+            self.entities.update(outlook, fresh)
 
     def _follow(self, outlook: Outlook) -> None:
         """Let a viewer's patches be what the ground is, where it has changed since the viewer looked last."""

@@ -13,7 +13,7 @@ from tallgrass import Footprint, Pose, Road
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.terrain import stream
 from tallgrass.systems import streaming
-from tallgrass.systems.features import one
+from tallgrass.systems.features import feature_of
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.trees.feature import Trees
 from tallgrass.testing import looking, private_world
@@ -135,7 +135,7 @@ def test_n5_a_forest_is_the_same_for_who_comes_there_and_who_begins_there(stage:
             walker = prairies(way[0], live=False, trees={"oak": {"habit": "oak", "density": 3.0}})
             for place in way:
                 stage.shot(walker, at(walker, place, pitch=-80))  # of grass alone: its trees are asked for, not drawn
-            seen.append(np.sort(one(Trees, walker.features).standing.rows, order="root"))
+            seen.append(np.sort(feature_of(Trees, walker.features).standing.rows, order="root"))
     root = seen[0]["root"]
     assert len(root) > 200
     assert np.abs(root[:, 1] - dunes(root[:, 0], root[:, 2])).max() < 0.01

@@ -11,7 +11,7 @@ from tallgrass import Footprint, Pose, Presser
 from tallgrass.components.body import Body
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.gl.units import BORROWED, FIRST_UNIT, SCRATCH_UNIT
-from tallgrass.systems.features import STAGE, dealt
+from tallgrass.systems.features import STAGE, assign_units
 from tallgrass.systems.prairie import Prairie
 
 Stage = Any
@@ -61,7 +61,7 @@ def test_no_shadow_map_is_read_where_textures_are_loaded(ctx: moderngl.Context) 
 
 
 def test_each_of_those_that_draw_has_the_same_units_for_its_own_textures_and_they_meet_no_others() -> None:
-    units = dealt(["a", "b"], ["wind"], {"one": (["heard"], ["heard", "drawn"]), "other": ([], ["x", "y", "z"])})
+    units = assign_units(["a", "b"], ["wind"], {"one": (["heard"], ["heard", "drawn"]), "other": ([], ["x", "y", "z"])})
     assert [units[name] for name in "ab"] == [FIRST_UNIT, FIRST_UNIT + 1]
     assert units["heard"] == units["x"] == FIRST_UNIT + 2
     assert units["drawn"] == units["y"]
@@ -70,8 +70,8 @@ def test_each_of_those_that_draw_has_the_same_units_for_its_own_textures_and_the
 
 def test_too_many_textures_are_told_by_name_before_anything_is_drawn() -> None:
     most = [f"t{number}" for number in range(STAGE - 1)]
-    assert max(dealt(most, [], {"moss": ([], ["green"])}).values()) == COMBINED - 1
+    assert max(assign_units(most, [], {"moss": ([], ["green"])}).values()) == COMBINED - 1
     with pytest.raises(RuntimeError, match=r"^moss reads 17 textures at once where OpenGL 3\.3 has 16: t0, .*, brown$"):
-        dealt(most, [], {"moss": ([], ["green", "brown"])})
+        assign_units(most, [], {"moss": ([], ["green", "brown"])})
     with pytest.raises(RuntimeError, match=r"^moss reads 17 textures .*, green, wind$"):
-        dealt(most, ["wind"], {"moss": (["green"], [])})
+        assign_units(most, ["wind"], {"moss": (["green"], [])})

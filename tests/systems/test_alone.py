@@ -103,7 +103,7 @@ def test_wind_tells_which_winds_act_and_what_receivers_hear_that_a_game_asks_for
     now = blowing([source], Quarantine(), time=0.25, seed=1)
     Blow([outlook], lambda time: now if time == 0.25 else [], eastwards, SITE.growths).run()
     blown = outlook.noted(Blown, Blown())
-    assert (list(blown.winds), blown.at) == (now, 0.25)
+    assert (list(blown.winds), blown.time) == (now, 0.25)
     for message, receiving in zip(asked, hearing(outlook), strict=True):
         assert (message == (0.75, 0.0)).all()
         assert (receiving.letters.heard(receiving.slots) == (0.75, 0.0)).all()

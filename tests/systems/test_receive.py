@@ -180,7 +180,7 @@ def test_w1_receivers_hear_the_instant_that_the_viewer_sees(site: Site, look: Lo
     outlook = look(site, 1.0, 1.0, hear=hear)
     outlook.viewer.time = 7.5
     look(site, 1.0, 1.0, hear=hear)
-    assert outlook.noted(Blown, Blown()).at == 7.5
+    assert outlook.noted(Blown, Blown()).time == 7.5
     assert asked == [], "numpy is asked by those alone who want to know"
     for hears in receiving(outlook):
         assert (hears.letters.heard(hears.slots) == 0.25).all()

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from tallgrass import Breeze, Pose, Prairie, Tree, WindSource
 from tallgrass.engine.declared.tree import TreeKind
 from tallgrass.engine.terrain.record import Density, Terrain
-from tallgrass.systems.features import one
+from tallgrass.systems.features import feature_of
 from tallgrass.systems.trees.feature import Trees
 from tallgrass.systems.trees.forest import SEEDLING, SOON, Forest, grown_to
 from tallgrass.systems.trees.place import placed
@@ -138,7 +138,7 @@ LARGE = LITTLE.replace("size: [60, 60]", "size: [6000, 6000]") + (
 
 def test_where_a_state_changes_no_tree_all_stand_as_before() -> None:
     with little_prairie(scene=WOOD) as prairie:
-        trees = one(Trees, prairie.features)
+        trees = feature_of(Trees, prairie.features)
         trees.step("main", (0.0, 2.0, 0.0), time=0.0)
         before = trees.standing.rows
         prairie.restore(prairie.state())
@@ -149,7 +149,7 @@ def test_where_a_state_changes_no_tree_all_stand_as_before() -> None:
 
 def test_of_a_large_forest_trees_near_viewers_are_entities_and_those_farther_off_are_fewer_by_rings() -> None:
     with little_prairie(scene=LARGE) as prairie:
-        trees = one(Trees, prairie.features)
+        trees = feature_of(Trees, prairie.features)
         trees.step("main", (0.0, 2.0, 0.0), time=0.0)
         near = {(pose.x, pose.z) for _, (_, pose) in esper.get_components(Tree, Pose)}
         assert 200 < len(near) < 800
@@ -172,7 +172,7 @@ def test_of_a_large_forest_trees_near_viewers_are_entities_and_those_farther_off
 
 def test_what_is_felled_and_changed_of_a_large_forest_stays_so_and_states_know_it() -> None:
     with little_prairie(scene=LARGE) as prairie:
-        trees = one(Trees, prairie.features)
+        trees = feature_of(Trees, prairie.features)
 
         def look(x: float) -> int:
             trees.step("main", (x, 2.0, 0.0), time=0.0)
@@ -216,7 +216,7 @@ def test_a_restore_takes_trees_planted_since_and_what_it_makes_is_the_games_own(
 
 
 def standing(prairie: Prairie) -> list[list[float]]:
-    trees = one(Trees, prairie.features)
+    trees = feature_of(Trees, prairie.features)
     trees.step("main", (0.0, 0.0, 0.0), time=0.0)
     return sorted(np.round(trees.standing.rows["root"][:, ::2], 3).tolist())
 
