@@ -105,7 +105,7 @@ class Answering(Underflowing):
 
     @property
     def light(self) -> Light:
-        """Light as it is meant to be now: what the scene declares and `shine` has changed. Its hour moves with time.
+        """Light that is asked for now: what the scene declares, as `shine` has changed it. Its hour moves with time.
 
         If it has an hour, azimuth and elevation follow from that; at night the elevation is negative.
         """

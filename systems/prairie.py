@@ -1,4 +1,4 @@
-"""A prairie: what a game loads, advances and draws."""
+"""A prairie: the object that a game loads, advances and draws."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -42,30 +42,30 @@ if TYPE_CHECKING:
     from ..engine.gl.batch import DrawingGroup
 
 
-AHEAD = "tallgrass is prepared"
-"""What the viewer is called whom a frame is rehearsed for before anybody has looked."""
+REHEARSAL = "tallgrass is prepared"
+"""Name of the viewer for whom `prepare` rehearses a frame before anybody has looked."""
 
 LEAP = 2.0
-"""A viewer who moves more than this in one frame has jumped [patch sides]."""
+"""Distance beyond which a viewer's move in one frame counts as a jump [patch sides]."""
 
 
 class Prairie(Tending):
-    """A prairie in the current esper world: grown at once, drawn once there is a GL context."""
+    """A prairie in the current esper world. It grows when it is loaded, and draws once there is a GL context."""
 
     systems: Schedule
-    """What happens in a frame, for each viewer that is drawn: to be read, added to, replaced in and left out."""
+    """Schedule of the systems that make a frame for each viewer: read it, add to it, replace or leave out systems."""
 
     statistics: Statistics
-    """What the last frame took and held."""
+    """Times and counts of the last frame."""
 
     loaded: LoadedScene
-    """The scene, and where it comes from."""
+    """The scene, and the files that it was read from."""
 
     preset: str | None
-    """The preset that comes before the scene's own quality. Set another one, and the next `reload` brings it."""
+    """Preset that overrides the scene's own quality. A new value takes effect with the next `reload`."""
 
     governor: Governor
-    """What holds the time of a draw, if anything does; its `hold` may be changed at any time."""
+    """The governor of the frame time; change its `hold` at any time."""
 
     def __init__(
         self, loaded: LoadedScene, *, ctx: moderngl.Context | None = None, preset: str | None = None,
@@ -76,7 +76,7 @@ class Prairie(Tending):
         must_be_a(Transitions, transitions, "transitions are made as Transitions()")
         if ctx is not None:
             must_be_a(moderngl.Context, ctx, "ctx is a moderngl context")
-        self.governor = Governor(hold)  # before there are any entities: it may be refused
+        self.governor = Governor(hold)  # raises for a bad hold, so before any entities are made
         site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
         super().__init__(site, World(self.advance), live=live)
         self._stepping, self._looking = (doing(Feature, name, self.features) for name in ("step", "look"))
@@ -107,13 +107,13 @@ class Prairie(Tending):
     ) -> "Prairie":  # fmt: skip
         """Return the prairie of a scene: a file, a bundled scene by its name, a mapping of keys, or a `Scene`.
 
-        `ctx` is the context to draw in, or else the one that is current at the first draw. `preset` overrides the
-        scene's quality. `lod` shows everything in one representation, and `transitions` leaves out parts of changes, to
-        measure them. A `live` prairie leaves out a plugin's wind that takes too long, and compiles all its programs at
-        its first frame; others compile each once they need it. With `hold` a draw takes no longer than that [s], and
-        draws less where it must. A `linear` prairie draws linear radiance, for a game with a tone curve of its own.
-        Raises `SceneError` with every problem of the scene and its maps; ValueError for an unknown preset or
-        representation, and for a `hold` that is no time.
+        `ctx` is the context to draw in, by default the one that is current at the first draw. `preset` overrides the
+        scene's quality. `lod` shows everything in one representation, and `transitions` turns off parts of changes;
+        both are for measuring. A `live` prairie leaves out a plugin's wind that takes too long, and compiles all
+        programs at its first frame; others compile each when it is first needed. `hold` is the longest time that a draw
+        may take [s]; it draws less to keep to that. A `linear` prairie draws linear radiance, for a game with its own
+        tone curve. Raises `SceneError` with every problem of the scene and its maps; ValueError for an unknown preset
+        or representation, and for a `hold` that is no time.
         """
         must_be_known("representation", str(lod), get_args(LodName))
         must_be_flags(live=live, linear=linear)
@@ -123,7 +123,7 @@ class Prairie(Tending):
         )  # fmt: skip
 
     def reseeded(self, seed: int) -> "Prairie":
-        """Return another prairie of the same scene, quality and terrain, with other grass."""
+        """Return a new prairie of the same scene, quality and terrain, with its grass grown from `seed`."""
         must_be_seed(seed)
         loaded = replace(self.loaded, scene=self.scene.model_copy(update={"seed": seed}))
         return Prairie(
@@ -133,33 +133,34 @@ class Prairie(Tending):
 
     @property
     def path(self) -> Path | None:
-        """The scene's file; None of one that a program has handed in."""
+        """Path of the scene's file; None for a scene that a program has handed in."""
         return self.loaded.path
 
     @property
     def files(self) -> dict[str, Path]:
-        """The scene's file, if it has one, and those that it names, by the names that it calls them."""
+        """Paths of the scene's file, if it has one, and of the files that it refers to, by their names in the scene."""
         return self.loaded.paths
 
     @property
     def painter(self) -> Painter | None:
-        """What holds the prairie in the GL context that it was drawn in last; None before the first time."""
+        """The prairie's painter in the GL context that it was drawn in last; None before the first draw."""
         return self._assembly.screen.painter
 
     def draw(
         self, view: object, projection: object, *, viewer: str = "main", parts: Iterable[str] | None = None,
         depth: str = "near",
     ) -> None:  # fmt: skip
-        """Draw the prairie into the framebuffer that is bound, and leave the host's GL state as it was.
+        """Draw the prairie into the bound framebuffer, and leave your GL state as it was.
 
         Draw your own opaque things before it, and 2D after it: ground, carpet and the nearest blades write depth,
-        strips and other blades only test it. With a `depth` of "all" in place of "near", all grass writes it where it
-        covers at least half a pixel, for water, smoke or a sky that come after. Say "none" where nothing else in the
-        picture has depth, and a preset or `hold` with fewer pixels takes less: then yours is neither read nor written.
+        strips and other blades only test it. With a `depth` of "all" instead of "near", all grass writes depth where
+        its coverage is at least half, for water, smoke or a sky that you draw later. "none" neither reads nor writes
+        your depth: say so if nothing else in the picture has depth, as a preset or `hold` with fewer pixels is then
+        cheaper.
 
         Both matrices are 4x4 numpy arrays for column vectors, or `pyglet.math.Mat4`. Give each of several viewers a
-        name. `parts` are some of "sky", "ground", "grass" and "beyond", or else those of the scene. Without `ground` in
-        this frame, grass lies over your own by how much it covers. Raises ValueError for other matrices, parts and
+        name. `parts` are some of "sky", "ground", "grass" and "beyond", by default the scene's. Without `ground` in
+        this frame, grass is blended over your own by its coverage. Raises ValueError for other matrices, parts and
         depths; TypeError for a viewer that is no name and parts that are no list of names; RuntimeError after `release`
         or without a window. A viewport without pixels draws nothing.
         """
@@ -182,7 +183,7 @@ class Prairie(Tending):
             outlook.note(asked)
             self.governor.begin(outlook, goes_on=goes_on)
             self.systems.run(first=Phase.DRAW if goes_on else Phase.INPUT)
-            if self._released:  # by one of them
+            if self._released:  # by one of the systems
                 return
             self.statistics.fineness = self.governor.fineness(viewer)
             self.statistics.count(outlook, self.site, self.systems, painter)
@@ -190,12 +191,12 @@ class Prairie(Tending):
                 outlook.settle()
 
     def draw_depth(self, view: object, projection: object, *, viewer: str = "main") -> None:
-        """Draw grass into a shadow map: the depth of what a viewer was shown last, seen from the sun by these matrices.
+        """Draw grass into your shadow map: the depth of what a viewer was shown last, seen by the sun's matrices.
 
-        Bind the map's framebuffer before. Blades and strips write depth where they cover at least half a pixel, thinner
-        ones in as many pixels as they cover, and the carpet where its grass stops light. Neither ground nor what the
-        viewer does not see is in it. Matrices and errors are those of `draw`. A viewer that was not drawn yet draws
-        nothing.
+        Bind the map's framebuffer before. Blades and strips write depth where their coverage is at least half; thinner
+        ones write a fraction of the pixels equal to their coverage. The carpet writes depth where its grass blocks
+        light. The ground is left out, and so is grass that the viewer does not see. Matrices and errors are those of
+        `draw`. For a viewer that was not drawn yet, nothing is drawn.
         """
         self._must_be_there("draw its depth")
         must_be_viewer(viewer)
@@ -211,11 +212,11 @@ class Prairie(Tending):
 
     @property
     def origin(self) -> tuple[float, float, float]:
-        """Where the scene's origin (0, 0, 0) lies in the world of `draw`'s matrices, (x, y, z) [m].
+        """Position (x, y, z) [m] of the scene's origin in the world of `draw`'s matrices.
 
-        Set it when your own origin moves. Where the prairie is far off, give matrices of float64, which keep what
-        float32 would lose. All places that you ask for and hand in stay the scene's own. Setting it raises ValueError
-        for anything but three finite numbers up to 1e9 m.
+        Set it when your own origin moves. Far from your origin, pass float64 matrices: float32 loses precision. All
+        positions that you pass and get elsewhere stay relative to the scene's origin. Setting it raises ValueError for
+        anything but three finite numbers up to 1e9 m.
         """
         return self._origin
 
@@ -225,28 +226,28 @@ class Prairie(Tending):
         self._origin = as_origin(place)
 
     def preparing(self) -> Iterator[tuple[int, int]]:
-        """Do what `prepare` does step by step, for a loading screen: gives how many steps are done, of how many.
+        """Do what `prepare` does step by step, for a loading screen; yield the steps done and their total number.
 
-        Between steps GL state is your own. Keep the same context current. It raises the errors of `draw`.
+        Between steps GL state is yours. Keep the same context current. Raises the errors of `draw`.
         """
         self._must_be_there("prepare it")
         return self._assembly.screen.preparing(self.site, self._look_ahead)
 
     def prepare(self, *, on_progress: Callable[[int, int], object] | None = None) -> None:
-        """Upload and compile in the current context all that the scene and a game may need, so that no frame does.
+        """Upload and compile in the current context all that the scene and a game may need, so that no frame waits.
 
-        That is for all installed winds and those that already blow, for pressers, cuts, bodies and `hold`. Before it,
-        bind the framebuffer that you draw into, and give your shadow maps: some drivers compile programs anew for
-        others. It calls `on_progress` with how many steps are done, and of how many. It raises the errors of `draw`.
+        This covers all installed winds and those that already blow, pressers, cuts, bodies and `hold`. First bind the
+        framebuffer that you draw into and give your shadow maps: some drivers compile programs again for others.
+        `on_progress` is called with the number of steps done and their total number. Raises the errors of `draw`.
         """
         for done, of in self.preparing():
             if on_progress is not None:
                 on_progress(done, of)
 
     def follow(self, view: object, projection: object, *, viewer: str = "main") -> None:
-        """Follow a viewer for a frame as `draw` does, without drawing it and without any GL.
+        """Update a frame's state for a viewer as `draw` does, but draw nothing and use no GL.
 
-        Patches come, go and change their representation, and the light follows the sun, so that a film can start in its
+        Patches come, go and change their representation, and the light follows the sun. So a film can start in its
         middle. Matrices and errors are those of `draw`.
         """
         self._must_be_there("follow a viewer")
@@ -263,12 +264,12 @@ class Prairie(Tending):
         parent: "Group | None" = None, viewer: str = "main", parts: Iterable[str] | None = None,
         depth: str = "near",
     ) -> "DrawingGroup":  # fmt: skip
-        """Put the prairie into a pyglet batch, and return its group.
+        """Add the prairie to a pyglet batch, and return its group.
 
-        The batch asks `camera` for view and projection, as `draw` takes them, each time it draws. It draws the prairie
-        after groups of a lower `order` and before those of a higher one. A batch may have several groups, of other
-        `parts` each. The group's `visible` hides it; its `delete`, and `release`, take it out of the batch. Raises
-        RuntimeError after `release`, and what `draw` raises for a viewer, parts and depth.
+        At each draw, `camera` is called for the view and projection matrices that `draw` takes. The prairie is drawn
+        after groups of a lower `order` and before those of a higher one. A batch may have several groups, each with
+        other `parts`. The group's `visible` shows or hides it; its `delete`, and `release`, remove it from the batch.
+        Raises RuntimeError after `release`, and what `draw` raises for a viewer, parts and depth.
         """
         self._must_be_there("put it into a batch")
         must_be_viewer(viewer)
@@ -281,14 +282,14 @@ class Prairie(Tending):
         return self._assembly.screen.group(draw, batch, order, parent)
 
     def reload(self, scene: SceneLike | LoadedScene | None = None, *, site: Site | None = None) -> None:
-        """Read the scene again, or another one, and go on with it at the same time: what did not change stays.
+        """Read the scene again, or another one, and continue with it at the present time; keep what did not change.
 
-        Only terrain, kinds of grass and textures whose values, maps or preset have changed are made anew. Winds that
-        have not changed blow on, and so do those that you added; so do your changes to `systems` and, where the terrain
-        is the same, to ground and grass. Give the `site` that `finding`'s function returned, and nothing has to grow
-        here; then the scene is the one that it was found for. Raises `SceneError` with every problem, and then
-        nothing has changed; ValueError if there is no scene to read; TypeError for another `site`; RuntimeError after
-        `release`, and while another esper world is current.
+        Only terrain, kinds of grass and textures whose values, maps or preset have changed are made anew. Unchanged
+        winds and those that you added blow on. Your changes to `systems` stay, and so do those to ground and grass if
+        the terrain is the same. With the `site` that `finding`'s function returned nothing has to grow here; the scene
+        is then the one that the site was made for. Raises `SceneError` with every problem, and then nothing has
+        changed; ValueError if there is no scene to read; TypeError for another `site`; RuntimeError after `release`,
+        and while another esper world is current.
         """
         self._must_be_there("read it again")
         if site is not None:
@@ -302,10 +303,10 @@ class Prairie(Tending):
         self._ripening.begin()
 
     def finding(self, scene: SceneLike | LoadedScene | None = None) -> Callable[[], Site]:
-        """Read the scene again, or another one, and return a function that finds the `site` for `reload`.
+        """Read the scene again, or another one, and return a function that makes the `site` for `reload`.
 
-        The function changes nothing. Call it on another thread, as grass takes its time to grow, and give `reload` what
-        it returns. Raises what `reload` raises for a scene; the function raises `SceneError` with every problem of the
+        The function does not change the prairie. Call it on another thread, as growing takes a while, and give `reload`
+        its result. Raises what `reload` raises for a scene; the function raises `SceneError` with every problem of the
         maps.
         """
         loaded = read_again(self.loaded, scene)
@@ -319,28 +320,28 @@ class Prairie(Tending):
         return find
 
     def state(self) -> bytes:
-        """Return all that a game has done, for `restore`. Raises ValueError for a wind of a class not registered."""
+        """Return all changes of a game as bytes for `restore`; ValueError for a wind whose class is not registered."""
         self._must_be_there("save it")
         return self._saving.state(self.site, time=self.time)
 
     def restore(self, state: bytes, entities: Mapping[int, int] | None = None) -> dict[int, int]:
-        """Bring back what `state` returned, and return what entity each of a game's own in it is now.
+        """Restore what `state` returned, and return a mapping from each of your entities in it to its entity now.
 
-        These are winds, pressers, lamps, shades and trees. `entities` are those that are there already, likewise.
-        Raises ValueError, and changes nothing, for a state that does not fit the scene, or is damaged.
+        These are entities with a wind, presser, lamp, shade or tree. `entities` maps those that exist already in the
+        same way. Raises ValueError, and changes nothing, for a state that is damaged or does not fit the scene.
         """
         self._must_be_there("restore a state")
         self._clock, became, kinds = self._saving.restore(state, self.site, self.loaded, entities)
         self.viewers.begin_anew()
-        self._move_to(self._ripening.resume(self.site, kinds))  # after it, as winds of entities stay what they are
+        self._move_to(self._ripening.resume(self.site, kinds))  # after restoring, so that entities keep their winds
         self._turn()
         return became
 
     def release(self) -> None:
-        """Free all that it holds: GL objects in every window, places in batches, entities, and what `install` added.
+        """Free everything: GL objects in every window, groups in batches, entities, and what `install` added.
 
-        The processor of `install` goes with its world's last prairie. This prairie cannot be drawn afterwards; where a
-        system of its own calls this, the frame ends with that system, and nothing of it is drawn.
+        The processor of `install` goes with its world's last prairie. This prairie cannot be drawn afterwards. If one
+        of its systems calls this, the frame ends with that system, and nothing is drawn.
         """
         self._released = True
         self._ripening.release()
@@ -353,7 +354,7 @@ class Prairie(Tending):
         self._built.clear()
 
     def _turn(self, stage: Stage = lambda *_: True) -> None:
-        """Come to the kinds of grass that there are by now; `stage` brings what is new into GL."""
+        """Advance changed kinds of grass to the present time; `stage` uploads what has grown anew."""
         site = self._ripening.step(self.site, self.time, stage)
         scene = self._seasons.scene_at(site.scene, self.time)
         if scene is not site.scene:
@@ -364,29 +365,29 @@ class Prairie(Tending):
             self.site = site
 
     def _move_to(self, site: Site) -> None:
-        """Go on with another site; what has not changed stays."""
+        """Continue with another site; keep what has not changed."""
         before, self.site = self.site, site
         for outlook in self.viewers.values():
             settle_on(outlook, self.site, before, self.world)
-        self._built, built = self._assembly.on(self.site), self._built
-        replace_built_in(self.systems, self._built, built)
+        self._built, replaced = self._assembly.on(self.site), self._built
+        replace_built_in(self.systems, self._built, replaced)
         for feature in self.features:
             feature.settle(self.site, before, time=self.time)
         self.statistics.blades_field = self.site.blades
 
     def _look_ahead(self) -> None:
-        """Gather for a frame what is seen from the scene's own camera; nobody is there any more afterwards."""
+        """Run all systems but `draw` for a temporary viewer at the scene's own camera."""
         camera = camera_at(self.scene.camera, None, self.height_at)
         seen = view_of(view_matrix(camera), projection_matrix(camera.view, 1.0))
-        self._go_with(AHEAD, seen)
-        self._look(seen, AHEAD)
+        self._go_with(REHEARSAL, seen)
+        self._look(seen, REHEARSAL)
         for _, name, system in self._built:
             if name != "draw":
                 system.run()
-        self.viewers.forget(AHEAD)
+        self.viewers.forget(REHEARSAL)
 
     def _go_with(self, viewer: str, seen: View) -> None:
-        """Let features and ground that streams go with the viewers, one of whom has come to where it sees from."""
+        """Let streaming ground and features follow the viewers, one of whom now sees by `seen`."""
         others = [outlook.viewer for outlook in self.viewers.values() if outlook.viewer.name != viewer]
         self._streaming.follow(self.site.ground.terrain, seen.eye, others, time=self.time)
         for feature in self._stepping:

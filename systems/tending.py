@@ -1,4 +1,4 @@
-"""What a game does to a prairie: winds, cuts, what it sows and clears, other ground, another light, and shadows."""
+"""The changes that a game makes to a prairie: of winds, grass, ground and light."""
 
 from collections.abc import Iterable
 
@@ -21,52 +21,52 @@ from .shadows.feature import Shadows
 
 
 class Tending(Answering):
-    """What can be changed of what stands on a site, until it is released."""
+    """A site whose winds, grass, ground and light can be changed until it is released."""
 
     _origin = 0.0, 0.0, 0.0
     _seasons: Seasons
 
     def add(self, primitive: WindPrimitive, *, pose: Pose | None = None, name: str | None = None) -> int:
-        """Add a wind and return its entity, a handle that `move` and `remove` take.
+        """Add a wind and return its entity, the handle for `move` and `remove`.
 
         With a `pose` the wind stays there until you `move` it, whatever its own position is. Winds of one `name` share
-        what is random about them; without a name it is their kind. Raises TypeError for anything but a wind, such as
-        its name or class, and RuntimeError after `release`.
+        their random numbers; the default name is the wind's kind. Raises TypeError for anything but a wind, such as its
+        name or class, and RuntimeError after `release`.
         """
         self._must_be_there("add a wind")
         return self.winds.add(primitive, name, pose)
 
     def move(self, handle: int, pose: Pose) -> None:
-        """Put a wind that `add` returned elsewhere.
+        """Move a wind to a pose, by the handle that `add` returned.
 
-        Raises TypeError for anything but a handle and a `Pose`, ValueError for a pose that is not finite, and for a
-        wind that was removed or deleted.
+        Raises TypeError for anything but a handle and a `Pose`, ValueError for a pose that is not finite and for a wind
+        that was removed or whose entity was deleted.
         """
         self._must_be_there("move a wind")
         self.winds.move(handle, pose)
 
     def remove(self, handle: int) -> None:
-        """Remove a wind that `add` returned; it is no error if its entity has been deleted meanwhile.
+        """Remove a wind, by the handle that `add` returned; its entity may have been deleted already.
 
         Raises TypeError for anything but a handle, ValueError for a wind that has been removed before.
         """
         self.winds.remove(handle)
 
     def cut(self, footprint: Footprint | Road, height: float, *, pose: Pose = HERE) -> None:
-        """Cut the grass under a footprint or a road to `height` [m], until it is grown again.
+        """Cut the grass under a footprint or a road to `height` [m], until `grow` raises it again.
 
         Blades end at that height in calm air; shorter ones stay as they are. The footprint lies at `pose`, by default
-        the scene's origin. Heights live on a map with cells of 0.2 m, and a cell is cut if its middle is under the
-        footprint. Raises TypeError for anything but a footprint, a height and a pose; ValueError for a negative height
-        and a pose that is not finite; RuntimeError after `release`.
+        the scene's origin. Heights are stored in cells of 0.2 m; a cell is cut if its middle is under the footprint.
+        Raises TypeError for anything but a footprint, a height and a pose; ValueError for a negative height and a pose
+        that is not finite; RuntimeError after `release`.
         """
         self._must_be_there("cut its grass")
         self._mown.cut(footprint, height, pose)
 
     def grow(self, footprint: Footprint | Road, height: float = np.inf, *, pose: Pose = HERE) -> None:
-        """Let cut grass under a footprint or a road stand up to `height` [m] again; without one, as high as it grew.
+        """Raise cut grass under a footprint or a road to `height` [m] again; by default to its full height.
 
-        Higher grass stays as it is. It raises the errors of `cut`.
+        Higher grass stays as it is. Raises the errors of `cut`.
         """
         self._must_be_there("grow its grass")
         self._mown.grow(footprint, height, pose)
@@ -74,12 +74,12 @@ class Tending(Answering):
     def sow(
         self, kind: str, footprint: Footprint | Road, density: float, *, soft: float = 0.0, pose: Pose = HERE
     ) -> None:
-        """Let a kind grow under a footprint or a road with a density in [0, 1], at once and in every representation.
+        """Set the density of a kind under a footprint or a road, in [0, 1]; it grows at once, in every representation.
 
-        Densities of all kinds add up to 1 at most, so other kinds give way; flowers do not count. Beside the footprint
-        the kind thins out over `soft` [m]. Densities live on a map with cells of 0.2 m. Raises ValueError for an
-        unknown kind, and for a density or width out of range; TypeError for anything but a footprint and a pose;
-        RuntimeError after `release`.
+        The densities of all kinds but flowers add up to 1 at most: where they would exceed it, other kinds thin out.
+        Outside the footprint the kind thins out over `soft` [m]. Densities are stored in cells of 0.2 m. Raises
+        ValueError for an unknown kind, and for a density or width out of range; TypeError for anything but a footprint
+        and a pose; RuntimeError after `release`.
         """
         self._must_be_there("sow on it")
         among = [each.plant == "flower" for each in self.scene.grass.values()]
@@ -89,31 +89,32 @@ class Tending(Answering):
         sow(self.site.ground.density, number, among, footprint, density, pose, soft=soft)
 
     def clear(self, footprint: Footprint | Road, *, soft: float = 0.0, pose: Pose = HERE) -> None:
-        """Let nothing grow under a footprint or a road, such as a house's floor, until you sow there again.
+        """Remove all grass under a footprint or a road, such as a house's floor, until you `sow` there again.
 
-        Beside it grass thins out over `soft` [m]. It raises the errors of `sow`.
+        Outside the footprint grass thins out over `soft` [m]. Raises the errors of `sow`.
         """
         self._must_be_there("clear it")
         clear(self.site.ground.density, footprint, pose, soft=soft)
 
     def set_heights(self, corner: ArrayLike, heights: ArrayLike) -> None:
-        """Change the ground's heights [m], from its sample at `corner` (x, z) [m] on: a crater, a dike, a field.
+        """Set the ground's heights [m] in a rectangle, for a crater, a dike or a field.
 
-        `heights` (rows, columns) are samples at the terrain's own cell size, `site.ground.terrain.cell`, with row 0 at
-        the far edge (-z). NaN makes a hole, as a scene's `holes` are, until there is a height again. Everything follows
-        at once; only long shadows may take some sixty frames. Raises ValueError for anything but heights, for a corner
-        between samples, and for heights beyond the terrain; RuntimeError after `release`.
+        `corner` (x, z) [m] is the place of the first sample. `heights` (rows, columns) are samples at the terrain's own
+        cell size, `site.ground.terrain.cell`, with row 0 at the far edge (-z). NaN makes a hole, like a scene's
+        `holes`, until a height is set there. Everything follows at once; only long shadows may take some sixty frames.
+        Raises ValueError for anything but heights, for a corner between samples, and for heights beyond the terrain;
+        RuntimeError after `release`.
         """
         self._must_be_there("change its ground")
         set_heights(self.site.ground.terrain, corner, heights)
 
     def shine(self, *, at_once: bool = False, **changes: object) -> None:
-        """Change the light from the next frame on, by keys of `light:` in a scene: `shine(hour=17.5, clouds=0.4)`.
+        """Change keys of the scene's `light:` from the next frame on: `shine(hour=17.5, clouds=0.4)`.
 
         The other keys stay. You may call it in every frame. Clouds, haze and colours change at once. If the sun moves,
         then sun, sky, exposure and the terrain's shadows follow together, within some sixty frames. With `at_once` the
-        next frame waits for all of it: for a cut, or a night that the player sleeps through. Raises ValueError for an
-        unknown key and a bad value, RuntimeError after `release`.
+        next frame waits for all of it, for a cut in a film or a night that the player sleeps through. Raises ValueError
+        for an unknown key and a bad value, RuntimeError after `release`.
         """
         self._must_be_there("change its light")
         light = changed(self._shining.at(self.time), changes, name="light")
@@ -123,12 +124,13 @@ class Tending(Answering):
             self._shining.ask(light, time=self.time)
 
     def change_kind(self, name: str, *, over: float = 0.0, **keys: object) -> None:
-        """Change a kind of grass, by keys of `grass:` in a scene: `change_kind("lawn", gloss=0.2)`.
+        """Change keys of a kind in the scene's `grass:`: `change_kind("lawn", gloss=0.2)`.
 
-        It takes `over` seconds of the prairie's time, and no frame waits for it. Colours, `variety`, `translucency`,
-        `gloss` and `understorey` go from what they are to what they come to. Keys of a `head` join those that it has.
-        Raises ValueError for an unknown kind and a bad time, SceneError with a sentence for each key that is unknown or
-        out of range, TypeError for anything but a name, RuntimeError after `release`.
+        The change takes `over` seconds of the prairie's time, and no frame waits for it. Colours, `variety`,
+        `translucency`, `gloss` and `understorey` are interpolated; what must grow anew comes in plant by plant. The
+        keys of a `head` that you leave out stay. Raises ValueError for an unknown kind and a bad time, SceneError with
+        a sentence for each key that is unknown or out of range, TypeError for anything but a name, RuntimeError after
+        `release`.
         """
         self._must_be_there("change a kind")
         if name in self.scene.trees and name not in self.scene.grass:
@@ -140,11 +142,11 @@ class Tending(Answering):
         self._seasons.change(name, keys, over=over, time=self.time)
 
     def ground_texture(self, texture: object, *, side: float | None = None, linear: bool = False) -> None:
-        """Let a game's own texture lie as the ground from the next frame on, between plants and where none grow.
+        """Draw the ground with a texture of your own from the next frame on, between plants and where none grow.
 
-        It is a 2D texture of moderngl's or pyglet's, or its number in GL, and is read as it says itself: with mip-maps,
-        and repeating. It is laid over the terrain once, its first row at the far edge (-z), or comes again every `side`
-        metres. Its texels are colours as sRGB has them, or `linear`. None brings the scene's own ground back. Raises
+        `texture` is a 2D texture of moderngl or pyglet, or its GL name, and is read with its own filters and wrapping:
+        give it mip-maps, and let it repeat. It covers the terrain once, its first row at the far edge (-z), or repeats
+        every `side` metres. Its texels are sRGB colours, or `linear` ones. None restores the scene's own ground. Raises
         TypeError for anything but such a texture, ValueError for a side that is not above 0, RuntimeError after
         `release`.
         """
@@ -152,23 +154,23 @@ class Tending(Answering):
         feature_of(Earth, self.features).hand_in(texture, side, linear=linear)
 
     def shadows(self, maps: Iterable[ShadowMap]) -> None:
-        """Let a game's shadow maps darken ground and grass from the next frame on, in place of those before.
+        """Shade ground and grass with your own shadow maps from the next frame on, in place of the maps before.
 
-        Give up to four, the finest first: at each place the first one counts that it lies in. They stay until you give
-        others, so you may draw into their textures in every frame; an empty list removes them. Raises TypeError for
-        anything but shadow maps, ValueError for more than four, RuntimeError after `release`.
+        Give up to four, the finest first: each place is shaded by the first map that contains it. They stay until you
+        give others, so you may draw into their textures in every frame; an empty list removes them. Raises TypeError
+        for anything but shadow maps, ValueError for more than four, RuntimeError after `release`.
         """
         self._must_be_there("hand in shadow maps")
         feature_of(Shadows, self.features).hand_in(maps, self._origin)
 
     @property
     def haze(self) -> Haze | None:
-        """What ground and grass fade into far off, under a sky of your own; None: the scene's horizon.
+        """Colour that distant ground and grass fade to, for a sky of your own; None for that of the scene's horizon.
 
-        It is a colour as the picture shows it, (red, green, blue) or "#a0b0c0". Or it is a function of unit vectors (x,
-        0, z), shape (n, 3), that returns the colours of your sky there, (n, 3): it is asked at once, and again when you
-        set it anew. A `linear` prairie takes radiance. How far one sees stays the scene's `light.haze`. Setting it
-        raises ValueError for anything but colours.
+        It is a colour as the picture shows it, (red, green, blue) or "#a0b0c0". Or it is a function from unit vectors
+        (x, 0, z), shape (n, 3), to the colours of your sky in these directions, (n, 3). The function is called when
+        you set it. A `linear` prairie takes radiance. The distance of the haze stays the scene's `light.haze`.
+        Setting it raises ValueError for anything but colours.
         """
         return feature_of(GivenHaze, self.features).haze
 
