@@ -16,7 +16,7 @@ from .painter import Painter
 from .plant import Plant
 from .press.marks import UNTRODDEN, Trodden
 from .pressers import Press, Pressers
-from .room import is_ready
+from .room import get_ready
 from .screen import Screen
 from .see import See
 from .site import Site
@@ -60,7 +60,7 @@ class Assembly:
         """Upload a piece of another site, or prepare one viewer's pools for it; return whether all of it is there."""
         if not self.screen.stage(site):
             return False
-        ready = (is_ready(outlook, site.representations, before.representations) for outlook in self.viewers.values())
+        ready = (get_ready(outlook, site.representations, before.representations) for outlook in self.viewers.values())
         return all(ready)  # stops at the first viewer that was not ready
 
 

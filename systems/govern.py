@@ -1,6 +1,6 @@
-"""The governor: how much of a picture is drawn, so that a frame keeps to its time.
+"""The governor: holds a frame time by drawing fewer pixels and shorter distances.
 
-It is the one thing that depends on how busy the machine is, and there is none unless a game asks for it.
+Nothing else depends on how busy the machine is, and it does nothing unless a game asks for it.
 """
 
 from collections.abc import Iterator
@@ -17,54 +17,54 @@ from .painter import Painter
 from .transition import FADE
 
 RUNG = log(2.0) / 6.0
-"""How much less a rung takes than the one above it, as a logarithm, at most: as pixels are left out, two of whose
-sides shrink by a twelfth of an octave."""
+"""Largest saving of a rung over the one above it, as a logarithm of time: both sides of the picture shrink by a twelfth
+of an octave."""
 
 LADDER = ((8, 0), (8, 12), (18, 12))
-"""How many twelfths of an octave of pixels are left out, and of distances, one by one from each pair to
-the next: pixels first, for they come and go at once, but not so many that grass is a blur before it is drawn in."""
+"""Octaves of pixels, across and up, and of distances that are left out, in twelfths; rungs go one by one from each pair
+to the next. Pixels go first, as they change at once, but not so many that grass blurs before distances shrink."""
 
 ABOVE = 0.03
-"""How much too long frames may take before they are made cheaper, as a logarithm."""
+"""Excess over the frame time held above which frames are made cheaper, as a logarithm."""
 
 BELOW = 0.16
-"""How much shorter they must be before they are made better, as a logarithm: more than a rung, or they would be too
-long right away."""
+"""Spare part of the frame time held above which frames are made finer, as a logarithm: more than a rung, or they would
+at once take too long."""
 
 WATCHED = 0.25
-"""How long frames are watched before anything is changed [s]."""
+"""Minimum time for which frames are watched before a change [s]."""
 
 EAGER = 2.0
-"""How many times as far down as pixels alone would need: some of what a frame takes stays whatever is left out."""
+"""Factor on the number of rungs descended: part of a frame's time does not depend on what is left out."""
 
 FEWEST = 3
-"""How many frames are watched at least before anything is changed."""
+"""Minimum number of frames watched before a change."""
 
 BEGINNING = 2
-"""Frames at first, and after every change, that make things and do not count."""
+"""Number of frames at first, and after every change, that make things and do not count."""
 
 LONGEST_PATIENCE = 16
-"""How many times in a row frames must at most be seen to be short before they are made better."""
+"""Maximum number of times in a row that frames must be short before they are made finer."""
 
 SUDDEN = 0.35
-"""How much too long frames must take for more than `GENTLE` rungs to be descended at once, as a logarithm."""
+"""Excess over the frame time held above which more than `GENTLE` rungs are descended at once, as a logarithm."""
 
 GENTLE = 2
-"""Rungs whose change is lost in what the wind changes from frame to frame."""
+"""Number of rungs whose change is hidden by the motion that the wind makes from frame to frame."""
 
 SPEED = 0.15
-"""How much of their distances representations are drawn in or out by in a second: strips grow no faster in a change."""
+"""Speed at which the range changes, as a fraction of the full range a second: strips grow no faster in a change."""
 
 
 @dataclass(frozen=True, slots=True)
 class Fineness:
-    """What is drawn of a picture."""
+    """Fractions of pixels and distances that are drawn."""
 
     scale: float = 1.0
-    """Part of the pixels, across and up."""
+    """Fraction of the pixels, across and up."""
 
     range: float = 1.0
-    """Part of the distances up to which representations are due."""
+    """Fraction of the distances up to which representations are due."""
 
 
 def _rungs() -> tuple[Fineness, ...]:
@@ -78,40 +78,40 @@ def _rungs() -> tuple[Fineness, ...]:
 
 
 RUNGS = _rungs()
-"""What is drawn, from everything to the least."""
+"""Fineness of each rung, from everything to the least."""
 
 
 @dataclass(frozen=True, slots=True)
 class Pace:
-    """How frames have kept to their time, and what comes of it."""
+    """The governor's state for one viewer: its rung, and how its frames keep to their time."""
 
     rung: int = 0
-    """Number of what is drawn in `RUNGS`."""
+    """Index of the present fineness in `RUNGS`."""
 
-    passing: int = BEGINNING
-    """Frames that are still to pass uncounted."""
+    uncounted: int = BEGINNING
+    """Number of frames to come that do not count."""
 
     times: tuple[float, ...] = ()
-    """What those that count have taken [s]."""
+    """Times of the frames watched so far [s]."""
 
     short: int = 0
-    """How many times in a row they have been too short."""
+    """Number of times in a row that the watched frames were short."""
 
     patience: int = 1
-    """How many times they must be."""
+    """Number of times in a row that they must be short before a climb."""
 
     climbed: bool = False
-    """Whether the last change was for the better."""
+    """Whether the last change was a climb to a finer rung."""
 
 
 def paced(pace: Pace, seconds: float, /, *, hold: float) -> Pace:
-    """Return the pace after a frame of its rung has taken so long; `hold` is how long it may take [s].
+    """Return the pace after a frame on its rung has taken `seconds`; `hold` is the frame time held [s].
 
-    Downwards it hurries, upwards it goes no farther than there is room for in any case: so it comes to rest under any
-    steady load, and never swings about its aim. A climb that was taken back makes the next one wait for longer.
+    It descends fast, and climbs only as far as the frame time is sure to allow. So it comes to rest under any steady
+    load, and does not oscillate. After a climb that had to be taken back, the next climb waits longer.
     """
-    if pace.passing:
-        return replace(pace, passing=pace.passing - 1)
+    if pace.uncounted:
+        return replace(pace, uncounted=pace.uncounted - 1)
     times = (*pace.times, seconds)
     if len(times) < FEWEST or sum(times) < WATCHED:
         return replace(pace, times=times)
@@ -129,42 +129,44 @@ def _descended(pace: Pace, rungs: int, hold: float) -> Pace:
     if rung == pace.rung:
         return pace
     patience = min(LONGEST_PATIENCE, 2 * pace.patience) if pace.climbed else 1
-    return Pace(rung, _to_pass(pace.rung, rung, hold), patience=patience)
+    return Pace(rung, _frames_of_change(pace.rung, rung, hold), patience=patience)
 
 
 def _climbed(pace: Pace, rungs: int, hold: float) -> Pace:
     rung = max(0, pace.rung - min(rungs, GENTLE))
     if rung == pace.rung:
         return replace(pace, short=0)
-    return Pace(rung, _to_pass(pace.rung, rung, hold), patience=pace.patience, climbed=True)
+    return Pace(rung, _frames_of_change(pace.rung, rung, hold), patience=pace.patience, climbed=True)
 
 
-def _to_pass(rung: int, other: int, hold: float) -> int:
-    """Return how many frames pass before a change of rungs has come to an end."""
+def _frames_of_change(rung: int, other: int, hold: float) -> int:
+    """Return the number of frames until a change from one rung to another is over."""
     way = abs(RUNGS[rung].range - RUNGS[other].range)
     return BEGINNING + (ceil((FADE + way / SPEED) / hold) if way else 0)
 
 
 def eased(now: float, due: float, /, *, dt: float) -> float:
-    """Return where a range is after `dt` [s] on its way to the one that is due."""
+    """Return the range after `dt` [s] of moving from `now` towards `due`."""
     return max(due, now - SPEED * dt) if due < now else min(due, now + SPEED * dt)
 
 
 class Governor:
-    """Holds the time of a prairie's draws, for each viewer by itself."""
+    """Holds the time of a prairie's draws, for each viewer separately."""
 
     def __init__(self, hold: float | None = None) -> None:
         self.hold = hold
         self.resting = False
-        """Whether everything stays as it was in the frame before."""
+        """Whether rungs and ranges stay as they were in the frame before."""
 
         self._paces: dict[str, Pace] = {}
-        self._drawn: dict[str, int] = {}
+        self._rungs: dict[str, int] = {}
+        """Rung at which the present frame is drawn, by viewer."""
         self._begun = 0.0
+        """Time of the processor's clock at which the present frame began [s]."""
 
     @property
     def hold(self) -> float | None:
-        """How long a draw may take [s]; None to draw everything, whatever it takes. ValueError for what is no time."""
+        """Longest time that a draw may take [s]; None to draw everything. ValueError for anything but a positive time."""
         return self._hold
 
     @hold.setter
@@ -174,32 +176,33 @@ class Governor:
         self._hold = seconds
 
     def begin(self, outlook: Outlook, /, *, goes_on: bool = False) -> None:
-        """Begin a viewer's frame: let the representations around it follow what is drawn of its picture now.
+        """Begin a viewer's frame: choose its rung, and move the range of its representations towards that rung's.
 
-        One that `goes_on` with other parts is the same as before.
+        A frame that `goes_on` with other parts stays on its rung.
         """
         name, self._begun = outlook.viewer.name, perf_counter()
         if not self.resting and not goes_on:
-            self._drawn[name] = 0 if self.hold is None else self._paces.setdefault(name, Pace()).rung
+            self._rungs[name] = 0 if self.hold is None else self._paces.setdefault(name, Pace()).rung
             outlook.lens.range = eased(
-                outlook.lens.range, RUNGS[self._drawn[name]].range, dt=change_step(outlook.viewer)
+                outlook.lens.range, RUNGS[self._rungs[name]].range, dt=change_step(outlook.viewer)
             )
 
     def fineness(self, viewer: str, /) -> Fineness:
-        """Return what is drawn of a viewer's picture now."""
-        return RUNGS[self._drawn.get(viewer, 0)]
+        """Return the fineness of a viewer's present picture."""
+        return RUNGS[self._rungs.get(viewer, 0)]
 
     @contextmanager
     def watching(self, painter: Painter, viewer: str, /) -> Iterator[Fineness]:
-        """Time what is drawn meanwhile for a viewer; with a graphics card it is the card that is timed.
+        """Time the drawing inside this context for a viewer, and give its fineness.
 
-        What is known of a card comes later. Without one, all that has been done since the frame began counts too.
+        A graphics card's own time is measured, which arrives some frames later. Where there is no card, the processor's
+        time since the frame began is added.
         """
-        if self.hold is None or viewer not in self._paces:  # a system may have set it since the frame began
+        if self.hold is None or viewer not in self._paces:  # a system may have set `hold` since the frame began
             yield self.fineness(viewer)
             return
         watch, spent = painter.stopwatch, perf_counter() - self._begun
-        with watch.timing((viewer, self._drawn.get(viewer, 0))):
+        with watch.timing((viewer, self._rungs.get(viewer, 0))):
             yield self.fineness(viewer)
         for (name, rung), seconds in watch.read():
             pace = self._paces[name]

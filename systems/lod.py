@@ -1,4 +1,4 @@
-"""Levels of detail: which representation is due on each patch (paper, sections 2.2 and 4.1)."""
+"""Levels of detail: the representation that is due on each patch (paper, sections 2.2 and 4.1)."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -16,14 +16,14 @@ SLACK = 1
 """Width of the hysteresis [patches]: a patch goes to the coarser representation farther out than it comes back."""
 
 ROOM = 2
-"""How many patches beyond the slack there is room in the pools for those that are still changing; farther out, a change
-is made at once."""
+"""Number of patches beyond the slack for which pools have room, while they are changing; farther out, a change is made
+at once."""
 
 
 def reach_of(limits: tuple[int, ...], forced: int | None = None, /) -> tuple[int, ...]:
     """Return the reach of each representation, from the finest: the largest discrete distance at which it is due.
 
-    `limits` are those of the quality. With `forced`, the representation of this number stands for all the others.
+    `limits` are those of the quality. `forced` is the index of a representation that replaces all others.
     """
     if forced is None:
         return limits
@@ -37,8 +37,8 @@ def wanted_representation(
 ) -> Levels:
     """Return the representation due at each discrete distance, shape (n,).
 
-    A patch keeps a finer representation for `slack` patches beyond its reach, so that a walker who stands on a
-    limit leaves nothing in transition (paper, section 4.1). `current` is -1 for a patch that has none yet.
+    A patch keeps a finer representation for `slack` patches beyond its reach, so that a walker on a limit leaves
+    nothing in transition (paper, section 4.1). `current` is -1 for a patch without a representation.
     """
     due = _beyond(distance, reach)
     finer = ((current >= 0) & (current < due)).nonzero()[0]
@@ -47,7 +47,7 @@ def wanted_representation(
 
 
 def _beyond(distance: NDArray[np.int32], reach: tuple[float, ...]) -> Levels:
-    """Return how many representations do not reach as far as each discrete distance (n,), shape (n,)."""
+    """Return the number of representations whose reach is below each discrete distance (n,), shape (n,)."""
     beyond = np.zeros(len(distance), np.int8)
     for limit in reach[:-1]:
         beyond += distance > limit
@@ -55,12 +55,12 @@ def _beyond(distance: NDArray[np.int32], reach: tuple[float, ...]) -> Levels:
 
 
 def farthest(reach: tuple[int, ...], /) -> tuple[int, ...]:
-    """Return the largest discrete distance at which each representation but the coarsest is ever shown."""
+    """Return the largest discrete distance at which pools have room for each representation but the coarsest."""
     return tuple(limit + SLACK + ROOM for limit in reach[:-1])
 
 
-def read_of(outlook: Outlook, /) -> tuple[object, ...]:
-    """Return all that levels of detail, and what is seen of them, depend on beside the patch table, to be compared."""
+def inputs_of(outlook: Outlook, /) -> tuple[object, ...]:
+    """Return the inputs of levels of detail and appearance besides the patch table, to be compared between frames."""
     viewer, lens, mown = outlook.viewer, outlook.lens, outlook.noted(Mown, None)
     looks = viewer.eye, viewer.cone, viewer.jumped, viewer.centre.tobytes()
     sees = lens.zoom, lens.range, lens.reach, lens.room
@@ -69,9 +69,9 @@ def read_of(outlook: Outlook, /) -> tuple[object, ...]:
 
 @dataclass(slots=True)
 class ChooseLevels:
-    """The system `lod`: which representation is due on each patch, by its discrete distance and how it is seen.
+    """The system `lod`: chooses the representation due on each patch by its discrete distance and how it is seen.
 
-    It writes `wanted`, and nothing else; the system `transition` carries patches there.
+    It only writes `wanted`; the system `transition` moves patches there.
     """
 
     outlooks: Iterable[Outlook]
@@ -79,30 +79,30 @@ class ChooseLevels:
     """Largest discrete distance of each representation."""
 
     representations: tuple[Representation, ...] = ()
-    """All of them, from the finest: each may be unfit for how a patch is seen, though it is near enough."""
+    """All representations, from the finest. One may be unfit for how a near patch is seen; empty if none is asked."""
 
     slack: int = SLACK
 
     bent: Callable[[float], float] = lambda _: 0.0
-    """Gives the posture index that the winds bring grass to everywhere at a time [s]."""
+    """Returns the mean posture index to which winds bend grass everywhere at a time [s]."""
 
     def run(self) -> None:
         """Choose for every viewer that looks."""
         for outlook in self.outlooks:
             outlook.mean_index = self.bent(outlook.viewer.time)
-            outlook.unless_at_rest(self, read_of(outlook), partial(self._run, outlook))
+            outlook.unless_at_rest(self, inputs_of(outlook), partial(self._run, outlook))
 
     def _run(self, outlook: Outlook) -> None:
         patches = outlook.patches
         settled = patches.was_visible & patches.visible & (not outlook.viewer.jumped)
-        none = settled.view(np.int8) - np.int8(1)  # 0 where settled, elsewhere -1, which has all bits
-        held = patches.representation | none
+        unsettled = settled.view(np.int8) - np.int8(1)  # 0 where settled; elsewhere -1, whose bits are all set
+        held = patches.representation | unsettled
         reach = outlook.lens.reach_in(self.reach)
         patches.wanted[:] = wanted_representation(patches.away, held, reach=reach, slack=self.slack)
         self._pass_on(outlook, held)
 
     def _pass_on(self, outlook: Outlook, held: Levels) -> None:
-        """Leave patches to the next coarser representation where theirs would not do."""
+        """Pass patches whose representation is unfit on to the next coarser one."""
         patches = outlook.patches
         for level, representation in enumerate(self.representations[:-1]):
             rows = (patches.visible & (patches.wanted == level)).nonzero()[0]

@@ -1,4 +1,4 @@
-"""Planting: what is shown is stood on the ground, and its receivers become entities."""
+"""Planting: the grass shown is put on the ground, and its receivers become entities."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -11,15 +11,18 @@ from .show.representation import Representation
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Planted:
-    """What all was planted for, and had its entities."""
+    """State of an outlook for which everything shown was planted and had its entities."""
 
     things: tuple[object, ...] = ()
+    """Objects that must be the same ones."""
+
     counts: tuple[int, ...] = ()
+    """Counts of changes that must be equal."""
 
 
 @dataclass(slots=True)
 class Plant:
-    """The system `plant`: patches that are shown for the first time, or in another way, are planted."""
+    """The system `plant`: plants patches that are shown for the first time, or in another way."""
 
     outlooks: Iterable[Outlook]
     representations: tuple[Representation, ...]
@@ -37,14 +40,14 @@ class Plant:
         for kept in outlook.kept.values():
             kept.enlist(self.world, outlook.patches)
         is_done = all(kept.is_listed for kept in outlook.kept.values())
-        outlook.note(self._due(outlook) if is_done else _Planted())
+        outlook.note(self._state(outlook) if is_done else _Planted())
 
     def _is_done(self, outlook: Outlook) -> bool:
-        """Return whether what is shown was planted last, and none of it has come to stand elsewhere since."""
-        last, due = outlook.noted(_Planted, _Planted()), self._due(outlook)
-        return last.counts == due.counts and all(map(is_, last.things, due.things))
+        """Return whether everything shown has been planted, and stands where it did then."""
+        last, now = outlook.noted(_Planted, _Planted()), self._state(outlook)
+        return last.counts == now.counts and all(map(is_, last.things, now.things))
 
-    def _due(self, outlook: Outlook) -> _Planted:
+    def _state(self, outlook: Outlook) -> _Planted:
         kept = [*outlook.kept.values()]
         counts = outlook.entity_changes, len(kept), len(outlook.shown), *(each.planted for each in kept)
         return _Planted((self, *kept, *outlook.shown.values()), counts)

@@ -1,4 +1,4 @@
-"""Room: up to how far from a viewer patches can have each representation."""
+"""Room: the distance from a viewer up to which pools have slots for each representation."""
 
 from collections.abc import Sequence
 from math import ceil, log2
@@ -12,9 +12,9 @@ from .show.representation import Representation
 
 
 def keep_room(outlook: Outlook, representations: Sequence[Representation], reach: tuple[int, ...], /) -> None:
-    """Give an outlook empty stores for what every representation keeps, where `reach` says how far each is due.
+    """Give an outlook empty pools for every representation, with room for the `reach` of each.
 
-    The carpet alone is shown until the system `see` has run, which a game may have left out.
+    Only the carpet is shown until the system `see` has run, which a game may have left out.
     """
     outlook.lens.reach = outlook.lens.room = reach
     for each, side in zip(representations, _sides(outlook), strict=True):
@@ -24,14 +24,14 @@ def keep_room(outlook: Outlook, representations: Sequence[Representation], reach
         outlook.shown[each.name] = each.show(outlook, cover)
 
 
-def is_ready(outlook: Outlook, representations: Sequence[Representation], before: Sequence[Representation], /) -> bool:
-    """Make a store ready for `keep_on`, in a frame before it, if one is not; return whether all were."""
+def get_ready(outlook: Outlook, representations: Sequence[Representation], before: Sequence[Representation], /) -> bool:
+    """Prepare one representation's pools for a later `keep_on`, if any are not ready; return whether all were."""
     pairs = zip(representations, before, strict=True)
     return all(each.carry_ahead(other, outlook.kept[each.name], outlook.patches) for each, other in pairs)
 
 
 def keep_on(outlook: Outlook, representations: Sequence[Representation], before: Sequence[Representation], /) -> None:
-    """Let an outlook's stores be those of representations of the same grass, as far as it has not been grown anew."""
+    """Hand an outlook's pools over to other representations; grass that has not been grown anew stays planted."""
     assert outlook.appearance is not None
     for each, other, cover in zip(representations, before, outlook.appearance.cover, strict=True):
         kept = outlook.kept[each.name]
@@ -41,9 +41,9 @@ def keep_on(outlook: Outlook, representations: Sequence[Representation], before:
 
 
 def make_room(outlook: Outlook, representations: Sequence[Representation], world: World, /) -> None:
-    """Make room for what a long lens brings near, where there is too little: for twice as much of it each time.
+    """Enlarge pools that are too small for what a long lens brings near, with room up to the next doubling of the lens.
 
-    What stood in the smaller stores is planted anew, and its receivers are other entities.
+    Grass of the smaller pools is planted again, and its receivers become other entities.
     """
     lens = outlook.lens
     if lens.factor == 1.0 or not lens.reach:
@@ -59,11 +59,11 @@ def make_room(outlook: Outlook, representations: Sequence[Representation], world
 
 
 def room_for(reach: tuple[int, ...], lens: float, /) -> tuple[int, ...]:
-    """Return up to how far there has to be room for representations of such a reach with a lens, in doublings of it."""
+    """Return the room that representations of this reach need with a lens, which is rounded up to a power of two."""
     return tuple(int(limit) for limit in reach_under(reach, 2.0 ** ceil(log2(lens))))
 
 
 def _sides(outlook: Outlook) -> list[int]:
-    """Return how many patches there is room for along a side of each representation's stores."""
+    """Return the side of the square of patches that each representation's pools have room for [patches]."""
     most = outlook.patches.side
     return [*(min(max(2 * limit + 1, 1), most) for limit in farthest(outlook.lens.room)), most]

@@ -1,4 +1,4 @@
-"""Seeing: what each representation shows a viewer in this frame."""
+"""Seeing: the patches that each representation shows a viewer in this frame."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from ..components.arrays import Floats, Rows
 from .around.appearance import Appearance, appearance, strips_left
 from .around.outlook import Outlook
 from .around.transitions import SEAMLESS, Transitions
-from .lod import read_of
+from .lod import inputs_of
 from .show.registry import THREE
 from .show.representation import Representation
 from .space.cone import seen_from
@@ -26,9 +26,9 @@ def strips_kept(
     patch: float,
     choosy: tuple[Representation, ...],
 ) -> Floats:
-    """Return how much of the strips distance and view leave on patches (n,), shape (n,); `patch` is a side [m].
+    """Return the fraction of strips that distance and view leave on patches (n,), shape (n,); `patch` is a side [m].
 
-    They leave all of them where something else than the carpet comes after them.
+    It is 1 if the next coarser representation is not the carpet.
     """
     number = THREE[1]
     drawn = outlook.lens.reach_in(reach)
@@ -40,13 +40,13 @@ def strips_kept(
     kept = strips_left(away, reach=drawn[number])
     if not choosy:
         return kept
-    free = outlook.patches.hold[rows] < 0  # what a game holds is not asked whether it would do
+    free = outlook.patches.hold[rows] < 0  # strips that a game holds are shown even where they are unfit
     return np.where(free, np.minimum(kept, choosy[number].remaining(outlook, rows, away)), kept)
 
 
 @dataclass(slots=True)
 class See:
-    """The system `see`: how each patch appears in this frame, and which patches each representation shows."""
+    """The system `see`: computes the appearance of all patches, and which of them each representation shows."""
 
     outlooks: Iterable[Outlook]
     representations: tuple[Representation, ...]
@@ -57,12 +57,12 @@ class See:
     transitions: Transitions = SEAMLESS
 
     choosy: tuple[Representation, ...] = ()
-    """The representations that may pass patches on to coarser ones."""
+    """Representations that may pass patches on to coarser ones."""
 
     def run(self) -> None:
         """See for every viewer that looks."""
         for outlook in self.outlooks:
-            seen, made = (*read_of(outlook), *outlook.kept.values()), partial(getattr, outlook, "appearance")
+            seen, made = (*inputs_of(outlook), *outlook.kept.values()), partial(getattr, outlook, "appearance")
             outlook.unless_at_rest(self, seen, partial(self._run, outlook), made=made)
 
     def _run(self, outlook: Outlook) -> None:
@@ -71,10 +71,7 @@ class See:
             outlook.shown[representation.name] = representation.show(outlook, cover)
 
     def _appearance(self, outlook: Outlook) -> Appearance:
-        """Return how patches appear that are in view or next to it; of all others it is as if there were carpet.
-
-        So is it of those that have the carpet alone.
-        """
+        """Return the appearance of all patches: carpet for those far from the view cone, or with nothing but carpet."""
         patches, last = outlook.patches, len(self.representations) - 1
         finer = (patches.representation != last) | (patches.previous != last)
         rows = (patches.alive & finer & (patches.near | patches.visible)).nonzero()[0]

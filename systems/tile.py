@@ -22,7 +22,7 @@ from .space.ground import Ground
 from .space.window import between, cell_of, window_cells
 
 EDGE = 1e-4
-"""How far beyond its edge a cell is still the one that a viewer stands in [patch sides]."""
+"""Distance beyond its edge up to which a cell stays the one that a viewer stands in [patch sides]."""
 
 
 def cells_on(terrain: Terrain, cell: Ints, /, *, patch: float) -> NDArray[np.bool_]:
@@ -33,27 +33,27 @@ def cells_on(terrain: Terrain, cell: Ints, /, *, patch: float) -> NDArray[np.boo
 
 
 def cells_over(terrain: Terrain, part: Part, /, *, patch: float) -> tuple[Ints, Ints]:
-    """Return the first and the last of the cells (i, j) of patches that stand on a part of a terrain, each (2,)."""
+    """Return the first and the last cell (i, j) of the patches on a part of a terrain, each (2,)."""
     ends = np.array([(part.column - 1, part.row - 1), (part.column + part.columns, part.row + part.rows)])
     first, last = np.floor((ends * terrain.cell + terrain.origin) / patch).astype(np.int32)
     return first, last
 
 
 def patch_models(cell: Ints, /, *, seed: int, models: int) -> tuple[Ints, Ints]:
-    """Return which patch model stands on each cell (n, 2) and how many quarter turns it is given, each (n,)."""
-    drawn = hash_cells(seed, cell)
-    return (drawn % np.uint32(models)).astype(np.int32), ((drawn >> np.uint32(16)) % np.uint32(4)).astype(np.int32)
+    """Return the index of the patch model on each cell (n, 2), and its number of quarter turns, each (n,)."""
+    hashed = hash_cells(seed, cell)
+    return (hashed % np.uint32(models)).astype(np.int32), ((hashed >> np.uint32(16)) % np.uint32(4)).astype(np.int32)
 
 
 def hash_cells(seed: int, cell: Ints) -> NDArray[np.uint32]:
-    """Return a well mixed number for each cell (n, 2)."""
+    """Return a hash of the seed and each cell (n, 2), shape (n,)."""
     return hash3(seed, cell[..., 0], cell[..., 1])
 
 
 def cell_stood_in(eye: tuple[float, float, float], before: Ints, /, *, patch: float) -> Ints:
-    """Return the cell (i, j) that a viewer stands in, shape (2,), who stood in the cell `before`.
+    """Return the cell (i, j) that a viewer stands in, shape (2,), given the cell of the frame `before`.
 
-    On its very edge that is still the one: rounding alone must not move a whole line of patches to and fro.
+    On its very edge that cell is kept: rounding alone must not move a whole line of patches to and fro.
     """
     (x, z), (i, j) = (eye[0] / patch, eye[2] / patch), before.tolist()
     if abs(x - i - 0.5) <= 0.5 + EDGE and abs(z - j - 0.5) <= 0.5 + EDGE:
@@ -63,7 +63,7 @@ def cell_stood_in(eye: tuple[float, float, float], before: Ints, /, *, patch: fl
 
 def tile(patches: PatchTable, centre: Ints, terrain: Terrain, /, *, patch: float, seed: int, models: int) -> Ints:
     """Move the window of patches to `centre` and return the rows whose patch is new, shape (n,)."""
-    if _stands(patches, centre):
+    if _is_around(patches, centre):
         return np.zeros(0, np.int32)
     cells = window_cells(centre, side=patches.side)
     moved = cells != patches.cell
@@ -81,8 +81,8 @@ def tile(patches: PatchTable, centre: Ints, terrain: Terrain, /, *, patch: float
     return changed
 
 
-def _stands(patches: PatchTable, centre: Ints) -> bool:
-    """Return whether the window stands around `centre` already: then two opposite corners of it are in their rows."""
+def _is_around(patches: PatchTable, centre: Ints) -> bool:
+    """Return whether the window is around `centre` already: its two opposite corners are then in their rows."""
     i, j = (centre - patches.side // 2).tolist()
     for step in (0, patches.side - 1):
         row = (j + step) % patches.side * patches.side + (i + step) % patches.side
@@ -93,14 +93,14 @@ def _stands(patches: PatchTable, centre: Ints) -> bool:
 
 @dataclass(slots=True)
 class Tile:
-    """The system `tile`: patches come and go around each viewer that looks, and so do their entities."""
+    """The system `tile`: moves the window of patches with each viewer that looks, and their entities with them."""
 
     outlooks: Iterable[Outlook]
     entities: PatchEntities
     ground: Ground
     seed: int
     models: int
-    """Patch models of each kind."""
+    """Number of patch models of each kind."""
 
     def run(self) -> None:
         """Tile around every viewer that looks."""
@@ -110,7 +110,7 @@ class Tile:
             patches, viewer = outlook.patches, outlook.viewer
             patch, terrain = self.ground.patch, self.ground.terrain
             viewer.centre = cell_stood_in(viewer.eye, viewer.centre, patch=patch)
-            self._follow(outlook)
+            self._update_ground(outlook)
             fresh = tile(patches, viewer.centre, terrain, patch=patch, seed=self.seed, models=self.models)
             seen = viewer.eye[1], viewer.centre.tobytes(), outlook.heights
             if fresh.size or outlook.away_inputs != seen:
@@ -118,14 +118,14 @@ class Tile:
                 patches.away[:] = seen_from(patches.distance, patches.height, viewer.eye[1], patch=patch)
             self.entities.update(outlook, fresh)
 
-    def _follow(self, outlook: Outlook) -> None:
-        """Let a viewer's patches be what the ground is, where it has changed since the viewer looked last."""
+    def _update_ground(self, outlook: Outlook) -> None:
+        """Update a viewer's patches where heights or densities have changed since the viewer looked last."""
         if outlook.heights != self.ground.terrain.changes.count:
-            self._stand(outlook)
+            self._update_heights(outlook)
         if outlook.sown != self.ground.density.sown.count:
-            self._sow(outlook)
+            self._update_densities(outlook)
 
-    def _stand(self, outlook: Outlook) -> None:
+    def _update_heights(self, outlook: Outlook) -> None:
         terrain, patches, patch = self.ground.terrain, outlook.patches, self.ground.patch
         rows, columns = terrain.heights.shape
         for part in terrain.changes.since(outlook.heights) or [Part(0, 0, rows, columns)]:
@@ -138,25 +138,25 @@ class Tile:
                 kept.planted += 1
                 kept.stand_on(first, last, (float(heights.min()), float(heights.max())))
             if self.ground.density.slopes or terrain.holes is not None:
-                self._sow_on(outlook, patches.cell[on])
+                self._replant(outlook, patches.cell[on])
         outlook.heights = terrain.changes.count
 
-    def _sow(self, outlook: Outlook) -> None:
+    def _update_densities(self, outlook: Outlook) -> None:
         sown, cells, patch = self.ground.density.sown, outlook.patches.cell, self.ground.patch
         changed = sown.since(outlook.sown)
         if changed is not None:
             parts = np.array(changed)
             first, last = parts[:, 1::-1], parts[:, 1::-1] + parts[:, :1:-1]
             ends = cell_of((np.stack([first - 1, last + 1], axis=1) * CELL).astype(np.float32), patch=patch)
-            cells = cells[between(cells, ends[:, 0].min(axis=0), ends[:, 1].max(axis=0))]  # they are few, mostly
+            cells = cells[between(cells, ends[:, 0].min(axis=0), ends[:, 1].max(axis=0))]  # mostly few
             squares = np.array(sorted({tuple(each) for each in ends.reshape(-1, 4).tolist()}))
             i, j = cells.T[..., None]
             left, far, right, near = squares.T
             cells = cells[((i >= left) & (i <= right) & (j >= far) & (j <= near)).any(axis=1)]
-        self._sow_on(outlook, cells)
+        self._replant(outlook, cells)
         outlook.sown = sown.count
 
-    def _sow_on(self, outlook: Outlook, cells: Ints) -> None:
+    def _replant(self, outlook: Outlook, cells: Ints) -> None:
         for kept in outlook.kept.values():
             kept.planted += 1
             kept.sow_on(cells)

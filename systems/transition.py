@@ -11,29 +11,29 @@ from .around.outlook import Outlook
 from .around.pace import change_step
 from .around.patches import PatchTable
 from .around.transitions import SEAMLESS, Transitions
-from .lod import SLACK, farthest, read_of
+from .lod import SLACK, farthest, inputs_of
 from .show.representation import Representation
 
 FADE = 1.2
-"""How long a change of representation takes at most [s]."""
+"""Longest duration of a change of representation [s]."""
 
 STRETCH = 0.8
-"""Part of a patch that a walker may cross meanwhile: a change is over sooner than a patch is crossed (paper, 4.1)."""
+"""Fraction of a patch that a walker crosses during a change: it is over before the patch is crossed (paper, 4.1)."""
 
 
 def step_of_change(dt: float, /, *, way: float, patch: float) -> float:
-    """Return what part of a change is made in `dt` seconds by a walker who goes `way` metres meanwhile.
+    """Return the part of a change made in `dt` seconds, in which the walker goes `way` metres; `patch` is a side [m].
 
-    A change takes `FADE` seconds, or as long as it takes to cross `STRETCH` of a patch [m], whichever is shorter.
+    A change takes `FADE` seconds, or the time to cross `STRETCH` of a patch, whichever is shorter.
     """
     return max(dt / FADE, way / (STRETCH * patch))
 
 
 def move_on(now: Levels, before: Levels, progress: Floats, wanted: Levels, slowly: Mask, /, *, step: float) -> None:
-    """Advance changes from `before` to `now` by `step`, and start those that are wanted; all have shape (n,).
+    """Advance changes from `before` to `now` by `step`, and start those to `wanted`; all arrays have shape (n,).
 
-    Where not `slowly`, what is wanted is there at once. A change that is reversed half-way goes back from where it is.
-    Where a third one is wanted meanwhile, it waits until the change is over.
+    Where not `slowly`, `wanted` is reached at once. A change reversed half-way goes back from its present progress. If
+    a third level is wanted during a change, it waits for the change to end.
     """
     progress += np.float32(min(step, 2.0))
     np.minimum(progress, np.float32(1.0), out=progress)
@@ -52,7 +52,7 @@ def move_on(now: Levels, before: Levels, progress: Floats, wanted: Levels, slowl
 
 
 def unsettled(now: Levels, before: Levels, progress: Floats, wanted: Levels, /) -> Rows:
-    """Return where anything is changing or has to change, shape (m,): everywhere else `move_on` would do nothing."""
+    """Return the indices that are changing or have to change, shape (m,); for all others `move_on` does nothing."""
     going: Mask = (wanted != now) | (before != now) | (progress < 1.0)
     return going.nonzero()[0]
 
@@ -60,7 +60,7 @@ def unsettled(now: Levels, before: Levels, progress: Floats, wanted: Levels, /) 
 def move_rows(
     now: Levels, before: Levels, progress: Floats, rows: Rows, wanted: Levels, slowly: Mask, /, *, step: float
 ) -> None:
-    """Do to some rows (m,) of three columns what `move_on` does; `wanted` and `slowly` have shape (m,)."""
+    """Apply `move_on` to some rows (m,) of three columns; `wanted` and `slowly` have shape (m,)."""
     moved = now[rows], before[rows], progress[rows]
     move_on(*moved, wanted, slowly, step=step)
     now[rows], before[rows], progress[rows] = moved
@@ -69,8 +69,7 @@ def move_rows(
 def change(patches: PatchTable, wanted: Levels, settled: Mask, /, *, reach: tuple[int, ...], step: float) -> None:
     """Advance changes of representation by `step` and start those that are due (paper, section 4.1).
 
-    A patch that is not visible, or was not, as `settled` says, takes its representation at once, as does one that is
-    left behind farther than there is room for.
+    A patch changes at once if it is not `settled` and visible, or is farther away than pools have room for.
     """
     now, before, progress = patches.representation, patches.previous, patches.progress
     rows = unsettled(now, before, progress, wanted)
@@ -83,12 +82,11 @@ def change(patches: PatchTable, wanted: Levels, settled: Mask, /, *, reach: tupl
 def held(patches: PatchTable, /, *, reach: tuple[int, ...]) -> Levels:
     """Return the representation that each patch is to have, shape (rows,): the one it is held in, or the wanted one.
 
-    Where there is no room for so fine a one, it is the finest that there is room for; where none is wanted, the
-    coarsest.
+    If pools have no room for it, it is the finest for which they have; if none is wanted, the coarsest.
     """
     chosen, rows = patches.wanted.copy(), (patches.hold >= 0).nonzero()[0]
     chosen[rows] = patches.hold[rows]
-    np.minimum(chosen.view(np.uint8), len(reach) - 1, out=chosen.view(np.uint8))  # without a sign, none is coarsest
+    np.minimum(chosen.view(np.uint8), len(reach) - 1, out=chosen.view(np.uint8))  # unsigned, -1 (none) is the largest
     finest = np.zeros(len(chosen), np.int8)
     for limit in reach[:-1]:
         finest += patches.distance > limit + SLACK + 1  # from there on there is still room to come back slowly
@@ -96,15 +94,15 @@ def held(patches: PatchTable, /, *, reach: tuple[int, ...]) -> Levels:
 
 
 def is_over(patches: PatchTable, /) -> bool:
-    """Return whether nothing is changing: what a frame does then does not depend on how long it takes."""
+    """Return whether no change is under way, so that a frame does not depend on its duration."""
     return bool((patches.progress >= 1.0).all() and (patches.sublevel_progress >= 1.0).all())
 
 
 def unfinished(patches: PatchTable, wanted: Levels, /, *, reach: tuple[int, ...], step: float) -> Mask:
-    """Return which patches have to end a change of sub-level before they change their representation, shape (rows,).
+    """Return whether each patch must end a change of sub-level before it changes its representation, shape (rows,).
 
-    So blades morph to the painted places of a single sub-level. A patch does not wait where its change ends in this
-    `step`, nor where it has been left behind farther than pools have room.
+    So blades morph to the painted places of a single sub-level. A patch does not wait if its change ends in this
+    `step`, or if it is farther away than pools have room for.
     """
     now, last = patches.representation, len(patches.names) - 1
     rows = ((now != wanted) & (patches.progress >= 1.0)).nonzero()[0]
@@ -117,14 +115,14 @@ def unfinished(patches: PatchTable, wanted: Levels, /, *, reach: tuple[int, ...]
 
 
 def _left_behind(patches: PatchTable, rows: Rows, reach: tuple[int, ...]) -> Mask:
-    """Return which patches (n,) are too far away for a representation that they have or come from, shape (n,)."""
+    """Return whether pools lack room, so far away, for a representation that patches (n,) have or come from, (n,)."""
     limit = np.array([*farthest(reach), np.iinfo(np.int32).max], np.int32)
     finest = np.minimum(limit[patches.representation[rows]], limit[patches.previous[rows]])
     return np.asarray(patches.distance[rows] > finest)
 
 
 def weights(patches: PatchTable, rows: Rows | slice = slice(None), /) -> Floats:
-    """Return how far each patch is each representation, shape (representations, rows): they sum to 1 or to 0."""
+    """Return the weight of each representation on each patch, shape (representations, rows); they sum to 1 or 0."""
     now, before, progress = (column[rows] for column in (patches.representation, patches.previous, patches.progress))
     left = np.float32(1.0) - progress
     shown = np.empty((len(patches.names), len(progress)), np.float32)
@@ -144,10 +142,10 @@ def refine(
 ) -> None:
     """Advance changes of sub-levels by `step` and start those that are due.
 
-    Where a representation does not show, its sub-level is due at once; while a patch goes between two representations
-    that stand on the ground, none changes, so that each blade keeps its painted place. Patches that wait (rows,) for
-    their change to end go on to the end that is nearer. Patches that are not visible, and those without the
-    representation, end their changes and begin no others: their sub-levels will be due anew.
+    A representation that does not show takes its sub-level at once. While a patch changes between two representations
+    that stand on the ground, no sub-level changes, so that each blade keeps its painted place. Patches that wait
+    (rows,) go to the nearer end of their change. Patches that are not visible or do not have the representation end
+    their changes and begin no others: their sub-levels will be chosen anew.
     """
     patches, last = outlook.patches, len(representations) - 1
     seen = patches.alive & patches.visible
@@ -188,22 +186,25 @@ def _refine(
 
 
 def _standing(patches: PatchTable, rows: Rows, level: int) -> tuple[Mask, Mask]:
-    """Return which patches (n,) are a representation at all, and which go between two that stand on the ground."""
+    """Return whether patches (n,) show a representation, and whether they change between two that stand on the ground.
+
+    Both have shape (n,).
+    """
     now, before, progress = (column[rows] for column in (patches.representation, patches.previous, patches.progress))
     come, going = progress > 0.0, progress < 1.0
 
-    def counts(level: int) -> Mask:  # where its weight is above 0
-        return np.asarray(((now == level) & come) | ((before == level) & going))
+    def shows(number: int) -> Mask:  # where its weight is above 0
+        return np.asarray(((now == number) & come) | ((before == number) & going))
 
-    return counts(level), going & (now != before) & ~counts(len(patches.names) - 1)
+    return shows(level), going & (now != before) & ~shows(len(patches.names) - 1)
 
 
 @dataclass(slots=True)
 class Transition:
-    """The system `transition`: the state machine that carries patches to the representation that is due.
+    """The system `transition`: the state machine that moves patches to the representation that is due.
 
-    It is the only one that writes which representation a patch has, and how fine; a patch that is held in one goes
-    there whatever is wanted.
+    No other system writes a patch's representation and sub-level. A held patch goes to the representation that it is
+    held in, whatever is wanted.
     """
 
     outlooks: Iterable[Outlook]
@@ -215,10 +216,10 @@ class Transition:
     transitions: Transitions = SEAMLESS
 
     def run(self) -> None:
-        """Move on for every viewer that looks."""
+        """Advance changes for every viewer that looks."""
         for outlook in self.outlooks:
             over = partial(is_over, outlook.patches)
-            outlook.unless_at_rest(self, read_of(outlook), partial(self._run, outlook), settled=over)
+            outlook.unless_at_rest(self, inputs_of(outlook), partial(self._run, outlook), settled=over)
 
     def _run(self, outlook: Outlook) -> None:
         patches, viewer = outlook.patches, outlook.viewer
