@@ -166,7 +166,7 @@ class Governor:
 
     @property
     def hold(self) -> float | None:
-        """Longest time that a draw may take [s]; None to draw everything. ValueError for anything but a positive time."""
+        """Longest time of a draw [s]; None to draw everything. ValueError for anything but a time above 0."""
         return self._hold
 
     @hold.setter
