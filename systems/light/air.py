@@ -1,8 +1,8 @@
-"""The air of a planet: what it takes of the sun's light, and what it scatters to the eye.
+"""The atmosphere: its transmittance for sunlight, and the light that it scatters to the eye.
 
-Molecules, haze and ozone in layers around a sphere; light that is scattered once is integrated along the line of sight,
-what is scattered again and again is taken as even in all directions (Hillaire, A Scalable and Production Ready Sky and
-Atmosphere Rendering Technique, 2020).
+Molecules, haze and ozone form layers around a sphere. Single scattering is integrated along the line of sight; multiple
+scattering is taken as isotropic (Hillaire, A Scalable and Production Ready Sky and Atmosphere Rendering Technique,
+2020).
 """
 
 from dataclasses import dataclass
@@ -13,173 +13,181 @@ import numpy as np
 from ...components.arrays import Doubles
 
 GROUND, TOP = 6360.0, 6460.0
-"""Radii of the planet and of its air [km]."""
+"""Radii of the planet and of its atmosphere [km]."""
 
 MOLECULES = np.array([5.802, 13.558, 33.1]) * 1e-3
-"""What molecules scatter at sea level, red, green and blue [1/km]; they thin out over 8 km."""
+"""Scattering coefficients of molecules at sea level: red, green, blue [1/km]. Their scale height is 8 km."""
 
-HAZE, HAZE_TAKES = 3.996e-3, 4.40e-3
-"""What haze scatters, and takes altogether beyond that, at sea level [1/km]; it thins out over 1.2 km."""
+HAZE_SCATTERING, HAZE_ABSORPTION = 3.996e-3, 4.40e-3
+"""Scattering and absorption coefficients of haze at sea level [1/km]. Its scale height is 1.2 km."""
 
 OZONE = np.array([0.650, 1.881, 0.085]) * 1e-3
-"""What ozone takes at a height of 25 km [1/km]; it is gone 15 km above and below."""
+"""Absorption coefficients of ozone at a height of 25 km [1/km]; they fall to 0 at 15 km above and below."""
 
 FORWARD = 0.8
-"""How much haze scatters forwards, from -1 for backwards to 1."""
+"""Asymmetry of the haze's phase function: -1 is all backward, 1 all forward."""
 
-USUAL = 2.6
-"""The turbidity at which there is as much haze as `HAZE` says."""
+USUAL_TURBIDITY = 2.6
+"""Turbidity at which the haze has the coefficients `HAZE_SCATTERING` and `HAZE_ABSORPTION`."""
 
-GROUND_RETURNS = 0.25
-"""The part of the light that the ground sends back."""
+GROUND_ALBEDO = 0.25
+"""Albedo of the ground."""
 
-STEPS, TO_SUN, AROUND = 24, 12, 48
-"""Points along a line of sight and along the way to the sun; directions to take the mean of all light."""
+STEPS, SUN_STEPS, DIRECTIONS = 24, 12, 48
+"""Samples along a line of sight; samples towards the sun; directions over which multiple scattering is averaged."""
 
-_MIDDLES = ((np.arange(TO_SUN) + 0.5) / TO_SUN) ** 2
-_LENGTHS = (2.0 * np.arange(TO_SUN) + 1.0) / TO_SUN**2
+_SUN_MIDDLES = ((np.arange(SUN_STEPS) + 0.5) / SUN_STEPS) ** 2
+_SUN_LENGTHS = (2.0 * np.arange(SUN_STEPS) + 1.0) / SUN_STEPS**2
 
 HIGHEST = 60.0
-"""Up to where light from all sides is made out [km]."""
+"""Largest height in the table of multiple scattering [km]."""
 
 HEIGHTS = 0.01 + HIGHEST * (np.arange(10) / 9.0) ** 2
-"""The heights at which it is [km]."""
+"""Heights of the rows of that table [km]."""
 
 EYE = GROUND + 0.2
-"""Where the sky is looked at from [km]."""
+"""Radius from which the sky is seen [km]."""
 
 
-def _thick(turbidity: float) -> float:
-    """Return how much haze there is, of the usual."""
-    return (turbidity - 1.0) / (USUAL - 1.0)
+def _haze_density(turbidity: float) -> float:
+    """Return the density of the haze, relative to that at the usual turbidity."""
+    return (turbidity - 1.0) / (USUAL_TURBIDITY - 1.0)
 
 
-def _way_out(radius: Doubles, cosine: Doubles) -> Doubles:
-    """Return the length of the way out of the air [km] from a radius, at a cosine to the zenith."""
+def _distance_out(radius: Doubles, cosine: Doubles) -> Doubles:
+    """Return the distance [km] from a radius to the top of the atmosphere, by the cosine of the zenith angle."""
     return np.asarray(-radius * cosine + np.sqrt(np.maximum(radius**2 * (cosine**2 - 1.0) + TOP**2, 0.0)))
 
 
 def sunlight(radius: Doubles, cosine: Doubles, turbidity: float, /) -> Doubles:
-    """Return the part of the sun's light that reaches points in the air, shape (..., 3).
+    """Return the transmittance from the sun to points in the atmosphere, shape (..., 3): 0 in the planet's shadow.
 
-    `radius` [km] says how high they are, `cosine` how high the sun stands over each; in the planet's shadow it is 0.
+    `radius` is the points' distance from the planet's centre [km], `cosine` the cosine of the sun's zenith angle there.
     """
-    way, toward = _way_out(radius, cosine).reshape(-1), (2.0 * radius * cosine).reshape(-1)
-    along = _MIDDLES[:, None] * way
+    distance, toward = _distance_out(radius, cosine).reshape(-1), (2.0 * radius * cosine).reshape(-1)
+    along = _SUN_MIDDLES[:, None] * distance
     height = along + toward
     height *= along
     height += (radius * radius).reshape(-1)
     height = np.maximum(np.sqrt(height, out=height) - GROUND, 0.0, out=height)
-    met = np.empty((len(way), 3))
+    columns = np.empty((len(distance), 3))
     for column, scale in enumerate((8.0, 1.2)):
-        met[:, column] = _LENGTHS @ np.exp(np.divide(height, -scale, out=along), out=along)
+        columns[:, column] = _SUN_LENGTHS @ np.exp(np.divide(height, -scale, out=along), out=along)
     height -= 25.0
     ozone = np.abs(height, out=height)
     ozone /= -15.0
     ozone += 1.0
-    met[:, 2] = _LENGTHS @ np.maximum(ozone, 0.0, out=ozone)
-    takes = np.stack([MOLECULES, np.full(3, (HAZE + HAZE_TAKES) * _thick(turbidity)), OZONE])
+    columns[:, 2] = _SUN_LENGTHS @ np.maximum(ozone, 0.0, out=ozone)
+    extinction = np.stack(
+        [MOLECULES, np.full(3, (HAZE_SCATTERING + HAZE_ABSORPTION) * _haze_density(turbidity)), OZONE]
+    )
     grazing = np.sqrt(np.maximum(1.0 - (GROUND / radius) ** 2, 0.0))
-    lit = np.clip((cosine + grazing) / 0.0093 + 0.5, 0.0, 1.0)  # the sun's disc sets
-    return np.asarray(np.exp(met @ takes * -way[:, None]).reshape(*radius.shape, 3) * lit[..., None])
+    visible = np.clip((cosine + grazing) / 0.0093 + 0.5, 0.0, 1.0)  # part of the sun's disc above the horizon
+    return np.asarray(np.exp(columns @ extinction * -distance[:, None]).reshape(*radius.shape, 3) * visible[..., None])
 
 
-def seen_in_rows(
-    up: Doubles,
-    apart: Doubles,
-    high: float,
+def sky_radiance(
+    sine: Doubles,
+    cosine: Doubles,
+    sun_sine: float,
     turbidity: float,
     /,
     *,
-    around: Doubles | None = None,
+    multiple: Doubles | None = None,
     eye: Doubles | float = EYE,
 ) -> Doubles:
-    """Return the radiance of the air along lines of sight in rows, for sunlight of irradiance 1, shape (r, c, 3).
+    """Return the radiance of the atmosphere for a solar irradiance of 1, shape (r, c, 3).
 
-    Each row is of one elevation. `up` (r,) are the sines of these, `high` is that of the sun's, and `apart` (r, c) are
-    the cosines of the angles between the two. All are seen from one radius `eye`, or each row from its own, (r,) [km].
-    `around` is what comes from all sides to `HEIGHTS`, as `from_all_sides` has it; without it light is scattered but
-    once.
+    All lines of sight in a row have one elevation. `sine` (r,) holds the sines of these elevations, `sun_sine` is the
+    sine of the sun's, and `cosine` (r, c) holds the cosines of the angles between sun and lines of sight. `eye` is the
+    radius [km] of the eye, one or (r,). `multiple` is what `multiple_scattering` returns for `HEIGHTS`; without it
+    light is scattered only once.
     """
-    eye = np.broadcast_to(eye, up.shape)
-    ray = _rays(eye.tobytes(), up.tobytes(), turbidity)
-    above = (ray.along[:, None] * apart[..., None] + (eye * high)[:, None, None]) / ray.radius[:, None]
-    light = sunlight(np.broadcast_to(ray.radius[:, None], above.shape), above, turbidity)
-    molecules = 3.0 / (16.0 * np.pi) * (1.0 + apart**2)[..., None] * np.einsum("rcsk,rsk->rck", light, ray.molecules)
-    light = molecules + _forwards(apart)[..., None] * np.einsum("rcsk,rsk->rck", light, ray.haze)
-    if around is not None:
-        light += ((ray.molecules + ray.haze) * _by_height(around, ray.radius)).sum(axis=1)[:, None]
+    eye = np.broadcast_to(eye, sine.shape)
+    ray = _rays(eye.tobytes(), sine.tobytes(), turbidity)
+    sun_cosine = (ray.along[:, None] * cosine[..., None] + (eye * sun_sine)[:, None, None]) / ray.radius[:, None]
+    light = sunlight(np.broadcast_to(ray.radius[:, None], sun_cosine.shape), sun_cosine, turbidity)
+    molecules = 3.0 / (16.0 * np.pi) * (1.0 + cosine**2)[..., None] * np.einsum("rcsk,rsk->rck", light, ray.molecules)
+    light = molecules + _haze_phase(cosine)[..., None] * np.einsum("rcsk,rsk->rck", light, ray.haze)
+    if multiple is not None:
+        light += ((ray.molecules + ray.haze) * _at_radius(multiple, ray.radius)).sum(axis=1)[:, None]
     return np.asarray(light)
 
 
-def from_all_sides(sun: Doubles, turbidity: float, /, *, heights: Doubles = HEIGHTS) -> Doubles:
-    """Return the mean radiance that comes from all sides to some heights, scattered any number of times, shape (h, 3).
+def multiple_scattering(sun: Doubles, turbidity: float, /, *, heights: Doubles = HEIGHTS) -> Doubles:
+    """Return the radiance at `heights` [km], averaged over all directions, with multiple scattering, shape (h, 3).
 
-    What has been scattered once, and sent back by the ground, goes on as a geometric series.
+    `sun` is the direction to the sun. Light scattered once, or reflected by the ground, continues as a geometric
+    series.
     """
-    direction, radius = np.tile(_sphere(AROUND), (len(heights), 1)), np.repeat(GROUND + heights, AROUND)
-    up, apart = direction[:, 1], (direction @ sun)[:, None]
-    once = seen_in_rows(up, apart, float(sun[1]), turbidity, eye=radius)[:, 0]
-    down = (up < -np.sqrt(1.0 - (GROUND / radius) ** 2))[:, None] * GROUND_RETURNS
+    direction, radius = np.tile(_sphere(DIRECTIONS), (len(heights), 1)), np.repeat(GROUND + heights, DIRECTIONS)
+    sine, cosine = direction[:, 1], (direction @ sun)[:, None]
+    single = sky_radiance(sine, cosine, float(sun[1]), turbidity, eye=radius)[:, 0]
+    reflected = (sine < -np.sqrt(1.0 - (GROUND / radius) ** 2))[:, None] * GROUND_ALBEDO
     ground = sunlight(np.array([GROUND + 0.01]), np.array([sun[1]]), turbidity)[0] * max(sun[1], 0.0)
-    ray = _rays(radius.tobytes(), up.tobytes(), turbidity)
-    again = (ray.molecules + ray.haze).sum(axis=1) + down
-    first, then = (each.reshape(-1, AROUND, 3).mean(axis=1) for each in (once + down * ground / np.pi, again))
-    return np.asarray(first / (1.0 - np.minimum(then, 0.9)))
+    ray = _rays(radius.tobytes(), sine.tobytes(), turbidity)
+    gain = (ray.molecules + ray.haze).sum(axis=1) + reflected
+    source, factor = (
+        each.reshape(-1, DIRECTIONS, 3).mean(axis=1) for each in (single + reflected * ground / np.pi, gain)
+    )
+    return np.asarray(source / (1.0 - np.minimum(factor, 0.9)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Ray:
-    """Lines of sight, cut into `STEPS` pieces, (n, STEPS) or (n, STEPS, 3) each."""
+    """Lines of sight in `STEPS` segments: arrays of shape (n, STEPS) or (n, STEPS, 3)."""
 
     along: Doubles
-    """How far the middles of the pieces are [km]."""
+    """Distances of the segments' middles from the eye [km]."""
 
     radius: Doubles
-    """How high they are [km]."""
+    """Radii of the segments' middles [km]."""
 
     molecules: Doubles
-    """What is seen of light of radiance 1 that falls on the molecules there, and is scattered evenly."""
+    """Radiance seen from a segment's molecules under isotropic light of radiance 1, scattered isotropically."""
 
     haze: Doubles
-    """The same of the haze there."""
+    """Radiance seen from a segment's haze, under the same light."""
 
 
-@lru_cache(maxsize=40)  # all that a sky is made of: they are the same wherever the sun goes
-def _rays(eye: bytes, up: bytes, turbidity: float) -> _Ray:
-    """Return lines of sight from radii (n,), by the sines of their elevations (n,)."""
-    return _ray(np.frombuffer(eye), np.frombuffer(up), turbidity)
+@lru_cache(maxsize=40)  # enough for all rows and heights of one sky; rays do not depend on the sun
+def _rays(eye: bytes, sine: bytes, turbidity: float) -> _Ray:
+    """Return lines of sight from radii `eye` (n,) [km], with sines of elevation `sine` (n,); both are float64 bytes."""
+    return _ray(np.frombuffer(eye), np.frombuffer(sine), turbidity)
 
 
-def _ray(eye: Doubles, up: Doubles, turbidity: float) -> _Ray:
-    way, edge = _reach(eye, up), (np.arange(STEPS + 1) / STEPS) ** 2
-    along, length = 0.5 * (edge[1:] + edge[:-1]) * way[:, None], (np.diff(edge) * way[:, None])[..., None]
-    radius = np.sqrt((eye**2)[:, None] + along * (along + (2.0 * eye * up)[:, None]))
+def _ray(eye: Doubles, sine: Doubles, turbidity: float) -> _Ray:
+    """Return lines of sight, as `_rays` does, from arrays."""
+    distance, edge = _ray_length(eye, sine), (np.arange(STEPS + 1) / STEPS) ** 2
+    along, length = 0.5 * (edge[1:] + edge[:-1]) * distance[:, None], (np.diff(edge) * distance[:, None])[..., None]
+    radius = np.sqrt((eye**2)[:, None] + along * (along + (2.0 * eye * sine)[:, None]))
     height = np.maximum(radius - GROUND, 0.0)[..., None]
-    molecules, haze = np.exp(height / -8.0) * MOLECULES, np.exp(height / -1.2) * (HAZE * _thick(turbidity))
-    takes = molecules + haze * (1.0 + HAZE_TAKES / HAZE) + np.maximum(1.0 - np.abs(height - 25.0) / 15.0, 0.0) * OZONE
-    depth = takes * length
-    before = np.exp(depth - np.cumsum(depth, axis=1))
-    shows = before * (1.0 - np.exp(-depth)) / takes
-    return _Ray(along, radius, molecules * shows, haze * shows)
+    molecules = np.exp(height / -8.0) * MOLECULES
+    haze = np.exp(height / -1.2) * (HAZE_SCATTERING * _haze_density(turbidity))
+    ozone = np.maximum(1.0 - np.abs(height - 25.0) / 15.0, 0.0) * OZONE
+    extinction = molecules + haze * (1.0 + HAZE_ABSORPTION / HAZE_SCATTERING) + ozone
+    depth = extinction * length
+    transmittance = np.exp(depth - np.cumsum(depth, axis=1))
+    emission = transmittance * (1.0 - np.exp(-depth)) / extinction
+    return _Ray(along, radius, molecules * emission, haze * emission)
 
 
-def _reach(radius: Doubles, cosine: Doubles) -> Doubles:
-    """Return how far lines of sight go from radii: to the ground, or out of the air [km]."""
+def _ray_length(radius: Doubles, cosine: Doubles) -> Doubles:
+    """Return the lengths of lines of sight from radii, to the ground or the top of the atmosphere [km]."""
     inner = radius**2 * (cosine**2 - 1.0) + GROUND**2
     ground = np.where((inner > 0.0) & (cosine < 0.0), -radius * cosine - np.sqrt(np.maximum(inner, 0.0)), np.inf)
-    return np.asarray(np.minimum(ground, _way_out(radius, cosine)))
+    return np.asarray(np.minimum(ground, _distance_out(radius, cosine)))
 
 
-def _forwards(apart: Doubles) -> Doubles:
-    """Return how haze scatters by the cosine of the angle (Cornette and Shanks, 1992)."""
+def _haze_phase(cosine: Doubles) -> Doubles:
+    """Return the haze's phase function by the cosine of the scattering angle (Cornette and Shanks, 1992)."""
     g = FORWARD
-    top = 3.0 * (1.0 - g * g) * (1.0 + apart**2)
-    return np.asarray(top / (8.0 * np.pi * (2.0 + g * g) * (1.0 + g * g - 2.0 * g * apart) ** 1.5))
+    top = 3.0 * (1.0 - g * g) * (1.0 + cosine**2)
+    return np.asarray(top / (8.0 * np.pi * (2.0 + g * g) * (1.0 + g * g - 2.0 * g * cosine) ** 1.5))
 
 
-def _by_height(table: Doubles, radius: Doubles) -> Doubles:
-    """Return what stands in a table over heights, shape (..., 3)."""
+def _at_radius(table: Doubles, radius: Doubles) -> Doubles:
+    """Return a table over `HEIGHTS`, interpolated at radii (...) [km], shape (..., 3)."""
     row = np.sqrt(np.clip((radius - GROUND) / HIGHEST, 0.0, 1.0)) * (len(table) - 1)
     low = np.minimum(row.astype(np.int64), len(table) - 2)
     part = (row - low)[..., None]
@@ -187,7 +195,7 @@ def _by_height(table: Doubles, radius: Doubles) -> Doubles:
 
 
 def _sphere(count: int) -> Doubles:
-    """Return evenly spread directions, shape (count, 3)."""
+    """Return directions spread evenly over the sphere, shape (count, 3)."""
     up = 1.0 - (2.0 * np.arange(count) + 1.0) / count
     turn = np.arange(count) * (np.pi * (3.0 - np.sqrt(5.0)))
     level = np.sqrt(1.0 - up * up)

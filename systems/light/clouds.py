@@ -1,9 +1,8 @@
-"""Clouds: a layer of them that drifts, higher the denser its map is; how they look, and what they leave of light.
+"""Clouds: constants of a drifting layer of clouds, and its mean effect on the light of the sky and the ground.
 
-A cloud reaches from a level base up to where a parabola of its density ends, and billows stand out from its sides. A
-line of sight steps through the layer and sums up what stops it on its way, and how the sun lights that: so bases are
-flat and grey, tops are heaped and bright where they face the sun, and edges are soft. `cloudscape.frag` draws what this
-module means.
+A cloud stands on a level base. Its height is the root of its excess density: how much the cloud map exceeds its value
+at the edge. Billows stand out from its sides. `cloudscape.frag` marches through the layer and accumulates optical depth
+and sunlight: bases are flat and grey, tops are heaped and bright towards the sun, edges are soft.
 """
 
 from dataclasses import dataclass
@@ -14,92 +13,92 @@ import numpy as np
 from ...components.arrays import Doubles
 from .repeating import CLOUDS_SIDE
 
-CLOUDS_AT = 450.0
-"""How high above the eye their undersides are [m]."""
+BASE_HEIGHT = 450.0
+"""Height of the bases above the eye [m]."""
 
-BENT = 0.12
-"""How they bend down: at this sine of elevation a level layer of them would be half as far off as without."""
+BEND = 0.12
+"""Bend of the layer towards the horizon: at this sine of elevation clouds are half as far away as in a level layer."""
 
 FADE = (-0.02, 0.14)
-"""Sines of elevations between which clouds come out of the haze at the horizon."""
+"""Sines of elevation between which clouds fade in from the haze at the horizon."""
 
-RISE = 150.0
-"""How far the highest tops are above the bases [m]: a third of how wide heaps are, as of cumulus in fair weather."""
+TALLEST = 150.0
+"""Height of the highest tops above the bases [m]: a third of a heap's width, as in fair-weather cumulus."""
 
-FARTHEST = 450.0
-"""How far aside a line of sight goes from the bases to the highest tops at most [m]: lower down, tops are flatter. With
-more, what is asked at two heights is of different heaps."""
+FARTHEST_ASIDE = 450.0
+"""Largest horizontal distance of a line of sight between bases and highest tops [m]; near the horizon it flattens tops.
+With more, samples at successive heights would belong to different heaps."""
 
-ROUND = 0.3
-"""How much denser than at its edge a cloud is on the map that reaches to the highest tops; one of an x-th part of that
-reaches to the root of x of the height, as a dome."""
+DOME = 0.3
+"""Excess density at which a cloud reaches the highest tops. With a fraction x of it, its height is a fraction sqrt(x):
+a dome."""
 
 BILLOWED = 0.36
-"""How much denser than in the deepest creases clouds are on the highest billows, on the map: so far these stand out.
-Half of it is more, and half of it less than the map says, so that clouds hide as much of the sky as without."""
+"""Difference in map density between the highest billows and the deepest creases. It is centred on the map's value, so
+that billows do not change the mean cover."""
 
-COLUMN = 45.0
-"""Optical depth of a cloud, straight up, is this times how much denser its map is than at its edge: for its shadow, and
-for the mean of the sky."""
+DEPTH = 45.0
+"""Vertical optical depth per unit of excess density, for a cloud's shadow and the mean of the sky."""
 
-SOFT = 1.0 / COLUMN
-"""How much denser than at its edge a cloud is until it hides as much as its edges let through."""
+SOFT = 1.0 / DEPTH
+"""Excess density at which the vertical optical depth is 1."""
 
-ASIDE, NEAR = 40.0, 55.0
-"""How far off it, towards the sun, is what shades a cloud's side, by how the map rises and by how billows do [m]."""
+MAP_ASIDE, BILLOWS_ASIDE = 40.0, 55.0
+"""Distances towards the sun at which the self-shadowing of a cloud is taken from the slope of the map, and from the
+slope of the billows [m]."""
 
-DEEPER, WITHIN = 9.0, 0.06
-"""By how much the odds fall that the sun's light comes to a place, in powers of e, for each 1 that clouds are denser on
-the map towards the sun; and the part that is scattered on to all places."""
+SHADING, MULTIPLE = 9.0, 0.06
+"""Decrease in the log-odds of sunlight at a place, per unit of map density towards the sun; and the fraction of
+sunlight that multiple scattering brings to every place."""
 
-UNDERSIDE, BASE, SIDES = 0.08, 0.35, 4.5
-"""How much denser that is for a base; how much of a side's billows it shows; and how much more higher places do,
-for all of the height."""
+BASE_SHADING, BASE_BILLOWS, SIDE_BILLOWS = 0.08, 0.35, 4.5
+"""Extra density towards the sun at a base; strength of billows at a base; its increase over the whole height."""
 
-OPEN, HEAPED = 0.6, 1.0
-"""How much less the highest billows are shaded than the deepest creases, as if clouds were so much denser there; and
-how much more of a base's light in full shade they send."""
+CREASE_SHADING, BILLOW_LIGHT = 0.6, 1.0
+"""Difference in shading density between the deepest creases and the highest billows; and the extra light in full shade
+that the highest billows send, relative to a base's."""
 
 SUNLIT, SILVER = 1.25, 1.0
-"""What a cloud sends of the sun's light on a leaf, which gets 0.8 of it: all; and its edges of what goes through, ahead
-of the sun."""
+"""Radiance of a sunlit cloud relative to a leaf in the sun, which gets 0.8 of the light: all of it. And strength of the
+silver lining: transmitted light at edges in front of the sun."""
 
-STRAYS = 0.28
-"""The optical depth that such light meets, of a cloud's: what droplets scatter almost straight on goes on as before.
+SILVER_DEPTH = 0.28
+"""Optical depth for the silver lining, relative to the cloud's: light scattered almost straight on counts as
+unscattered.
 
-Of droplets' light the square of their asymmetry does, 0.85 (Joseph, Wiscombe and Weinman, The Delta-Eddington
+That fraction is the square of the droplets' asymmetry of 0.85 (Joseph, Wiscombe and Weinman, The Delta-Eddington
 Approximation for Radiative Flux Transfer, 1976)."""
 
-UNDER = 0.27, 0.3
-"""What clouds send in full shade, before that: of the sun's light on level ground above, and of the sky's."""
+SHADED_BASE = 0.27, 0.3
+"""Radiance of a base in full shade, relative to sunlight on level ground above it, and to skylight."""
 
-HIGHER = 0.8
-"""How much more of that the highest tops send than bases."""
+SHADED_TOP = 0.8
+"""Extra radiance in full shade of the highest tops, relative to a base's."""
 
-PALE, DARK = 0.72, 0.22
-"""How much of that it sends at its edge, and how much less where the map is denser by 1: thick clouds are darker
-beneath."""
+SHADED_EDGE, DARKENING = 0.72, 0.22
+"""Factor on the radiance in full shade at a cloud's edge; and its decrease per unit of map density: thick clouds are
+darker beneath."""
 
-AIR = 0.12
-"""The part of a clear sky's light that comes from air below the clouds: it is seen before them where the sun shines in.
+AIR_VEIL = 0.12
+"""Fraction of a clear sky's radiance that comes from air below the clouds: it veils them where the sun shines in.
 
-Of molecules up to a mean height of 8 km 0.055 lie so low, of aerosols up to 1.2 km 0.31; three quarters of the light
-come from the first in usual air (Preetham, Shirley and Smits, 1999, turbidity 3)."""
+Of molecules with a scale height of 8 km, 0.055 lie that low; of aerosols with 1.2 km, 0.31. Molecules send three
+quarters of the light in usual air (Preetham, Shirley and Smits, 1999, turbidity 3)."""
 
-SENDS = 0.35
-"""What a lone cloud that hides the sun sends on of its light; where there are more, it is in the sky's."""
+LONE_CLOUD = 0.35
+"""Fraction of sunlight that a lone cloud before the sun scatters on; with many clouds it is part of the skylight."""
 
-OVERCAST, SOON = 0.6, 9.0
-"""How dense the thinnest place of an overcast is, and by which power of the cover that comes."""
+OVERCAST, OVERCAST_POWER = 0.6, 9.0
+"""Excess density at the thinnest place of an overcast; and the power of the cover by which it is added."""
 
 GLSL = {
-    "CLOUDS_AT": CLOUDS_AT, "CLOUDS_BENT": BENT, "CLOUDS_FADE": FADE, "CLOUD_RISE": RISE,
-    "CLOUD_STEP": RISE / CLOUDS_AT, "CLOUD_FARTHEST": FARTHEST / CLOUDS_SIDE, "CLOUD_ROUND": ROUND,
-    "CLOUD_BILLOWED": BILLOWED, "CLOUD_COLUMN": COLUMN,
-    "CLOUD_ASIDE": ASIDE, "CLOUD_NEAR": NEAR, "CLOUD_DEEPER": DEEPER, "CLOUD_WITHIN": WITHIN,
-    "CLOUD_UNDER": UNDERSIDE, "CLOUD_BASE": BASE, "CLOUD_SIDE": SIDES, "CLOUD_OPEN": OPEN, "CLOUD_HEAPED": HEAPED,
-    "CLOUD_SUNLIT": SUNLIT, "CLOUD_SILVER": SILVER, "CLOUD_HIGHER": HIGHER, "CLOUD_PALE": PALE, "CLOUD_DARK": DARK,
-    "CLOUD_SENDS": SENDS, "CLOUD_STRAYS": STRAYS, "CLOUD_AIR": AIR, "CLOUD_OVERCAST": OVERCAST,
+    "CLOUDS_AT": BASE_HEIGHT, "CLOUDS_BENT": BEND, "CLOUDS_FADE": FADE, "CLOUD_RISE": TALLEST, "CLOUD_STEP": TALLEST /
+    BASE_HEIGHT, "CLOUD_FARTHEST": FARTHEST_ASIDE / CLOUDS_SIDE, "CLOUD_ROUND": DOME, "CLOUD_BILLOWED": BILLOWED,
+    "CLOUD_COLUMN": DEPTH, "CLOUD_ASIDE": MAP_ASIDE, "CLOUD_NEAR": BILLOWS_ASIDE, "CLOUD_DEEPER": SHADING,
+    "CLOUD_WITHIN": MULTIPLE, "CLOUD_UNDER": BASE_SHADING, "CLOUD_BASE": BASE_BILLOWS, "CLOUD_SIDE": SIDE_BILLOWS,
+    "CLOUD_OPEN": CREASE_SHADING, "CLOUD_HEAPED": BILLOW_LIGHT, "CLOUD_SUNLIT": SUNLIT, "CLOUD_SILVER": SILVER,
+    "CLOUD_HIGHER": SHADED_TOP, "CLOUD_PALE": SHADED_EDGE, "CLOUD_DARK": DARKENING, "CLOUD_SENDS": LONE_CLOUD,
+    "CLOUD_STRAYS": SILVER_DEPTH, "CLOUD_AIR": AIR_VEIL, "CLOUD_OVERCAST": OVERCAST,
 }  # fmt: skip
 
 _RANKS = (np.arange(256) + 0.5) / 256.0
@@ -107,41 +106,45 @@ _RANKS = (np.arange(256) + 0.5) / 256.0
 
 @dataclass(frozen=True, slots=True)
 class Clouds:
-    """A sky's clouds in the mean."""
+    """Means of a sky's clouds over the whole sky."""
 
     edge: float
-    """Where they begin: how dense the map is at their edges. Above 1 there are none."""
+    """Map density at the edges of clouds; above 1 there are no clouds."""
 
-    hides: float
-    """The part of the sky that they hide, from 0 to 1."""
+    hidden: float
+    """Fraction of the sky that clouds hide, from 0 to 1."""
 
     sunlit: float
-    """What they send down of the sun's light that comes to their bases and edges, over the whole sky."""
+    """Radiance that clouds send down in sunlight, relative to a white leaf in full sun."""
 
     shaded: float
-    """What they send down of what a base sends in full shade."""
+    """Radiance that clouds send down in shade, relative to a base in full shade."""
 
     past: float
-    """The part of the sun's light that comes past them, over the whole land."""
+    """Fraction of sunlight that passes the clouds, averaged over the land."""
 
 
 def in_shade(sun: Doubles, high: float, sky: Doubles, /) -> Doubles:
-    """Return a base's radiance in full shade, (3,): under a sun of a sine of elevation, and a clear sky."""
-    return UNDER[0] * max(high, 0.0) * sun + UNDER[1] * sky
+    """Return a base's radiance in full shade, (3,).
+
+    `sun` is the radiance of a white leaf in full sun, `high` the sine of the sun's elevation, `sky` the clear sky's
+    irradiance as radiance.
+    """
+    return SHADED_BASE[0] * max(high, 0.0) * sun + SHADED_BASE[1] * sky
 
 
 @lru_cache(maxsize=64)
 def clouds_of(cover: float, /) -> Clouds:
-    """Return the mean of clouds that cover a part of the sky, seen from below: values of the map are evenly spread."""
+    """Return the means of clouds that cover a fraction of the sky, seen from below; the map's values are uniform."""
     if cover <= 0.0:
         return Clouds(2.0, 0.0, 0.0, 0.0, 1.0)
-    edge = 1.0 - cover - min(SOFT, cover) - OVERCAST * cover**SOON
-    least = SENDS * max(edge, 0.0)
-    above = np.maximum(_RANKS - edge, 0.0)
-    open_ = np.exp(-COLUMN * above)
-    hides = 1.0 - open_
-    odds = np.exp(DEEPER * (above + UNDERSIDE * (1.0 - BASE)))
-    sunlit = hides * SUNLIT * (WITHIN + (1.0 - WITHIN) / (1.0 + odds))
-    shaded = hides * (PALE - DARK * above)
-    hidden, sun, sky = (float(each.mean()) for each in (hides, sunlit, shaded))
-    return Clouds(edge, hidden, sun, sky, least + (1.0 - least) * float(open_.mean()))
+    edge = 1.0 - cover - min(SOFT, cover) - OVERCAST * cover**OVERCAST_POWER
+    lone = LONE_CLOUD * max(edge, 0.0)
+    excess = np.maximum(_RANKS - edge, 0.0)
+    transmittance = np.exp(-DEPTH * excess)
+    hidden = 1.0 - transmittance
+    odds = np.exp(SHADING * (excess + BASE_SHADING * (1.0 - BASE_BILLOWS)))
+    sunlit = hidden * SUNLIT * (MULTIPLE + (1.0 - MULTIPLE) / (1.0 + odds))
+    shaded = hidden * (SHADED_EDGE - DARKENING * excess)
+    part, sun, sky = (float(each.mean()) for each in (hidden, sunlit, shaded))
+    return Clouds(edge, part, sun, sky, lone + (1.0 - lone) * float(transmittance.mean()))

@@ -1,4 +1,4 @@
-"""Colours: linear radiance inside, display colours at the door."""
+"""Colours: conversion between linear radiance, used inside, and display colours, used in scenes and pictures."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,10 +6,10 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles
 
 CURVE = 0.78, 0.349, -0.287
-"""What is shown of radiance, by powers of its root: a toe in the shadows, middle tones, and a shoulder."""
+"""Tone curve: coefficients of the root of radiance, its square and its cube. It has a toe and a shoulder."""
 
 WHITE = 1.44
-"""Root of the radiance that is shown as white as can be."""
+"""Root of the radiance at which the tone curve reaches its maximum."""
 
 GLSL = {"CURVE": CURVE, "WHITE": WHITE}
 
@@ -30,13 +30,13 @@ def srgb(color: str) -> Doubles:
 
 
 def display(radiance: NDArray[np.floating]) -> Doubles:
-    """Return linear radiance, 0 and more, as display colours in [0, 1), same shape, as `lib/tone.glsl` shows it."""
+    """Return linear radiance (>= 0) as display colours in [0, 1), same shape: the tone curve of `lib/tone.glsl`."""
     root = np.minimum(np.sqrt(np.maximum(radiance, 0.0)), WHITE)
     return np.asarray(root * (CURVE[0] + root * (CURVE[1] + root * CURVE[2])), np.float64)
 
 
 def shown_as(color: NDArray[np.floating]) -> Doubles:
-    """Return the linear radiance that the tone curve shows as a display colour in [0, 1], same shape."""
+    """Return the linear radiance of display colours in [0, 1], same shape: the inverse of `display`."""
     root = np.linspace(0.0, WHITE, 4096)
     return np.asarray(np.interp(color, display(root * root), root) ** 2, np.float64)
 

@@ -1,4 +1,4 @@
-"""Daylight: what a scene's sun and sky send to the grass, in radiance as the picture is exposed."""
+"""Daylight: the light of a scene's sun and sky on grass, as exposed radiance."""
 
 from dataclasses import dataclass, fields
 from math import pi
@@ -11,40 +11,40 @@ from .color import linear, luminance
 from .sky import SUN, Sky, clear_air, sky_of
 from .sun import sun_at, to_sun, transmitted
 
-USUAL = 1.5
+USUAL_LUMINANCE = 1.5
 """Luminance of a white leaf in usual daylight, sun and sky together."""
 
-ADAPTS = 0.55
-"""Exponent by which the exposure follows the light: 0 is a camera that is never set anew, 1 knows no dusk."""
+ADAPTATION = 0.55
+"""Exponent of the exposure's adaptation to light: 0 is a fixed exposure, with 1 dusk looks as bright as noon."""
 
-LIT_NIGHT = 0.86
-"""Exponent by which lamps shine brighter the less daylight there is, for what twilight and night are here too bright.
+NIGHT_LAMPS = 0.86
+"""Exponent by which lamps grow brighter as daylight fades, because twilight and night are too bright here.
 
-From noon to night light goes down by a factor of 240 here; in the world, down to 5 lx as at the end of civil
-twilight, by one of 25 000 (Seidelmann, Explanatory Supplement to the Astronomical Almanac, 1992)."""
+From noon to night, light falls by a factor of 240 here. In the world it falls by 25 000 to the 5 lx at the end of civil
+twilight (Seidelmann, Explanatory Supplement to the Astronomical Almanac, 1992)."""
 
-DARKEST = 0.005
-"""The least luminance of a white leaf that counts for that: it is that of night."""
+NIGHT_LUMINANCE = 0.005
+"""Smallest luminance of a white leaf for that factor: that of night."""
 
 BOUNCED = 0.05
-"""What grass and air all around send back of the sun's light into its shadows."""
+"""Fraction of sunlight that grass and air all around scatter into shadows."""
 
 LEAF = 0.80
-"""What a leaf gets of the sun's light, on the mean over all that face it or not, of one square to it."""
+"""Mean irradiance of leaves of all directions, relative to a leaf that faces the sun."""
 
-SUNLIT = 133_300.0
-"""Illuminance that the sun gives before the air (Darula, Kittler and Gueymard, 2005) [lx]."""
+SOLAR_ILLUMINANCE = 133_300.0
+"""Solar illuminance above the atmosphere (Darula, Kittler and Gueymard, 2005) [lx]."""
 
-LUX = SUN / pi / SUNLIT
-"""Radiance of a white, dull face for each lux, before the picture is exposed [1/lx]."""
+LUX = SUN / pi / SOLAR_ILLUMINANCE
+"""Radiance of a white diffuse surface per lux, before exposure [1/lx]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Daylight:
-    """The light of a scene, linear radiance, each colour of shape (3,)."""
+    """The light of a scene in linear, exposed radiance; colours have shape (3,)."""
 
     direction: tuple[float, float, float]
-    """To the sun, unit length."""
+    """Direction to the sun, unit length."""
 
     sun: Doubles
     """Radiance of a white leaf in full sun."""
@@ -56,48 +56,51 @@ class Daylight:
     """Radiance of a cloud's underside in full shade."""
 
     sky: Sky
-    """The colours of the sky."""
+    """Map, horizon and irradiance of the sky."""
 
     exposure: float
-    """Radiance in the picture, of that in the scene."""
+    """Factor from the scene's radiance to the picture's."""
 
     lamplight: float
-    """The same of what lamps send."""
+    """Factor from lamps' radiance to the picture's."""
 
 
 def daylight(light: Light, /) -> Daylight:
-    """Return the light that a scene declares, as bright as the picture is exposed."""
+    """Return the light that a scene declares, exposed."""
     return daylight_under(light, clear_air(sun_at(light)[1], light.turbidity))
 
 
 def daylight_under(light: Light, clear: Doubles, /) -> Daylight:
-    """Return the light that a scene declares under the clear air that `clear_air` returns, exposed for it."""
+    """Return the light that a scene declares, exposed; `clear` is the radiance that `clear_air` returns."""
     sun = SUN / pi * LEAF * light.strength * transmitted(sun_at(light)[1], light.turbidity) * linear(light.sun)
     sky = sky_of(light, clear, sun)
     exposure = exposure_of(light, sun * clouds_of(light.clouds).past, sky.down)
     shown = Sky(sky.map * exposure, sky.horizon * exposure, sky.down * exposure, sky.clouds * exposure)
     down = shown.down + BOUNCED * sun * exposure
-    night = max(USUAL / max(_level(sun, sky.down), DARKEST), 1.0) ** LIT_NIGHT
-    return Daylight(to_sun(light), sun * exposure, down, shown.clouds, shown, exposure, exposure * night)
+    dark_factor = max(USUAL_LUMINANCE / max(_leaf_luminance(sun, sky.down), NIGHT_LUMINANCE), 1.0) ** NIGHT_LAMPS
+    return Daylight(to_sun(light), sun * exposure, down, shown.clouds, shown, exposure, exposure * dark_factor)
 
 
 def between(before: Daylight, after: Daylight, part: float, direction: tuple[float, float, float], /) -> Daylight:
-    """Return what a picture passes through from one light to another: radiance as each of both is exposed."""
+    """Interpolate two lights, both exposed, and return one with another direction to the sun."""
 
-    def mixed(one: Any, other: Any) -> Any:
+    def interpolated(one: Any, other: Any) -> Any:
         return one * (1.0 - part) + other * part
 
-    sky = Sky(*(mixed(getattr(before.sky, each.name), getattr(after.sky, each.name)) for each in fields(Sky)))
+    sky = Sky(*(interpolated(getattr(before.sky, each.name), getattr(after.sky, each.name)) for each in fields(Sky)))
     names = "sun", "down", "clouds", "exposure", "lamplight"
-    values = {name: mixed(getattr(before, name), getattr(after, name)) for name in names}
+    values = {name: interpolated(getattr(before, name), getattr(after, name)) for name in names}
     return Daylight(direction, sky=sky, **values)
 
 
 def exposure_of(light: Light, sun: Doubles, down: Doubles, /) -> float:
-    """Return the factor by which a picture is exposed: in part it makes up for little light, as eyes and films do."""
-    return float(2.0**light.exposure * (USUAL / max(_level(sun, down), 1e-3)) ** ADAPTS)
+    """Return the exposure factor: it makes up for part of the lack of light, as eyes do.
+
+    `sun` and `down` are the radiance of a white leaf in the sun and under the sky, unexposed.
+    """
+    return float(2.0**light.exposure * (USUAL_LUMINANCE / max(_leaf_luminance(sun, down), 1e-3)) ** ADAPTATION)
 
 
-def _level(sun: Doubles, down: Doubles) -> float:
-    """Return the luminance of a white leaf in this light."""
+def _leaf_luminance(sun: Doubles, down: Doubles) -> float:
+    """Return the luminance of a white leaf in sun and sky."""
     return float(luminance(sun + down))

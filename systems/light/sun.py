@@ -1,4 +1,4 @@
-"""The sun: where it stands, and what the air leaves of its light."""
+"""The sun: its azimuth and elevation, and the transmittance of the air for its light."""
 
 from math import asin, atan2, cos, degrees, radians, sin
 
@@ -12,15 +12,18 @@ from .air import EYE, sunlight
 def sun_at(light: Light, /) -> tuple[float, float]:
     """Return azimuth and elevation of the sun [degrees]; below the horizon the elevation is negative.
 
-    With an `hour` they follow from it, the day of the year and the latitude (declination by Cooper's formula, solar
-    time); a camera's yaw 0, which is -z, is north.
+    A light with an `hour` gets them from the hour in solar time, the day of the year and the latitude (declination by
+    Cooper's formula). North is -z, a camera's yaw 0.
     """
     if light.hour is None:
         return light.azimuth, light.elevation
-    tilt = radians(23.44) * sin(radians(360.0 * (284 + light.day) / 365.0))
-    turn, north = radians(15.0 * (light.hour - 12.0)), radians(light.latitude)
-    up = sin(north) * sin(tilt) + cos(north) * cos(tilt) * cos(turn)
-    east, ahead = -cos(tilt) * sin(turn), cos(north) * sin(tilt) - sin(north) * cos(tilt) * cos(turn)
+    declination = radians(23.44) * sin(radians(360.0 * (284 + light.day) / 365.0))
+    hour_angle, latitude = radians(15.0 * (light.hour - 12.0)), radians(light.latitude)
+    up = sin(latitude) * sin(declination) + cos(latitude) * cos(declination) * cos(hour_angle)
+    east, ahead = (
+        -cos(declination) * sin(hour_angle),
+        cos(latitude) * sin(declination) - sin(latitude) * cos(declination) * cos(hour_angle),
+    )
     return degrees(atan2(east, ahead)), degrees(asin(max(-1.0, min(1.0, up))))
 
 
@@ -31,6 +34,6 @@ def to_sun(light: Light, /) -> tuple[float, float, float]:
 
 
 def transmitted(elevation: float, turbidity: float, /) -> Doubles:
-    """Return the part of the sun's light that comes through the air, red, green and blue, shape (3,)."""
+    """Return the transmittance of the air for a sun at an elevation [degrees], red, green and blue, shape (3,)."""
     left = sunlight(np.array([EYE]), np.array([sin(radians(elevation))]), turbidity)
     return np.asarray(left[0])

@@ -10,17 +10,17 @@ from hypothesis import strategies as st
 from tallgrass.engine.camera import Camera, forward, projection_matrix, view_matrix, view_of
 from tallgrass.engine.declared.light import Light
 from tallgrass.systems.frame.block import rays
-from tallgrass.systems.light.air import EYE, GROUND, from_all_sides, seen_in_rows, sunlight
+from tallgrass.systems.light.air import EYE, GROUND, multiple_scattering, sky_radiance, sunlight
 from tallgrass.systems.light.billows import SIDE as BLOCK_SIDE
 from tallgrass.systems.light.billows import STEEPEST as STEEPEST_BILLOW
 from tallgrass.systems.light.billows import billow_levels
-from tallgrass.systems.light.clouds import FADE, FARTHEST, clouds_of
+from tallgrass.systems.light.clouds import FADE, FARTHEST_ASIDE, clouds_of
 from tallgrass.systems.light.cloudscape import STEPS, part_of, rows_of_sky
 from tallgrass.systems.light.color import display, luminance
 from tallgrass.systems.light.daylight import daylight
 from tallgrass.systems.light.heaps import STEEPEST, heap_texels
 from tallgrass.systems.light.repeating import CLOUDS_SIDE, SIDE, cloud_map
-from tallgrass.systems.light.sky import BRIGHTER, COLUMNS, NIGHT, ROWS, SUN, Sky, clear_air, scattered, sky_of
+from tallgrass.systems.light.sky import COLUMNS, NIGHT, ROWS, SKY_BRIGHTENED, SUN, Sky, clear_air, scattered, sky_of
 from tallgrass.systems.light.sun import sun_at, to_sun, transmitted
 
 
@@ -82,7 +82,9 @@ def test_light_that_is_scattered_again_makes_the_sky_brighter_and_never_endless(
     sun = np.array([0.0, 0.5, -np.sqrt(0.75)])
     up = np.array([[0.0, 1.0, 0.0], [0.0, 0.05, 1.0]])
     apart = (up @ sun)[:, None]
-    once, often = (seen_in_rows(up[:, 1], apart, 0.5, 2.6, around=each) for each in (None, from_all_sides(sun, 2.6)))
+    once, often = (
+        sky_radiance(up[:, 1], apart, 0.5, 2.6, multiple=each) for each in (None, multiple_scattering(sun, 2.6))
+    )
     assert (often > once).all()
     assert (often < 3.0 * once + 0.05).all()
     assert EYE > GROUND
@@ -104,7 +106,7 @@ def test_every_sky_is_a_map_of_finite_colours_with_a_horizon(light: Light) -> No
 def test_f5_all_round_the_horizon_a_sky_is_as_the_air_has_it(hour: float, turbidity: float) -> None:
     """A low sun's glow is narrow: smoothed away, it once left a band of teal at 85 degrees from the sun."""
     light = Light(hour=hour, turbidity=turbidity)
-    air = clear_air(sun_at(light)[1], turbidity)[0] * (SUN * BRIGHTER) + NIGHT
+    air = clear_air(sun_at(light)[1], turbidity)[0] * (SUN * SKY_BRIGHTENED) + NIGHT
     np.testing.assert_allclose(the_sky(light).map[0], air, rtol=0.08)
 
 
@@ -161,7 +163,7 @@ def test_clouds_are_of_heaps_and_as_many_as_a_scene_says() -> None:
 
 def test_a_line_of_sight_steps_over_no_cloud() -> None:
     dense = cloud_map(seed=3) - 127.5
-    longest = round(STEPS[1] * FARTHEST / CLOUDS_SIDE * SIDE)
+    longest = round(STEPS[1] * FARTHEST_ASIDE / CLOUDS_SIDE * SIDE)
     alike = [(dense * np.roll(dense, longest, axis)).mean() / dense.var() for axis in (0, 1)]
     assert np.mean(alike) > 0.7
 
@@ -208,4 +210,4 @@ def test_clouds_have_no_more_pixels_than_can_be_seen_of_them() -> None:
 
 @pytest.mark.parametrize("cover", [0.05, 0.2, 0.4, 0.6])
 def test_clouds_hide_as_much_of_the_sky_as_a_scene_says(cover: float) -> None:
-    assert clouds_of(cover).hides == pytest.approx(cover, abs=0.01)
+    assert clouds_of(cover).hidden == pytest.approx(cover, abs=0.01)
