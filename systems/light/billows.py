@@ -1,8 +1,8 @@
-"""Billows: a block of noise that repeats every way, of which the sides and tops of clouds are made.
+"""Billows: a tileable 3D noise that shapes the sides and tops of clouds.
 
-It is Worley's noise upside down, round heaps with creases between, of a few sorts, each finer and weaker than the one
-before (Worley, A Cellular Texture Basis Function, 1996; on clouds, Schneider, The Real-Time Volumetric Cloudscapes of
-Horizon: Zero Dawn, 2015). Each texel tells too how that rises along its axes: so light knows where a heap faces.
+It is inverted Worley noise, round heaps with creases between, in a few octaves, each finer and weaker than the last
+(Worley, A Cellular Texture Basis Function, 1996; on clouds, Schneider, The Real-Time Volumetric Cloudscapes of Horizon:
+Zero Dawn, 2015). Each texel also holds the gradient of the noise, from which a heap is lit.
 """
 
 from functools import cache
@@ -20,102 +20,103 @@ from ...engine.kept import DIGEST, keep, kept
 from .repeating import CLOUDS_SIDE
 
 SIDE = 64
-"""Texels along a side."""
+"""Texels along a side of the block."""
 
-SORTS, SHARE = (2, 4, 8, 16), 0.55
-"""Heaps in a row of each sort, and how high those of a sort are, of those that are twice as wide."""
+OCTAVES, GAIN = (2, 4, 8, 16), 0.55
+"""Heaps along a side in each octave; amplitude of an octave, relative to the octave before."""
 
 STEEPEST = 8.0
-"""The steepest that a texel can tell of, along an axis: noise that rises by 1 on that part of a side."""
+"""Largest gradient component that a texel can hold [1 / side]."""
 
 SEED = 0x62696C6C
-"""All clouds are of one block: what it is like where they stand follows from the scene's own map of them."""
+"""Seed of the noise. All scenes share one block; the scene's cloud map decides which parts of it show."""
 
 LEVELS = 5
-"""Levels of its mip-maps, of which the last is 4 texels wide, as many as there are heaps of the second sort."""
+"""Number of mip levels. The last is 4 texels wide, the number of heaps in the second octave."""
 
-SUFFIX, MOST = ".billows", 2
-"""What the file is called that it is kept in, and how many are."""
+SUFFIX, MOST_FILES = ".billows", 2
+"""Suffix of cache files, and largest number of them."""
 
-IN_A_ROW = 9
-"""Blocks in a row along a side of the clouds' square, as long as the columns of `BLOCK` in `clouding.glsl` are."""
+BLOCKS = 9
+"""Blocks along a side of the cloud map's square: the length of the columns of `BLOCK` in `clouding.glsl`."""
 
-GLSL = {"BILLOWS_STEEPEST": STEEPEST, "BILLOWS_TEXELS": float(SIDE), "BILLOWS_SIDE": CLOUDS_SIDE / IN_A_ROW}
+GLSL = {"BILLOWS_STEEPEST": STEEPEST, "BILLOWS_TEXELS": float(SIDE), "BILLOWS_SIDE": CLOUDS_SIDE / BLOCKS}
 
 
-def noise() -> Floats:
-    """Return the noise, from 0 in all but the deepest creases to 1 on all but the highest heaps, (SIDE,) * 3."""
+def billow_noise() -> Floats:
+    """Return the noise, scaled to [0, 1] and clipped at the lowest and highest 0.5 %, shape (SIDE,) * 3."""
     random = np.random.default_rng(SEED)
-    field = sum(SHARE**number * _heaps(count, random) for number, count in enumerate(SORTS))
+    field = sum(GAIN**number * _heaps(count, random) for number, count in enumerate(OCTAVES))
     low, high = np.quantile(field, (0.005, 0.995))
     return np.asarray(np.clip((field - low) / (high - low), 0.0, 1.0), np.float32)
 
 
 def _heaps(count: int, random: np.random.Generator) -> Floats:
-    """Return how near each texel is to the next of points, one in each cube of so many in a row: 0 in a point.
+    """Return inverted Worley noise with one random point in each of `count`**3 cubes, shape (SIDE,) * 3.
 
-    It falls by 1 for a cube's side, and repeats.
+    It is minus the distance to the nearest point, in sides of a cube, and tileable.
     """
-    own, side = random.random((3, count, count, count), np.float32), SIDE // count
-    at = (np.arange(side, dtype=np.float32) + 0.5) / side
+    offsets, side = random.random((3, count, count, count), np.float32), SIDE // count
+    middles = (np.arange(side, dtype=np.float32) + 0.5) / side
     nearest = np.full((count, side) * 3, np.inf, np.float32)
-    for way in product((-1, 0, 1), repeat=3):
-        points = np.roll(own, tuple(-each for each in way), (1, 2, 3))
-        down, across, along = (((points[axis] + np.float32(way[axis]))[..., None] - at) ** 2 for axis in range(3))
-        square = down.transpose(0, 3, 1, 2)[..., None, :, None] + across.transpose(0, 1, 3, 2)[:, None, :, :, :, None]
-        square = square + along[:, None, :, None]
-        np.minimum(nearest, square, out=nearest)
+    for cell in product((-1, 0, 1), repeat=3):
+        points = np.roll(offsets, tuple(-each for each in cell), (1, 2, 3))
+        down, across, along = (((points[axis] + np.float32(cell[axis]))[..., None] - middles) ** 2 for axis in range(3))
+        squared = down.transpose(0, 3, 1, 2)[..., None, :, None] + across.transpose(0, 1, 3, 2)[:, None, :, :, :, None]
+        squared = squared + along[:, None, :, None]
+        np.minimum(nearest, squared, out=nearest)
     return -np.sqrt(nearest.reshape((SIDE,) * 3))
 
 
 @cache
 def billow_levels() -> tuple[NDArray[np.uint8], ...]:
-    """Return the noise, and how it rises along x, y and z, as four channels: shape (SIDE, SIDE, SIDE, 4) and halves.
+    """Return the mip levels of the noise and its gradient along x, y and z, shapes (SIDE, SIDE, SIDE, 4), halved each.
 
-    The axes go from last to first, as textures have them.
+    The array's axes are z, y, x, as in textures.
     """
-    made = []
-    for level, texels in enumerate(np.split(_kept(), _ENDS)):
-        made.append(texels.reshape((SIDE >> level,) * 3 + (4,)))
-    return tuple(made)
+    levels = []
+    for level, texels in enumerate(np.split(_cached_levels(), _LEVEL_ENDS)):
+        levels.append(texels.reshape((SIDE >> level,) * 3 + (4,)))
+    return tuple(levels)
 
 
-_ENDS = np.cumsum([4 * (SIDE >> level) ** 3 for level in range(LEVELS - 1)])
+_LEVEL_ENDS = np.cumsum([4 * (SIDE >> level) ** 3 for level in range(LEVELS - 1)])
 
 
-def _kept() -> NDArray[np.uint8]:
-    """Return all levels one after the other, from the disk where they were made before: it takes a quarter second."""
+def _cached_levels() -> NDArray[np.uint8]:
+    """Return all levels, concatenated, from the cache where possible: making them takes a quarter second."""
     digest = blake2b(np.__version__.encode(), digest_size=DIGEST // 2)
     digest.update((files("tallgrass.systems") / "light/billows.py").read_bytes())
     key = digest.hexdigest()
-    told = kept(key + SUFFIX, key)
-    if told is not None:
-        return np.frombuffer(told, np.uint8)
-    texels = np.concatenate([each.ravel() for each in _made()])
-    keep(key + SUFFIX, key, texels.tobytes(), most=MOST)
+    cached = kept(key + SUFFIX, key)
+    if cached is not None:
+        return np.frombuffer(cached, np.uint8)
+    texels = np.concatenate([each.ravel() for each in _computed_levels()])
+    keep(key + SUFFIX, key, texels.tobytes(), most=MOST_FILES)
     return texels
 
 
-def _made() -> list[NDArray[np.uint8]]:
-    field, made = noise(), []
+def _computed_levels() -> list[NDArray[np.uint8]]:
+    """Return the mip levels, finest first, as `billow_levels` does."""
+    field, levels = billow_noise(), []
     for level in range(LEVELS):
         side = SIDE >> level
-        rises = [(np.roll(field, -1, axis) - np.roll(field, 1, axis)) * (0.5 * side) for axis in (2, 1, 0)]
-        told = np.stack([field, *(0.5 + 0.5 * np.clip(each / STEEPEST, -1.0, 1.0) for each in rises)], axis=-1)
-        made.append(np.rint(255.0 * told).astype(np.uint8))
+        slopes = [(np.roll(field, -1, axis) - np.roll(field, 1, axis)) * (0.5 * side) for axis in (2, 1, 0)]
+        texels = np.stack([field, *(0.5 + 0.5 * np.clip(each / STEEPEST, -1.0, 1.0) for each in slopes)], axis=-1)
+        levels.append(np.rint(255.0 * texels).astype(np.uint8))
         field = field.reshape((side // 2, 2) * 3).mean(axis=(1, 3, 5))
-    return made
+    return levels
 
 
 def billows_texture(ctx: moderngl.Context) -> moderngl.Texture3D:
-    """Return `billow_levels` as a texture that repeats; it is read from one level at a time."""
-    made = billow_levels()
-    texture = ctx.texture3d((SIDE,) * 3, 4, made[0])
+    """Return `billow_levels` as a repeating texture, sampled from the nearest mip level."""
+    levels = billow_levels()
+    texture = ctx.texture3d((SIDE,) * 3, 4, levels[0])
     gl, target = functions_of(ctx), NUMBERS["TEXTURE_3D"]
     gl.glBindTexture(target, texture.glo)
-    for level, texels in enumerate(made[1:], 1):
-        size, given = (len(texels),) * 3, (NUMBERS["RGBA"], NUMBERS["UNSIGNED_BYTE"])
-        gl.glTexImage3D(target, level, NUMBERS["RGBA8"], *size, 0, *given, texels.ctypes.data)
-    gl.glTexParameteri(target, NUMBERS["TEXTURE_MAX_LEVEL"], len(made) - 1)
+    for level, texels in enumerate(levels[1:], 1):
+        size, formats = (len(texels),) * 3, (NUMBERS["RGBA"], NUMBERS["UNSIGNED_BYTE"])
+        gl.glTexImage3D(target, level, NUMBERS["RGBA8"], *size, 0, *formats, texels.ctypes.data)
+    gl.glTexParameteri(target, NUMBERS["TEXTURE_MAX_LEVEL"], len(levels) - 1)
     texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
     return texture

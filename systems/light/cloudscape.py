@@ -1,4 +1,4 @@
-"""Clouds as a picture of their own, with no more pixels than show: from it, the sky is drawn behind all."""
+"""Clouds drawn into a picture of reduced resolution, which the sky samples."""
 
 from collections.abc import Mapping
 
@@ -13,50 +13,51 @@ from .clouds import FADE
 from .heaps import heaps_texture
 
 MOST_ROWS = 364
-"""Rows of pixels that clouds are drawn with at most: a line of sight through clouds costs ten times as much as all else
-of the sky. In a view of 40 degrees a pixel is 2 mrad high then, 1 m of the nearest clouds. They have nothing finer:
-their billows are 18 m wide, their edges 3 m soft. It does not follow the view, as lenses would need new pictures."""
+"""Largest number of rows of the clouds' picture: marching through clouds costs ten times as much as the rest of the
+sky. In a view of 40 degrees a pixel is then 2 mrad high, 1 m on the nearest clouds; billows are 18 m wide and edges 3 m
+soft. It does not depend on the angle of view, so that zooming makes no new pictures."""
 
 MOST_SIZES = 4
-"""Sizes whose pictures are kept: a viewer's last and present one, and another viewer's."""
+"""Number of sizes whose pictures are kept: a viewer's last and present one, and another viewer's."""
 
 LEAST_RISE = 1e-6
-"""What counts as no change from row to row of how far lines of sight rise."""
+"""Smallest change of the lines of sight's elevation from row to row; below it all rows are drawn."""
 
-TURNS = 32
-"""How often a line of sight steps on at most."""
+MOST_STEPS = 32
+"""Largest number of steps along a line of sight."""
 
-STEPS, SAFE, INTO = (0.015, 0.2, 0.02), 0.27, 0.2
-"""How far at least, of the way from the bases to the highest tops, some 2 m; how much farther at most outside clouds,
-less than heaps are wide, and within; and how much for each 1 that clouds lack there on the map, which hardly rises
-faster than that, and that they have. So a step is never much longer beside one: no edge shows where it changes."""
+STEP_LENGTHS, STEP_OUTSIDE, STEP_INSIDE = (0.015, 0.2, 0.02), 0.27, 0.2
+"""Shortest step, and what may be added to it at most outside clouds and inside, relative to the way from the bases to
+the highest tops. Outside, a step grows by `STEP_OUTSIDE` per unit of missing density, as the map hardly rises faster;
+inside, by `STEP_INSIDE` per unit of excess density. So step lengths change gradually, and no edges show. The shortest
+step is some 2 m; the longest is shorter than heaps are wide."""
 
-THICK = 500.0
-"""Optical depth of all that way, straight up, for each 1 that clouds are denser than at their edge: so domes hide as
-much of what is overhead as columns do, which shadows know of. With their sides, clouds hide 0.03 more of the sky."""
+DEPTH = 500.0
+"""Optical depth of the whole way, straight up, per unit of excess density: domes then hide as much overhead as the
+columns that shadows use. Seen with their sides, clouds hide 0.03 more of the sky."""
 
-BASE_DENSE, BASE_HIGH = 0.25, 8.0
-"""The part of that which a base has, and how much more places have, for all of the height: so bases are soft."""
+BASE_DEPTH, BASE_DEPTH_RISE = 0.25, 8.0
+"""Factor on the optical depth at a base, and its increase over the whole height, up to 1: it makes bases soft."""
 
-LEAST = 0.02
-"""The part of the light behind a cloud that counts as none."""
+OPAQUE = 0.02
+"""Transmittance that counts as 0."""
 
 GLSL = {
-    "CLOUD_TURNS": TURNS,
-    "CLOUD_STEPS": STEPS,
-    "CLOUD_SAFE": SAFE,
-    "CLOUD_INTO": INTO,
-    "CLOUD_THICK": THICK,
-    "CLOUD_BASE_DENSE": BASE_DENSE,
-    "CLOUD_BASE_HIGH": BASE_HIGH,
-    "CLOUD_LEAST": LEAST,
+    "CLOUD_TURNS": MOST_STEPS,
+    "CLOUD_STEPS": STEP_LENGTHS,
+    "CLOUD_SAFE": STEP_OUTSIDE,
+    "CLOUD_INTO": STEP_INSIDE,
+    "CLOUD_THICK": DEPTH,
+    "CLOUD_BASE_DENSE": BASE_DEPTH,
+    "CLOUD_BASE_HIGH": BASE_DEPTH_RISE,
+    "CLOUD_LEAST": OPAQUE,
 }
 
 Size = tuple[int, int]
 
 
 class Cloudscape:
-    """What is seen of clouds: a picture for each of the last sizes, drawn anew for each frame that has a sky."""
+    """The clouds' pictures, one for each recent size; the present one is drawn in each frame that shows sky."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
         self.ctx, self._record, self._units = ctx, block.record, units
@@ -66,15 +67,15 @@ class Cloudscape:
         self._heaps: moderngl.Texture | None = None
         self._pictures: dict[Size, tuple[moderngl.Framebuffer, moderngl.Texture]] = {}
         self.coarse = False
-        """Whether they are drawn a little coarser."""
+        """Whether clouds are drawn at a lower resolution."""
 
     def lay(self, *, seed: int) -> None:
-        """Take over the clouds of another scene."""
+        """Make the cloud map of a scene's seed."""
         release_all(self._heaps)
         self._heaps = heaps_texture(self.ctx, seed=seed)
 
     def draw(self) -> int:
-        """Draw what is seen of them, as the frame's record says by now; return the number of draw calls."""
+        """Draw the clouds in view into their picture, by the frame block's record; return the number of draw calls."""
         row = self._record[0]
         if self._heaps is None or row["cloud_edge"] > 1.0:
             return 0
@@ -91,20 +92,20 @@ class Cloudscape:
         return 1
 
     def use(self) -> None:
-        """Bind what was drawn, for the sky."""
+        """Bind the picture for the sky's shaders."""
         drawn = self._pictures.get(self._size)
         if drawn is not None:
             drawn[1].use(self._units["clouds"])
 
     @property
     def _size(self) -> Size:
-        """The size of the clouds' picture [pixels], by the frame's record."""
+        """Size of the clouds' picture [pixels], by the frame block's record."""
         wide, high = (2.0 * self._record[0]["half_screen"]).tolist()
-        part = part_of(high) + self.coarse
-        return max(-int(-wide // part), 1), max(-int(-high // part), 1)
+        pixel = cloud_pixel(high) + self.coarse
+        return max(-int(-wide // pixel), 1), max(-int(-high // pixel), 1)
 
     def _picture(self, size: Size) -> tuple[moderngl.Framebuffer, moderngl.Texture]:
-        """Return what a picture of a size is drawn into."""
+        """Return the framebuffer and texture of a size; release the least recently used beyond the limit."""
         found = self._pictures.pop(size, None)
         if found is None:
             texture = self.ctx.texture(size, 4, dtype="f2")
@@ -117,22 +118,22 @@ class Cloudscape:
         return found
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release all GL objects."""
         release_all(self._array, self._array.program, self._billows, self._heaps)
         for each in self._pictures.values():
             release_all(*each)
 
 
-def part_of(height: float, /) -> int:
-    """Return how many pixels of a picture of this height are across one of its clouds."""
+def cloud_pixel(height: float, /) -> int:
+    """Return the factor by which clouds are coarser than a picture of this height [pixels]."""
     return max(-int(-height // MOST_ROWS), 1)
 
 
 def rows_of_sky(row: NDArray[np.void] | np.void, height: int, /) -> tuple[int, int]:
-    """Return the first row of so many in which there may be clouds, by a frame's record, and the one after the last."""
+    """Return the range of rows, out of `height`, that may show clouds, by a frame block's record: first and end."""
     ahead, across, up = (row[name].astype(np.float64) for name in ("ray_ahead", "ray_across", "ray_up"))
     longest = sum(float(np.linalg.norm(each)) for each in (ahead, across, up))
-    highest = ahead[1] + abs(across[1]) - FADE[0] * longest  # in the middle row, over what all rows of sky have
+    highest = ahead[1] + abs(across[1]) - FADE[0] * longest  # in the middle row, relative to the lowest clouds
     if abs(up[1]) < LEAST_RISE:
         return 0, height
     edge = float(np.clip(0.5 - 0.5 * highest / up[1], 0.0, 1.0)) * height

@@ -1,4 +1,4 @@
-"""The map of clouds as the sky reads it: how dense they are, and how that rises along x and z."""
+"""The cloud map as the sky's shaders read it: density, and its slopes along x and z."""
 
 import moderngl
 import numpy as np
@@ -7,26 +7,26 @@ from numpy.typing import NDArray
 from .repeating import SIDE, repeating_levels
 
 STEEPEST = 24.0
-"""The steepest that a texel can tell of, along an axis: a map that rises by 1 on that part of a side."""
+"""Largest slope that a texel can hold, along an axis [1 / side]."""
 
-SMOOTH = 40.0
-"""Waves on a side from which on nothing counts of how the map rises: its steps are finer than those."""
+SLOPE_CUT = 40.0
+"""Cut-off wave number of the slopes [1 / side]: it removes the steps of the map's 256 values."""
 
 GLSL = {"HEAPS_STEEPEST": STEEPEST}
 
 
 def heap_texels(*, seed: int) -> NDArray[np.uint8]:
-    """Return the map of clouds of a scene, and how it rises along x and z, as three channels: (SIDE, SIDE, 3)."""
-    dense = repeating_levels(seed=seed)[0][..., 0] / 255.0
+    """Return the density of a scene's cloud map and its slopes along x and z as three channels, (SIDE, SIDE, 3)."""
+    density = repeating_levels(seed=seed)[0][..., 0] / 255.0
     wave = np.fft.fftfreq(SIDE, 1.0 / SIDE)
-    spectrum = np.fft.fft2(dense) * np.exp(-((np.hypot(wave[:, None], wave) / SMOOTH) ** 2)) * 2j * np.pi
-    rises = (np.fft.ifft2(spectrum * along).real for along in (wave[None], wave[:, None]))
-    told = np.stack([dense, *(0.5 + 0.5 * np.clip(each / STEEPEST, -1.0, 1.0) for each in rises)], axis=-1)
-    return np.rint(255.0 * told).astype(np.uint8)
+    spectrum = np.fft.fft2(density) * np.exp(-((np.hypot(wave[:, None], wave) / SLOPE_CUT) ** 2)) * 2j * np.pi
+    slopes = (np.fft.ifft2(spectrum * along).real for along in (wave[None], wave[:, None]))
+    texels = np.stack([density, *(0.5 + 0.5 * np.clip(each / STEEPEST, -1.0, 1.0) for each in slopes)], axis=-1)
+    return np.rint(255.0 * texels).astype(np.uint8)
 
 
 def heaps_texture(ctx: moderngl.Context, *, seed: int) -> moderngl.Texture:
-    """Return `heap_texels` as a texture that repeats."""
+    """Return `heap_texels` as a repeating texture."""
     texture = ctx.texture((SIDE, SIDE), 3, heap_texels(seed=seed), alignment=1)
     texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
     return texture

@@ -75,8 +75,8 @@ class Sky:
     from 0 to pi, shape (ROWS, COLUMNS, 3)."""
 
     horizon: Doubles
-    """Coefficients of the horizon's radiance: `scattered(s) @ horizon`, by the cosine s of the angle to the sun, (4,
-    3)."""
+    """Coefficients of the horizon's radiance, `scattered(s) @ horizon`, by the cosine s of the angle to the sun, shape
+    (4, 3)."""
 
     down: Doubles
     """Radiance of a uniform sky with the same irradiance on level ground, shape (3,)."""
@@ -167,8 +167,6 @@ def _clouded(sky: Doubles, grey: Doubles, clouds: Clouds, /) -> Doubles:
 
 
 def _irradiance(sky: Doubles, /) -> Doubles:
-    """Return the mean of a sky map weighted by the sine of elevation, as for level ground, and desaturated, shape
-    (3,).
-    """
+    """Return a sky map's mean weighted by the sine of elevation, as for level ground, and desaturated, shape (3,)."""
     sent = (sky * _WEIGHTS).sum(axis=(0, 1))
     return np.asarray(sent + DESATURATION * (luminance(sent) - sent))

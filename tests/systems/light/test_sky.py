@@ -15,7 +15,7 @@ from tallgrass.systems.light.billows import SIDE as BLOCK_SIDE
 from tallgrass.systems.light.billows import STEEPEST as STEEPEST_BILLOW
 from tallgrass.systems.light.billows import billow_levels
 from tallgrass.systems.light.clouds import FADE, FARTHEST_ASIDE, clouds_of
-from tallgrass.systems.light.cloudscape import STEPS, part_of, rows_of_sky
+from tallgrass.systems.light.cloudscape import STEP_LENGTHS, cloud_pixel, rows_of_sky
 from tallgrass.systems.light.color import display, luminance
 from tallgrass.systems.light.daylight import daylight
 from tallgrass.systems.light.heaps import STEEPEST, heap_texels
@@ -163,7 +163,7 @@ def test_clouds_are_of_heaps_and_as_many_as_a_scene_says() -> None:
 
 def test_a_line_of_sight_steps_over_no_cloud() -> None:
     dense = cloud_map(seed=3) - 127.5
-    longest = round(STEPS[1] * FARTHEST_ASIDE / CLOUDS_SIDE * SIDE)
+    longest = round(STEP_LENGTHS[1] * FARTHEST_ASIDE / CLOUDS_SIDE * SIDE)
     alike = [(dense * np.roll(dense, longest, axis)).mean() / dense.var() for axis in (0, 1)]
     assert np.mean(alike) > 0.7
 
@@ -205,7 +205,7 @@ def test_clouds_are_looked_for_in_all_rows_that_have_sky_and_hardly_more(pitch: 
 
 
 def test_clouds_have_no_more_pixels_than_can_be_seen_of_them() -> None:
-    assert [part_of(height) for height in (1, 360, 540, 1080, 2160)] == [1, 1, 2, 3, 6]
+    assert [cloud_pixel(height) for height in (1, 360, 540, 1080, 2160)] == [1, 1, 2, 3, 6]
 
 
 @pytest.mark.parametrize("cover", [0.05, 0.2, 0.4, 0.6])
