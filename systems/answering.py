@@ -109,7 +109,7 @@ class Answering(Underflowing):
 
         If it has an hour, azimuth and elevation follow from that; at night the elevation is negative.
         """
-        return self._shining.told_at(self.time)
+        return self._shining.resolved_at(self.time)
 
     @property
     def sun(self) -> Sun:

@@ -15,7 +15,7 @@ from ..grow.headed import Headed, headed
 from ..grow.organs import any_eyes
 from ..grow.record import GIVES, Growth
 from ..grow.section import SECTIONS
-from ..light.materials import Leaves, bloom, leaves_of, let_through, pigment, understorey, undertone
+from ..light.materials import Leaves, bloom, leaves_of, pigment, transmission, understorey, undertone
 from ..space.canopy import canopy_height
 from ..space.grown import Grown
 
@@ -115,7 +115,7 @@ def write_land(record: NDArray[np.void], grown: Grown, /) -> None:
 def _write_kind(row: np.void, kind: GrassKind, own: Figures) -> None:
     row["root"], row["gloss"] = pigment(kind.root), kind.gloss
     row["tip"], row["taper"] = pigment(kind.tip), kind.taper
-    row["through"], row["bloom"] = let_through(kind), own.bloom
+    row["through"], row["bloom"] = transmission(kind), own.bloom
     section = SECTIONS[kind.profile]
     row["head"] = own.head or 0.0
     row["eye_pigment"] = pigment(kind.tip if kind.head is None else kind.head.eye or kind.tip)

@@ -1,4 +1,4 @@
-"""Drawing what light comes from, the sky, and what every program knows of that light."""
+"""Drawing of the sky, and writing of the light into the frame block."""
 
 from collections.abc import Mapping, Sequence
 from math import cos, radians, sin
@@ -20,20 +20,20 @@ from .clouds import clouds_of
 from .cloudscape import Cloudscape
 from .daylight import Daylight
 from .lie import LieMap
-from .materials import apart, grain, pigment
+from .materials import grain, pigment, side_contrast
 from .repeating import drifted, repeating_texture
 from .shining import Shining
 from .sky import COLUMNS, ROWS
 from .sun import sun_at
 
-ACROSS, UP = 48, 48
-"""Squares across and up the picture, at whose corners the sky's colour is looked up."""
+GRID_COLUMNS, GRID_ROWS = 48, 48
+"""Columns and rows of the grid over the picture at whose corners the sky map is sampled."""
 
-GRID: dict[str, str | int] = {"ACROSS": ACROSS, "UP": UP}
+GRID: dict[str, str | int] = {"ACROSS": GRID_COLUMNS, "UP": GRID_ROWS}
 
 
 class LightPart(Part):
-    """Holds the sky's colours, clouds and litter, and how the terrain lies to the sun; draws the sky."""
+    """Holds the textures of sky, clouds and litter, and the terrain's slope and horizon maps; draws the sky."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], shining: Shining) -> None:
         self.ctx, self._units, self._shining = ctx, units, shining
@@ -49,11 +49,11 @@ class LightPart(Part):
         self._toward = 0.0, -1.0
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
-        """Pretend that there are clouds."""
+        """Set a cloud cover, so that rehearsals draw clouds."""
         record["cloud_edge"] = 0.5
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
-        """Take over another terrain or seed, and the light as it is by now."""
+        """Take over a changed terrain or seed, and the present light."""
         before, self._grown = self._grown, grown
         self._clouds.coarse = grown.quality.coarse
         if before is not grown and not (
@@ -61,50 +61,51 @@ class LightPart(Part):
         ):
             self._lay(grown.ground.terrain, seed=grown.scene.seed)
         record["lie_origin"] = self.lie.follow(_pair(record["terrain_origin"][0]))
-        now, light = self._shining, self._shining.light
-        if now.leaps != self._leaps:
+        shining, light = self._shining, self._shining.light
+        if shining.leaps != self._leaps:
             self.lie.leap()
-        if now.daylight is not self._lit or before is not grown:
-            shine(record, light, now.daylight, list(grown.scene.grass.values()))
+        if shining.daylight is not self._lit or before is not grown:
+            write_light(record, light, shining.daylight, list(grown.scene.grass.values()))
             self._toward = toward_sun(light)
-        if now.daylight is not self._lit:
-            self._sky.write(now.daylight.sky.map.astype(np.float32))
-        self._leaps, self._lit = now.leaps, now.daylight
+        if shining.daylight is not self._lit:
+            self._sky.write(shining.daylight.sky.map.astype(np.float32))
+        self._leaps, self._lit = shining.leaps, shining.daylight
 
     def _lay(self, terrain: Terrain, *, seed: int) -> None:
+        """Make the maps of a terrain and a seed."""
         self.lie.lay(terrain, seed=seed)
         release_all(self._repeating)
         self._repeating = repeating_texture(self.ctx, seed=seed)
         self._clouds.lay(seed=seed)
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
-        """Write how far the clouds have drifted."""
+        """Write the clouds' drift."""
         assert self._grown is not None
         record[0]["clouds_drift"] = drifted(self._grown.scene.wind, outlook.viewer.time)
 
     def use(self) -> None:
-        """Bind what programs read, but for the sky's own: its unit is another's until it is drawn."""
+        """Bind all textures but the sky map, whose unit others use until `draw_behind`."""
         assert self._repeating is not None
         self.lie.use()
         self._repeating.use(self._units["repeating"])
 
     def prepare(self) -> int:
-        """Draw what is due of how the terrain lies to the sun; return the number of draw calls."""
+        """Update the terrain's slope and horizon maps; return the number of draw calls."""
         return self.lie.prepare(self._toward)
 
     def look_up(self) -> int:
-        """Draw the clouds that are seen; return the number of draw calls."""
+        """Draw the clouds' picture; return the number of draw calls."""
         return self._clouds.draw()
 
     def draw_behind(self) -> int:
-        """Draw the sky behind all that has been drawn; return the number of draw calls."""
+        """Draw the sky behind everything else; return the number of draw calls."""
         self._sky.use(self._units["sky"])
         self._clouds.use()
-        self._array.render(moderngl.TRIANGLE_STRIP, vertices=2 * (ACROSS + 1), instances=UP)
+        self._array.render(moderngl.TRIANGLE_STRIP, vertices=2 * (GRID_COLUMNS + 1), instances=GRID_ROWS)
         return 1
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release all GL objects."""
         release_all(self._array, self._array.program, self._sky, self._clouds, self.lie, self._repeating)
 
 
@@ -114,15 +115,15 @@ def _pair(place: Floats) -> tuple[float, float]:
 
 
 def _sky_texture(ctx: moderngl.Context) -> moderngl.Texture:
-    """Return a texture for the map of the sky."""
+    """Return a texture for the sky map."""
     texture = ctx.texture((COLUMNS, ROWS), 3, dtype="f4")
     texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
     texture.repeat_x = texture.repeat_y = False
     return texture
 
 
-def shine(record: NDArray[np.void], declared: Light, light: Daylight, kinds: Sequence[GrassKind], /) -> None:
-    """Write the light that is `declared`, and what it does to the kinds of grass."""
+def write_light(record: NDArray[np.void], declared: Light, light: Daylight, kinds: Sequence[GrassKind], /) -> None:
+    """Write `light`, which a scene `declared`, and what depends on it in kinds of grass, into the frame block."""
     row = record[0]
     row["sun"], row["sunlight"], row["skylight"] = light.direction, light.sun, light.down
     row["cloud_edge"], row["haze_density"] = clouds_of(declared.clouds).edge, 1.0 / declared.haze
@@ -133,10 +134,10 @@ def shine(record: NDArray[np.void], declared: Light, light: Daylight, kinds: Seq
     row["soil"] = pigment(declared.ground)
     for index, kind in enumerate(kinds):
         row["kinds"]["grain_c"][index], row["kinds"]["grain_s"][index] = grain(kind, light)
-        row["kinds"]["apart"][index] = apart(kind, light)
+        row["kinds"]["apart"][index] = side_contrast(kind, light)
 
 
 def toward_sun(light: Light, /) -> tuple[float, float]:
-    """Return the direction over the ground that the sun stands in (x, z)."""
+    """Return the horizontal direction (x, z) to the sun, unit length."""
     azimuth = radians(sun_at(light)[0])
     return sin(azimuth), -cos(azimuth)

@@ -1,4 +1,4 @@
-"""Light: the sun and the sky of a prairie."""
+"""The feature of light: a prairie's sun and sky."""
 
 from collections.abc import Mapping
 from typing import Self
@@ -13,7 +13,7 @@ from .shining import Shining
 
 
 class Lighting(Feature):
-    """What shines, and how the terrain lies to it."""
+    """Feature: sun, sky, clouds, and the terrain's slope and horizon maps."""
 
     samplers = ("lie", "repeating")
     own = ("sky", "clouds", "billows", "heaps")
@@ -27,15 +27,15 @@ class Lighting(Feature):
         return cls(Shining(start.grown.scene.light, live=start.live))
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
-        """Shine as the scene says by now, if it says something else."""
+        """Take the light of a scene that was read again, if it has changed."""
         if grown.scene.light != before.scene.light:
             self.shining.declare(grown.scene.light, time=time)
 
     def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
-        """Let the light go on."""
+        """Advance the light to a time [s]."""
         del eye
         self.shining.step(viewer, time=time)
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> LightPart:
-        """Return the sky, and the maps that light varies by."""
+        """Return the part that draws the sky and holds the maps of light."""
         return LightPart(ctx, block, units, self.shining)

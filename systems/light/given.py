@@ -1,4 +1,4 @@
-"""Haze that a game gives: the colours of its own sky along the horizon."""
+"""Haze in colours that a game gives, those of its own sky along the horizon."""
 
 from collections.abc import Callable, Mapping
 from reprlib import repr as shortened
@@ -16,10 +16,10 @@ from ..space.grown import Grown
 from .color import shown_as, srgb
 
 Haze = str | tuple[float, float, float] | Callable[[Doubles], object]
-"""A colour, or what gives colours (n, 3) of directions over the ground, unit vectors (x, 0, z), shape (n, 3)."""
+"""A colour, or a function from horizontal unit vectors (x, 0, z), shape (n, 3), to colours (n, 3)."""
 
 AROUND = 24
-"""Directions that are asked for, evenly from -z over +x: all that turns up to twice on the way round is kept."""
+"""Number of sampled directions, evenly from -z over +x: enough for the two harmonics of the fit."""
 
 _ANGLE = 2.0 * np.pi * np.arange(AROUND) / AROUND
 _X, _Z = np.sin(_ANGLE), -np.cos(_ANGLE)
@@ -27,7 +27,7 @@ _FIT: Doubles = np.linalg.pinv(np.stack([np.ones(AROUND), _X, _Z, _X * _X, _X * 
 
 
 def colours_around(haze: Haze, /) -> Doubles:
-    """Return the colours of a haze all around, shape (`AROUND`, 3); raises ValueError for what are none."""
+    """Return a haze's colours in all sampled directions, shape (`AROUND`, 3); raise ValueError for a bad colour."""
     due = "haze has a colour, (red, green, blue) of 0 and more or one such as '#a0b0c0'"
     if isinstance(haze, str):
         colour = str(hex_of(haze))
@@ -43,43 +43,43 @@ def colours_around(haze: Haze, /) -> Doubles:
 
 
 def fitted(radiance: Doubles, /) -> Doubles:
-    """Return radiance all around (`AROUND`, 3) by 1, x, z, x^2 and xz of the direction (x, z), shape (5, 3)."""
+    """Fit radiance in all sampled directions (`AROUND`, 3): coefficients of 1, x, z, x^2 and xz, shape (5, 3)."""
     return np.asarray(_FIT @ radiance)
 
 
 class GivenHaze(Feature):
-    """The haze of a game's own, if it has given any."""
+    """Feature: haze whose colours a game gives."""
 
     def __init__(self) -> None:
         self.haze: Haze | None = None
         self.colours: Doubles | None = None
-        """What it comes to, as `colours_around` returns it."""
+        """Its colours in all sampled directions, as `colours_around` returns them; None for the scene's own haze."""
 
     def give(self, haze: Haze | None, /) -> None:
-        """Let things fade into this from the next frame on, or into the scene's own; raises ValueError as above."""
+        """Use this haze from the next frame on, or with None the scene's own; raise ValueError for a bad colour."""
         self.colours = None if haze is None else colours_around(haze)
         self.haze = haze
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "GivenHazePart":
-        """Return what tells shaders of it."""
+        """Return the part that writes the haze into the frame block."""
         del ctx, block, units
         return GivenHazePart(self)
 
 
 class GivenHazePart(Part):
-    """Tells shaders of it."""
+    """Writes a game's haze into the frame block."""
 
     def __init__(self, given: GivenHaze) -> None:
         self._given = given
-        self._told: Doubles | None = None
+        self._written: Doubles | None = None
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
-        """Write it, if it is another."""
+        """Write the haze's coefficients, if its colours have changed."""
         del grown
         colours = self._given.colours
-        if colours is self._told:
+        if colours is self._written:
             return
-        self._told, row = colours, record[0]
+        self._written, row = colours, record[0]
         row["haze_given"] = 0.0
         if colours is not None:
             radiance = colours if row["writes_raw"] else shown_as(np.minimum(colours, 1.0))

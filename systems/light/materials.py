@@ -1,4 +1,4 @@
-"""What a kind of grass does to light: its pigments, what its leaves let through, and how many there are."""
+"""Optical properties of a kind of grass: pigments, transmittance of leaves, leaf area."""
 
 from dataclasses import dataclass
 from math import cos, hypot, sin
@@ -14,50 +14,51 @@ from ..grow.section import SECTIONS
 from .color import linear, luminance
 from .daylight import Daylight
 
-LEAVES_THROUGH = np.array([1.05, 1.18, 0.55])
-"""Light that a leaf lets through, as a part of what it sends back: more yellow and green."""
+LEAF_TRANSMISSION = np.array([1.05, 1.18, 0.55])
+"""Light transmitted by a leaf relative to reflected light: yellower and greener."""
 
-PETALS_THROUGH = np.array([1.05, 1.05, 0.9])
-"""The same of a plant in flower: petals let through the colour that they have."""
+PETAL_TRANSMISSION = np.array([1.05, 1.05, 0.9])
+"""Light transmitted by a petal relative to reflected light: nearly the petal's own colour."""
 
-FACES = 0.22
-"""How much more the sun lights blades that face it than those edge on."""
+FACING_SUN = 0.22
+"""Extra sunlight on blades that face the sun, relative to those edge on."""
 
-SIDES = 0.45
-"""How much brighter the sunlit side of a round stem, or face of a fold, is than the mean of both sides."""
+SIDE_CONTRAST = 0.45
+"""Extra brightness of the sunlit side of a round stem, or face of a fold, relative to the mean of both sides."""
 
-ROOM = 0.25
-"""Height of a canopy that all its understorey has room under [m]."""
+FULL_UNDERSTOREY = 0.25
+"""Height of a canopy from which the understorey has its full cover [m]."""
 
-LOW_TIPPED = 0.6
-"""How much of the colour of tips low leaves of grass have."""
+LOW_LEAF_TONE = 0.6
+"""Part of the `tip` colour in low leaves of grass."""
 
 _POINTS = 9
+"""Points along a blade's spine."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Leaves:
-    """How much leaf there is in a kind's canopy at full density, of the ground's area."""
+    """Projected leaf area of a kind's canopy at full density, per area of ground."""
 
     side: float
-    """Area seen from the side, on the mean over all sides."""
+    """Area projected horizontally, averaged over all azimuths."""
 
     above: float
-    """Area seen from above."""
+    """Area projected vertically."""
 
 
 def pigment(color: str, /) -> Doubles:
-    """Return the square root of a colour's albedo, shape (3,): what lies between two of them looks as if it did."""
+    """Return the square root of a colour's albedo, shape (3,), in which colours interpolate evenly."""
     return np.sqrt(linear(color))
 
 
-def let_through(kind: GrassKind, /) -> Doubles:
-    """Return the light that a kind's leaves let through, as a part of what they send back, shape (3,)."""
-    return np.asarray(kind.translucency * (LEAVES_THROUGH if kind.head is None else PETALS_THROUGH))
+def transmission(kind: GrassKind, /) -> Doubles:
+    """Return the light transmitted by a kind's leaves, relative to the light they reflect, shape (3,)."""
+    return np.asarray(kind.translucency * (LEAF_TRANSMISSION if kind.head is None else PETAL_TRANSMISSION))
 
 
 def bloom(kind: GrassKind, growth: Growth, /) -> float:
-    """Return how much of its `tip` colour a kind shows at rest, relative to grass, in [0, 1]; grass itself has 1."""
+    """Return the share of the `tip` colour that a kind shows at rest, relative to grass, which has 1; in [0, 1]."""
     blades = growth.models[0].blades
     if not blades.organ.any():
         return 1.0
@@ -67,7 +68,7 @@ def bloom(kind: GrassKind, growth: Growth, /) -> float:
 
 
 def leaves_of(kind: GrassKind, growth: Growth, patch: float, /) -> Leaves:
-    """Return how much leaf a kind's canopy has at rest, by its first model; `patch` is a patch's side [m]."""
+    """Return the projected leaf area of a kind's first model at rest; `patch` is a patch's side [m]."""
     blades = growth.models[0].blades
     centre = spine(blades, growth.postures, (0.0, 0.0), points=_POINTS).astype(np.float64)
     along = (np.arange(_POINTS - 1) + 0.5) / (_POINTS - 1)
@@ -82,50 +83,50 @@ def leaves_of(kind: GrassKind, growth: Growth, patch: float, /) -> Leaves:
 
 
 def understorey(kind: GrassKind, canopy: float, /) -> float:
-    """Return how much of the ground the low leaves under a canopy of some height [m] cover, as a part of the most.
+    """Return the ground coverage of low leaves under a canopy of some height [m], relative to the largest.
 
-    Under low grass there are as much fewer: they would stand above it.
+    It shrinks with the height of low canopies, above which the leaves would stand.
     """
-    return kind.understorey * min(canopy / ROOM, 1.0)
+    return kind.understorey * min(canopy / FULL_UNDERSTOREY, 1.0)
 
 
 def undertone(kind: GrassKind, bloom: float, /) -> float:
-    """Return how much of a kind's colour `tip` its low leaves have, 0 to 1; `bloom` says how much of it the kind shows.
+    """Return the tone of a kind's low leaves, from 0 for `root` to 1 for `tip`; `bloom` is what `bloom()` returns.
 
-    What is low beneath a plant in flower is of the colour of its leaves: the tip's is that of the petals.
+    Beneath a plant with flowers it is the tone of the plant's leaves, because the `tip` colour is the petals'.
     """
     if kind.plant != "grass" and kind.head is not None:
         return float(TONES[LEAF].mean())
-    return LOW_TIPPED * bloom * bloom
+    return LOW_LEAF_TONE * bloom * bloom
 
 
-def sunny(light: Daylight, /) -> float:
-    """Return how much of the light is the sun's, 0 to 1."""
+def sun_fraction(light: Daylight, /) -> float:
+    """Return the sun's fraction of the light on a leaf, 0 to 1."""
     sun, down = float(luminance(light.sun)), float(luminance(light.down))
     return sun / max(sun + down, 1e-9)
 
 
-def apart(kind: GrassKind, light: Daylight, /) -> float:
-    """Return how far the two sides of a blade's face are lit apart where they are so most, of the light on both.
+def side_contrast(kind: GrassKind, light: Daylight, /) -> float:
+    """Return the largest contrast between the two sides of a blade's face: their difference over their sum.
 
-    Of a fold, the sides are its two faces; of a round one, those to the sun and away from it; of a flat one it is 0.
+    The sides are the two faces of a fold, or the sunlit and the shaded half of a round stem. A flat blade has 0.
     """
     section = SECTIONS[kind.profile]
     if section.is_round:
-        return SIDES * sunny(light) * hypot(light.direction[0], light.direction[2])
-    return SIDES * sunny(light) * sin(2.0 * section.folded)
+        return SIDE_CONTRAST * sun_fraction(light) * hypot(light.direction[0], light.direction[2])
+    return SIDE_CONTRAST * sun_fraction(light) * sin(2.0 * section.folded)
 
 
 def grain(kind: GrassKind, light: Daylight, /) -> tuple[Doubles, Doubles]:
-    """Return how a blade's pigment seems to change with the cosine and sine of twice its azimuth, each of shape (3,).
+    """Return the relative change of a blade's pigment with cosine and sine of twice its azimuth, each of shape (3,).
 
-    One part is the sun: blades that face it, or turn their backs on it, are lit more than those edge on. The other is
-    the kind's variety: blades that face one way are greener, another way paler. Both are linear in what is kept of a
-    blade, so that the mean of many has exactly the light of their mean.
+    One cause is the sun: it lights blades that face it, or face away, more than those edge on. The other is the kind's
+    variety: blades of one azimuth are greener, of another paler. Both are linear in the cosine and sine, so that an
+    average over many blades is exact.
     """
     x, _, z = light.direction
     section = SECTIONS[kind.profile]
-    shine = 0.0 if section.is_round else FACES * sunny(light) * cos(2.0 * section.folded)
+    shine = 0.0 if section.is_round else FACING_SUN * sun_fraction(light) * cos(2.0 * section.folded)
     warm, pale = np.array([1.0, 0.2, -0.6]), np.array([0.9, 1.0, 0.8])
     variety = 0.6 * kind.variety
     return shine * (x * x - z * z) + variety * pale, shine * 2.0 * x * z + variety * warm

@@ -13,7 +13,7 @@ from tallgrass.engine.camera import Camera
 from tallgrass.systems.lamps.card import stand
 from tallgrass.systems.light.color import linear
 from tallgrass.systems.light.daylight import LEAF
-from tallgrass.systems.light.lie import AT_ONCE
+from tallgrass.systems.light.lie import SAMPLES_A_FRAME
 from tallgrass.systems.light.sky import PIECES
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import LITTLE, Stage
@@ -95,7 +95,7 @@ def test_f10_shadows_of_the_terrain_come_row_by_row_and_none_is_forgotten(room: 
         room.shot(prairie, CAMERA)
         assert prairie.painter is not None
         calls.append(prairie.painter.draw_calls)
-    assert AT_ONCE < 201 * 201 < 2 * AT_ONCE
+    assert SAMPLES_A_FRAME < 201 * 201 < 2 * SAMPLES_A_FRAME
     rests, moves = [False] * PIECES, [True] * PIECES
     assert [call > calls[1] for call in calls] == [True, False, *rests, *moves, True, False, False]
 

@@ -27,7 +27,7 @@ from tallgrass.systems.frame.block import FRAME, FrameBlock, confine
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.land.record import write_land
 from tallgrass.systems.light.daylight import daylight
-from tallgrass.systems.light.draw import shine
+from tallgrass.systems.light.draw import write_light
 from tallgrass.systems.site import Site, lay_out, outlook_on
 from tallgrass.systems.space.ground import Ground
 from tallgrass.systems.space.grown import Grown
@@ -183,7 +183,7 @@ def record_of() -> RecordOf:
         record, light = np.zeros(1, FRAME), grown.scene.light
         write_land(record, grown)
         confine(record, Asked())
-        shine(record, light, daylight(light), list(grown.scene.grass.values()))
+        write_light(record, light, daylight(light), list(grown.scene.grass.values()))
         return record
 
     return make

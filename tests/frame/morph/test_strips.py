@@ -55,7 +55,7 @@ def put_nearer(foot: Doubles, run: Doubles, spacing: float, rise: Doubles) -> Do
 
 def rise_of(scene: Any, place: Doubles) -> Doubles:
     """How the ground rises along x and z at places (n, 2), as the map of light has it, shape (n, 2)."""
-    texture, terrain = scene.painter.part(LightPart).lie._laid.lie, scene.prairie.site.ground.terrain  # noqa: SLF001
+    texture, terrain = scene.painter.part(LightPart).lie._map.lie, scene.prairie.site.ground.terrain  # noqa: SLF001
     normals = np.frombuffer(texture.read(), np.float16).reshape(*texture.size[::-1], 4).astype(float)
     still = normals[:, : texture.width // 2, :2]
     at = (place - np.array(terrain.origin)) / terrain.size * still.shape[1::-1] - 0.5

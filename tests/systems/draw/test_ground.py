@@ -19,7 +19,7 @@ from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.frame.block import FrameBlock
 from tallgrass.systems.land.heights import Heights
 from tallgrass.systems.land.part import density_texture
-from tallgrass.systems.light.lie import laid_over
+from tallgrass.systems.light.lie import map_texture
 from tallgrass.systems.show.carpet.rims import NOWHERE, Rims
 from tallgrass.systems.show.carpet.tiles import (
     GRID,
@@ -159,7 +159,7 @@ def corners(
     record = record_of(site)
     textures: dict[str, moderngl.Texture | moderngl.TextureArray] = {
         "heights": Heights(ctx, site.ground.terrain).texture,
-        "lie": laid_over(ctx, np.full((4, 4, 4), 128, np.uint8)),
+        "lie": map_texture(ctx, np.full((4, 4, 4), 128, np.uint8)),
         "density": density_texture(ctx, site.ground.density),
         "rims": ctx.texture((1, 1), 1, np.full(1, NOWHERE, np.float32).tobytes(), dtype="f4"),
     }
