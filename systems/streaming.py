@@ -80,7 +80,7 @@ class Streaming:
     def _take(self, terrain: Terrain, blocks: Blocks, asked: _Asked, *, leaps: bool) -> None:
         made = asked.window.result()
         terrain.become(made, leaps=leaps)
-        Found.of(made).belong(terrain)
+        Found.of(made).attach(terrain)
         for square in {*asked.before, *blocks.changed}:
             if asked.before.get(square) is not blocks.changed.get(square):
                 paste(blocks, terrain, square)

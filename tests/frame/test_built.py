@@ -14,7 +14,7 @@ from tallgrass.engine.camera import Camera
 from tallgrass.engine.terrain.plots import SIDE
 from tallgrass.systems.mow.mown import Mown
 from tallgrass.systems.show.carpet.edges import PARTS, Edges
-from tallgrass.systems.show.carpet.holes import Stretches
+from tallgrass.systems.show.carpet.holes import Rectangles
 from tallgrass.systems.show.carpet.layer import EDGED
 from tallgrass.systems.show.carpet.painter import CarpetPainter
 from tallgrass.systems.show.carpet.pieces import PIECES
@@ -160,9 +160,9 @@ def test_x5_even_grass_looks_the_same_where_pixels_look_for_its_edges(
         assert np.abs(other - even).mean() < 1.0  # those that look light their soil, and choose their images, by pixel
 
 
-def squares(*places: tuple[float, float]) -> Stretches:
+def squares(*places: tuple[float, float]) -> Rectangles:
     x, z = np.array(places).T
-    return Stretches(x - 1.0, x + 1.0, z - 1.0, z + 1.0)
+    return Rectangles(x - 1.0, x + 1.0, z - 1.0, z + 1.0)
 
 
 def test_edges_are_found_where_density_or_cuts_end_and_nowhere_else(load: Load) -> None:
@@ -170,18 +170,18 @@ def test_edges_are_found_where_density_or_cuts_end_and_nowhere_else(load: Load) 
     ground, edges = prairie.site.ground, Edges()
     mown = Mown(ground.terrain)
     where = squares((0.0, 25.0), (7.0, 0.0), (-20.0, -20.0))
-    assert not edges.at(ground, mown, 1.0, where).any()
+    assert not edges.touch(ground, mown, 1.0, where).any()
     mown.cut(Footprint(radius=7.0), 0.1, Pose())
-    np.testing.assert_array_equal(edges.at(ground, mown, 1.0, where), [False, True, False])
+    np.testing.assert_array_equal(edges.touch(ground, mown, 1.0, where), [False, True, False])
     mown.cut(Footprint(radius=4.0), 0.1, Pose(-20.0, -24.0))
-    np.testing.assert_array_equal(edges.at(ground, mown, 1.0, where), [False, True, True])
+    np.testing.assert_array_equal(edges.touch(ground, mown, 1.0, where), [False, True, True])
     whole = Mown(ground.terrain)
     whole.cut(Footprint(radius=7.0), np.inf, Pose())  # which cuts nothing
-    assert not Edges().at(ground, whole, 1.0, where).any()
+    assert not Edges().touch(ground, whole, 1.0, where).any()
     soft = np.linspace(0.0, 1.0, 60, dtype=np.float32)
     for line, found in ((soft, False), ((soft > 0.5).astype(np.float32), True)):
         density = type(ground.density)(np.broadcast_to(line, (1, 60, 60)).copy(), ground.terrain.size)
-        assert Edges().at(Ground(ground.terrain, density, ground.patch), None, 1.0, where)[0] == found
+        assert Edges().touch(Ground(ground.terrain, density, ground.patch), None, 1.0, where)[0] == found
 
 
 def test_parts_of_plots_in_which_grass_is_cut_alike_have_no_edge_and_all_others_have(load: Load) -> None:
@@ -191,12 +191,12 @@ def test_parts_of_plots_in_which_grass_is_cut_alike_have_no_edge_and_all_others_
     low = np.stack(np.meshgrid(np.arange(-8.0, 8.0), np.arange(-8.0, 8.0)), -1).reshape(-1, 2) * apart
     line = np.linspace(0.02, apart - 0.02, 64)  # about three places in a cell
     places = (low[:, None] + np.stack(np.meshgrid(line, line), -1).reshape(1, -1, 2)).astype(np.float32)
-    inside = Stretches(low[:, 0] + 0.2, low[:, 0] + apart - 0.2, low[:, 1] + 0.2, low[:, 1] + apart - 0.2)
+    inside = Rectangles(low[:, 0] + 0.2, low[:, 0] + apart - 0.2, low[:, 1] + 0.2, low[:, 1] + apart - 0.2)
     for _ in range(6):
         x, z = random.uniform(-24.0, 24.0, 2).tolist()
         mown.cut(Footprint(radius=float(random.uniform(0.5, 6.0))), float(random.choice([0.05, 0.2])), Pose(x, z))
         left = np.minimum(mown.at(places.reshape(-1, 2)), 1.0).reshape(len(low), -1)
-        found = edges.at(ground, mown, 1.0, inside)
+        found = edges.touch(ground, mown, 1.0, inside)
         uneven = np.ptp(left, axis=1) > 0.1
         assert found[uneven].all()
         assert 0 < found.sum() < 2.5 * uneven.sum() + 8

@@ -26,7 +26,7 @@ MADE = (
     (strips, "polygon_strips"),
     (carpet, "which_seen"),
     (carpet, "tiles_around"),
-    (carpet, "part"),
+    (carpet, "find_edges"),
 )
 """What takes long, and is the same as long as a viewer stands still."""
 

@@ -1,4 +1,4 @@
-"""What takes a while to make out of a terrain's heights: of ground that streams, it is made out beforehand."""
+"""What takes long to compute from a terrain's heights; for streamed ground it is computed ahead, on another thread."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -10,17 +10,20 @@ from .rims import Rims
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Found:
-    """The rims and the holes of a terrain, and of what it becomes next."""
+    """The rims and the holes of a terrain."""
 
     rims: Rims
     holes: Holes
 
     @classmethod
     def of(cls, terrain: Terrain, /) -> Self:
-        """Return those of a terrain, as they were made out beforehand if they were; else it may be another thread."""
+        """Return a terrain's rims and holes: those computed ahead, if there are any, or else computed now.
+
+        Any thread may call this.
+        """
         return terrain.found if isinstance(terrain.found, cls) else cls(Rims(terrain), Holes(terrain))
 
-    def belong(self, terrain: Terrain, /) -> None:
-        """Be those of a terrain that has just become what they were made out of."""
-        self.rims.belong(terrain)
-        self.holes.belong(terrain)
+    def attach(self, terrain: Terrain, /) -> None:
+        """Follow the changes of a terrain that has just taken over the heights these were computed from."""
+        self.rims.attach(terrain)
+        self.holes.attach(terrain)

@@ -32,41 +32,41 @@ from .layer import (
 from .pieces import ByLayer
 from .stock import CarpetStock
 from .textures import image_count
-from .tiles import PIECE, TILE, hanging_grid, in_orders, order_toward, tile_grid
+from .tiles import PIECE, TILE, in_orders, order_toward, skirted_grid, tile_grid
 
 Defines = dict[str, str | int]
-"""What a program is told."""
+"""Preprocessor definitions of a program."""
 
 RAISED = 0.66
-"""Height of the carpet, as a part of the grass's: where what is seen of it stays in its place."""
+"""Height of the carpet, as a fraction of the grass's: what it shows keeps its place in the picture."""
 
 OUTLINE = 0.88
-"""Height of the carpet along outlines, as a part of the grass's: where leaves begin, with a few thin tips above."""
+"""Height of the carpet along outlines, as a fraction of the grass's: only a few thin tips stand out above."""
 
 APART = 1e-6
-"""How much farther what lies under the carpet is taken to be, of the depths that there are: kilometres away these are
-too coarse to part the two."""
+"""Depth added to the layer under the carpet, as a fraction of the depth range: kilometres away, depth is too coarse to
+tell the two apart."""
 
 MOST_COARSE = 4
-"""Kinds of grass that there are at most for a coarse carpet: of more, corners cannot bring all along that it needs."""
+"""Largest number of kinds that a coarse carpet draws: for more, there are too few varyings."""
 
-COARSER = 2
-"""How many times as far apart the points of the mesh are where it is coarse."""
+COARSE_STRIDE = 2
+"""Grid points from one vertex of a coarse mesh to the next."""
 
 PUSHED = 2.0 * APART
-"""The same of ground that is drawn before any grass."""
+"""Depth added to ground that is drawn before any grass, as a fraction of the depth range."""
 
 THIN_UP_TO = 10.0
-"""Distance between grid points of tiles up to which thin carpet is drawn by itself: half a kilometre off [m]."""
+"""Largest grid spacing of tiles whose thin carpet is drawn by itself: half a kilometre away [m]."""
 
 WHOLE, DENSE, THIN = 0, 1, 2
-"""What is drawn of the carpet: all, where it covers at least half a pixel, or the rest."""
+"""Parts of the carpet that a pass draws: all, where it covers at least half a pixel, or the rest."""
 
 GLSL = {"RAISED": RAISED, "APART": APART}
 
 
 class GroundPainter:
-    """Draws ground and carpet."""
+    """Draws ground and carpet in one GL context."""
 
     def __init__(
         self,
@@ -84,35 +84,36 @@ class GroundPainter:
         self._raised = RAISED, OUTLINE
         self.units, self._side = units, side
         self._ctx, self.rims = ctx, ctx.texture((1, 1), 1, dtype="f4")
-        self._coarser = COARSER if coarse else 1
-        makes = tile_grid, partial(tile_grid, quads=PIECE), partial(hanging_grid, quads=PIECE)
-        tile, piece, hanging = (
-            (ctx.buffer(make()[0]), *(ctx.buffer(in_orders(*make(wider))) for wider in (1, COARSER))) for make in makes
+        self._stride = COARSE_STRIDE if coarse else 1
+        makes = tile_grid, partial(tile_grid, quads=PIECE), partial(skirted_grid, quads=PIECE)
+        tile, piece, skirted = (
+            (ctx.buffer(make()[0]), *(ctx.buffer(in_orders(*make(stride))) for stride in (1, COARSE_STRIDE)))
+            for make in makes
         )
         self.grids: Grids = tile, piece
-        self.hanging: Grids = tile, hanging
+        self.skirted: Grids = tile, skirted
         self.shelves = Shelves(partial(GroundShelf, ctx, side))
         self.bare: list[Layer] = []
         self.under: list[Layer] = []
         self.carpet: list[Layer] = []
-        """For what is usual, uncut and cut, or where it is coarse for what is usual and for all that this can show; for
-        lamps beside what is usual; and for all that there may be."""
+        """By what their programs draw: usual scenes, uncut and cut (if coarse: usual scenes, then all that the coarse
+        program can draw); usual scenes with lamps; everything."""
         self.edged_bare: list[Layer] = []
         self.edged_under: list[Layer] = []
         self.edged: list[Layer] = []
-        """The same where grass ends or is cut: for what is usual, which the carpet has uncut and cut without lamps, and
-        for all that there may be; of the carpet besides for all but people who tread it."""
+        """Where grass ends or is cut. Ground and layer under the carpet: usual scenes, everything. Carpet: usual scenes
+        without lamps, uncut and cut; everything but treading; everything."""
         self.casting: list[Layer] = []
         """The carpet in shadow maps."""
         self.is_trodden = False
-        """Whether anybody treads the grass, or has: then pixels of the carpet ask for that, which costs."""
+        """Whether grass has been trodden: only then do the carpet's pixels read that, which costs."""
         self._rehearses = False
-        """Whether every program is drawn with that may come."""
+        """Whether every program draws once, to be ready."""
         self._is_coarse = coarse and len(stock.before.crown) <= MOST_COARSE
-        self._lay_out(seed)
+        self._make_layers(seed)
 
-    def _lay_out(self, seed: int) -> None:
-        """Say which programs there are."""
+    def _make_layers(self, seed: int) -> None:
+        """List all programs; they are compiled when first needed."""
         ctx, stock = self._ctx, self.stock
         self._seed = seed
         heads: Defines = {"HEADS": 1} if stock.heads else {}
@@ -124,35 +125,34 @@ class GroundPainter:
         cuts: list[Defines] = [{"CUT": 0}, {"CUT": 1}]
         trodden: Defines = {"TRODDEN": 1}
         ends: Defines = {"EDGED": 1}
-        known = heads | stacked | litter
+        common = heads | stacked | litter
         firsts = (plain | cuts[0], trodden) if self._is_coarse else tuple(plain | cut for cut in cuts)
         wanted: list[tuple[list[Layer], str, Defines]] = [
             *((self.bare, "ground", litter | each) for each in (*(usual | cut for cut in cuts), trodden)),
             *((self.under, "under", heads | each) for each in (plain | cuts[0], {}, trodden)),
-            *((self.carpet, "carpet", known | each) for each in (*firsts, usual, trodden)),
+            *((self.carpet, "carpet", common | each) for each in (*firsts, usual, trodden)),
             *((self.edged_bare, "ground", litter | each | ends) for each in (usual, trodden)),
             *((self.edged_under, "under", heads | each | ends) for each in ({}, trodden)),
-            *((self.edged, "carpet", known | each | ends) for each in (*(plain | cut for cut in cuts), {}, trodden)),
+            *((self.edged, "carpet", common | each | ends) for each in (*(plain | cut for cut in cuts), {}, trodden)),
             (self.casting, "cast", {}),
         ]
-        for among, name, defines in wanted:
-            simple = self._is_coarse and among is self.carpet and len(among) < len(firsts)
+        for layers, name, defines in wanted:
+            simple = self._is_coarse and layers is self.carpet and len(layers) < len(firsts)
             files = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{'coarse' if simple else name}.frag"
-            told = defines | {"COARSE": 1} if simple else defines
-            make = partial(joined, ctx, self._block, self.units, *files, told)
-            texts = partial(self._block.texts, *files, told)
-            hangs = among is self.edged
-            among.append(Layer(make, texts, self.shelves, self.hanging if hangs else self.grids))
+            complete = defines | {"COARSE": 1} if simple else defines
+            make = partial(joined, ctx, self._block, self.units, *files, complete)
+            texts = partial(self._block.texts, *files, complete)
+            layers.append(Layer(make, texts, self.shelves, self.skirted if layers is self.edged else self.grids))
         self.restock(stock)
 
     def texts(self) -> Iterator[Texts]:
-        """Return what the programs that are not there yet are made of."""
+        """Return the sources of the programs that are not made yet."""
         for each in self._layers:
             if each.made is None:
                 yield each.texts()
 
     def making(self) -> Iterator[None]:
-        """Make the programs that are not there yet, one at a time."""
+        """Make the programs that are not made yet, one at a time."""
         for each in self._layers:
             if each.made is None:
                 _ = each.program
@@ -163,28 +163,28 @@ class GroundPainter:
         even = *self.bare, *self.under, *self.carpet
         return *even, *self.edged_bare, *self.edged_under, *self.edged, *self.casting
 
-    def _tell(self, name: str, value: object) -> None:
+    def _set_uniform(self, name: str, value: object) -> None:
         for layer in self._layers:
-            layer.know({name: value})
+            layer.set_uniforms({name: value})
 
     @property
-    def wider(self) -> int:
-        """How many times as far apart points of its mesh are as tiles say."""
-        return self._coarser
+    def stride(self) -> int:
+        """Grid points from one vertex of the mesh to the next."""
+        return self._stride
 
     @property
     def _is_cut(self) -> bool:
-        """Whether any grass has been cut: pixels that need not ask for that are cheaper."""
+        """Whether any grass has been cut: pixels that need not read the cut are cheaper."""
         return bool(self._block.record["anything_cut"][0])
 
     @property
     def _is_rare(self) -> bool:
-        """Whether there are shadow maps, shades or a ground of a game's own: then pixels ask for these."""
+        """Whether rare features are in use: shadow maps, shades, or a ground of a game's own."""
         return bool(self._block.casts or self._block.earth)
 
     @property
     def _is_odd(self) -> bool:
-        """Whether the carpet ends with the terrain, or lies on a game's own ground: the coarse one cannot."""
+        """Whether the carpet ends with the terrain or lies on a game's own ground: a coarse program cannot do that."""
         record = self._block.record[0]
         return self._is_coarse and bool(
             record["over_hosts"] or self._block.earth or record["mesh_high"][0] < EVERYWHERE
@@ -192,40 +192,41 @@ class GroundPainter:
 
     @property
     def _is_lamplit(self) -> bool:
-        """Whether anything shines beside sun and sky: then pixels of the carpet ask for its light."""
+        """Whether lights other than sun and sky shine: only then do the carpet's pixels read them."""
         return bool(self._block.record["beside_sun"][0])
 
     def write(self, tiles: ByLayer) -> None:
-        """Send the tiles, as `by_layer` parts them."""
+        """Upload tiles."""
         shelf = self.shelves.now
-        bare, bare_pieces, even, even_pieces, edged, carpet = tiles
-        sent = bare[::-1], bare_pieces[::-1], even, even_pieces, edged[::-1], carpet, even[::-1], even_pieces[::-1]
-        for stream, some in zip(shelf.streams, sent, strict=False):
-            stream.write(some)
+        bare, bare_pieces, even, even_pieces, edged, edged_carpet = tiles
+        ground, under = (bare[::-1], bare_pieces[::-1]), (even[::-1], even_pieces[::-1])
+        sent = *ground, even, even_pieces, edged[::-1], edged_carpet, *under
+        for stream, records in zip(shelf.streams, sent, strict=False):
+            stream.write(records)
         shelf.tiles = tiles
 
     def write_outlined(self) -> None:
-        """Send those of the tiles that were sent whose outlines are drawn where they are thin."""
+        """Upload the tiles whose thin outlines are drawn by themselves, out of those uploaded last."""
         shelf = self.shelves.now
         if shelf.outlined is shelf.tiles or shelf.tiles is None:
             return
         shelf.outlined, even = shelf.tiles, shelf.tiles.even
         shelf.streams[OUTLINED].write(even[even["tile"][:, 2] <= THIN_UP_TO])
 
-    def write_rims(self, far: Floats) -> None:
-        """Send how far the ground is from the next rim of a cliff (rows, columns) [m]."""
-        if self.rims.size != far.shape[::-1]:
+    def write_rims(self, distance: Floats) -> None:
+        """Upload the distances of the ground from the nearest rim of a cliff (rows, columns) [m]."""
+        if self.rims.size != distance.shape[::-1]:
             self.rims.release()
-            self.rims = self._ctx.texture(far.shape[::-1], 1, dtype="f4")
+            self.rims = self._ctx.texture(distance.shape[::-1], 1, dtype="f4")
             self.rims.repeat_x = self.rims.repeat_y = False
-        self.rims.write(np.ascontiguousarray(far))
+        self.rims.write(np.ascontiguousarray(distance))
 
     def tread(self, *, is_trodden: bool) -> None:
-        """Take over whether anybody treads the grass, or has, in what is drawn next."""
+        """Set whether grass has been trodden, for what is drawn next."""
         self.is_trodden, self._rehearses = is_trodden, False
 
     def rehearse(self) -> None:
-        """Have something to draw for each program."""
+        """Give each program something to draw."""
         self.is_trodden = self._rehearses = True
         shelf = self.shelves.now
         shelf.tiles = shelf.outlined = None
@@ -234,48 +235,48 @@ class GroundPainter:
                 stream.write(np.zeros(1, TILE))
 
     def raise_carpet(self, part: float, *, outline: float = 0.0) -> None:
-        """Lay the carpet at this part of the height of the grass, and along outlines at that of `outline`, if any."""
+        """Lay the carpet at a fraction `part` of the grass's height, along outlines at `outline` of it if above 0."""
         self._raised = part, outline
-        self._tell("outline", outline / part)
+        self._set_uniform("outline", outline / part)
         self.come(self._came)
 
     def fits(self, stock: CarpetStock, /) -> bool:
-        """Return whether its programs draw another stock too."""
-        layers = (image_count(each.growths) for each in (stock, self.stock))
-        stacks = {stack_for(self._ctx, count) for count in layers}
+        """Return whether the programs can draw another stock too."""
+        counts = (image_count(each.growths) for each in (stock, self.stock))
+        stacks = {stack_for(self._ctx, count) for count in counts}
         return stock.heads == self.stock.heads and len(stacks) == 1
 
     def restock(self, stock: CarpetStock, /) -> None:
         """Draw the images of a stock."""
         self.stock = stock
         is_whole = stack_for(self._ctx, image_count(stock.growths)) > 1
-        for name, value in stock.layers(self._seed, whole=is_whole).items():
-            self._tell(name, value)
+        for name, value in stock.layer_uniforms(self._seed, whole=is_whole).items():
+            self._set_uniform(name, value)
         part, outline = self._raised
         self.raise_carpet(part, outline=outline)
 
     def come(self, came: tuple[float, ...], /) -> None:
-        """Take over how much of each kind has become what it is to be."""
+        """Set the fraction of each kind's plants that have become what the kind is to become."""
         self._came = came
-        for name, value in self.stock.told(came, self._raised[0]).items():
-            self._tell(name, value)
+        for name, value in self.stock.uniforms(came, self._raised[0]).items():
+            self._set_uniform(name, value)
 
     def write_shares(self, shares: Bytes) -> None:
-        """Send how much the carpet shows, of 255, on each row of the patch table (rows,) around the viewer's cell."""
+        """Upload the carpet's share, of 255, for each row of the patch table, (rows,)."""
         shelf = self.shelves.now
         shelf.shares.write(shares)
-        shelf.shown = shares
+        shelf.sent_shares = shares
 
     def look_from(self, viewer: Viewer, *, beyond: float) -> None:
-        """Take over the viewer's cell and where it looks, and how much carpet shows `beyond` the patches around it."""
+        """Set the viewer's cell and direction, and the carpet's share `beyond` the patches around it, in [0, 1]."""
         self.shelves.now.order = order_toward(viewer.cone[0])
         self._block.record["carpet_window"] = *viewer.centre, self._side // 2, beyond
         self._block.record["windows_a_patch"] = 1.0 / self._side
 
     def use(self) -> None:
-        """Bind what all of it reads."""
+        """Bind the textures that all programs read."""
         shelf, on_hosts = self.shelves.now, bool(self._block.record["over_hosts"][0])
-        shelf.wider = 1 if on_hosts else self._coarser  # it has to lie on the game's ground
+        shelf.stride = 1 if on_hosts else self._stride  # it has to lie on the game's ground
         shelf.shares.use(self.units["shares"])
         self.rims.use(self.units["rims"])
         if self._block.earth:
@@ -284,7 +285,7 @@ class GroundPainter:
             gl.glBindTexture(NUMBERS["TEXTURE_2D"], self._block.earth)
 
     def draw_bare(self, *, alone: bool) -> int:
-        """Draw the bare ground, where it comes `alone` that of the carpet too; return the number of draw calls."""
+        """Draw the bare ground, if `alone` also where carpet will lie; return the number of draw calls."""
         self.use()
         rare = self._is_rare or self.is_trodden
         bare = self.bare[2 if rare else self._is_cut]
@@ -296,7 +297,7 @@ class GroundPainter:
         return calls
 
     def draw_under(self) -> int:
-        """Draw what lies under the carpet; return the number of draw calls."""
+        """Draw the opaque layer under the carpet; return the number of draw calls."""
         self.use()
         special = self._is_rare or self._is_lamplit or self._is_cut
         calls = self.under[2 if self.is_trodden else special].draw(UNDER, UNDER_PIECES)
@@ -305,7 +306,7 @@ class GroundPainter:
         return calls
 
     def draw_carpet(self, part: int = WHOLE) -> int:
-        """Draw the carpet, or a part of it: its outlines let through what is behind; return the draw calls."""
+        """Draw a part of the carpet, whose outlines are translucent; return the number of draw calls."""
         self.use()
         rare, changes = self._is_rare or self.is_trodden, any(self._came)
         special = changes or self._is_lamplit
@@ -320,13 +321,13 @@ class GroundPainter:
         return calls
 
     def cast(self, light: tuple[float, float, float], /) -> int:
-        """Write the depth at which grass of the carpet stops light from a place [m]; return the draw calls."""
+        """Write the depth at which the carpet stops light from a place [m]; return the number of draw calls."""
         self.shelves.now.shares.use(self.units["shares"])
         (layer,) = self.casting
-        layer.know({"light": light})
+        layer.set_uniforms({"light": light})
         return layer.draw(EVEN, EVEN_PIECES, EDGED_CARPET)
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release all GL objects."""
         release_all(*(layer.made for layer in self._layers if layer.made is not None))
-        release_all(self.shelves, *self.grids[0], *self.grids[1], *self.hanging[1], self.rims)
+        release_all(self.shelves, *self.grids[0], *self.grids[1], *self.skirted[1], self.rims)

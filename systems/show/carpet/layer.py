@@ -1,4 +1,4 @@
-"""What draws tiles of the ground, and the tiles that each viewer sees."""
+"""Programs that draw tiles of the ground, and the streams of tiles that each viewer sees."""
 
 from collections.abc import Callable, Mapping
 
@@ -11,46 +11,48 @@ from .pieces import ByLayer
 from .tiles import ORDERS, TILE
 
 BARE, BARE_PIECES, EVEN, EVEN_PIECES, EDGED, EDGED_CARPET, UNDER, UNDER_PIECES, OUTLINED = STREAMS = range(9)
-"""What tiles and pieces of tiles are parted into, as `by_layer` has them, and once more those of the even carpet: near
-to far. And those of its whole tiles whose outlines are drawn where they are thin, far to near.
+"""Streams of tiles and of pieces of tiles. The first six are those of `ByLayer`; `UNDER` has the even carpet's once
+more. `OUTLINED` has its whole tiles whose thin outlines are drawn by themselves.
 
-So are those of the ground. They are opaque: what the nearer ones hide costs nothing.
+The carpet's are drawn far to near. The ground's and those of `UNDER` are opaque, and drawn near to far: what nearer
+ones hide costs nothing.
 """
 
 WHOLE = BARE, EVEN, UNDER, OUTLINED
-"""Of these, the streams of whole tiles."""
+"""The streams of whole tiles."""
 
 
 Grids = tuple[tuple[moderngl.Buffer, ...], tuple[moderngl.Buffer, ...]]
-"""The grid points of a tile and of a piece of one, each with the corners of triangles by how far apart these are."""
+"""Vertex buffer of a tile's and of a piece's grid, each followed by its index buffers, by stride."""
 
 
 class GroundShelf:
-    """What is sent of the ground that one viewer sees: tiles by layer, and how much the carpet shows on each patch."""
+    """GL objects of the ground that one viewer sees: its tiles by stream, and the carpet's share of each patch."""
 
     def __init__(self, ctx: moderngl.Context, side: int) -> None:
         self.streams = tuple(Stream(ctx, TILE) for _ in STREAMS)
         self.shares = ctx.texture((side, side), 1, alignment=1)
         self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
         self.arrays: dict[tuple[Layer, int, int], moderngl.VertexArray] = {}
-        """What draws the tiles of a stream as a layer does, with corners so far apart, once it is asked for."""
-        self.wider = 1
-        """How many times as far apart points of the mesh are as tiles say."""
+        """Vertex arrays by layer, stream and stride, each made when it is first drawn."""
+        self.stride = 1
+        """Grid points from one vertex of the mesh to the next."""
         self.order = 0
-        """The order in which each tile's triangles are drawn, as `order_toward` has it."""
+        """The order in which each tile's triangles are drawn, from `order_toward`."""
         self.tiles: ByLayer | None = None
-        self.shown: object = None
-        """What was sent last."""
+        """The tiles sent last."""
+        self.sent_shares: object = None
+        """The carpet's shares sent last."""
         self.outlined: ByLayer | None = None
-        """Of which tiles those were whose outlines are drawn where they are thin."""
+        """The tiles from which `OUTLINED` was sent last."""
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release all GL objects."""
         release_all(*self.arrays.values(), *self.streams, self.shares)
 
 
 class Layer:
-    """A program that draws tiles of the ground, made once it is asked for."""
+    """A program that draws tiles of the ground, made when it is first needed."""
 
     def __init__(
         self,
@@ -60,52 +62,52 @@ class Layer:
         grids: Grids,
     ) -> None:
         self._make, self.texts, self._shelves, self._grids = make, texts, shelves, grids
-        self._told: dict[str, object] = {}
-        self._untold: dict[str, object] = {}
-        """Of that, what the program is told before it draws next: of many, a frame draws with a few."""
+        self._uniforms: dict[str, object] = {}
+        self._pending: dict[str, object] = {}
+        """Uniforms to be set before the program draws next: a frame draws with few of many programs."""
         self.made: moderngl.Program | None = None
 
     @property
     def program(self) -> moderngl.Program:
-        """What draws a tile, told all that it asks for."""
+        """The program, with all its uniforms set."""
         if self.made is None:
             self.made = self._make()
-        if self._untold:
-            for name, value in self._untold.items():
-                asked = self.made.get(name, None)
-                if isinstance(asked, moderngl.Uniform):
-                    asked.value = value
-            self._untold = {}
+        if self._pending:
+            for name, value in self._pending.items():
+                uniform = self.made.get(name, None)
+                if isinstance(uniform, moderngl.Uniform):
+                    uniform.value = value
+            self._pending = {}
         return self.made
 
-    def _array(self, stream: int, wider: int) -> moderngl.VertexArray:
-        """Return what draws those tiles of the viewer that looks."""
+    def _array(self, stream: int, stride: int) -> moderngl.VertexArray:
+        """Return the vertex array of a stream of the present viewer."""
         shelf = self._shelves.now
-        if (self, stream, wider) not in shelf.arrays:
+        if (self, stream, stride) not in shelf.arrays:
             grid = self._grids[stream not in WHOLE]
-            program, corners, indices = self.program, grid[0], grid[wider]
+            program, corners, indices = self.program, grid[0], grid[stride]
             contents = [(corners, "2f", "corner"), shelf.streams[stream].binding(program)]
-            shelf.arrays[self, stream, wider] = program.ctx.vertex_array(program, contents, index_buffer=indices)
-        return shelf.arrays[self, stream, wider]
+            shelf.arrays[self, stream, stride] = program.ctx.vertex_array(program, contents, index_buffer=indices)
+        return shelf.arrays[self, stream, stride]
 
-    def know(self, told: Mapping[str, object]) -> None:
-        """Tell the program what it asks for of this once it draws."""
-        fresh = {name: value for name, value in told.items() if self._told.get(name) != value}
-        self._told |= fresh
-        self._untold |= fresh
+    def set_uniforms(self, uniforms: Mapping[str, object]) -> None:
+        """Set uniforms before the next draw; the program may lack some of them."""
+        fresh = {name: value for name, value in uniforms.items() if self._uniforms.get(name) != value}
+        self._uniforms |= fresh
+        self._pending |= fresh
 
-    def draw(self, *streams: int, **told: float) -> int:
-        """Draw the tiles of streams in which there are any, by a program that is told this; return the draw calls."""
-        shelf, calls, wider = self._shelves.now, 0, self._shelves.now.wider
+    def draw(self, *streams: int, **uniforms: float) -> int:
+        """Draw the streams that have tiles, with these uniforms set first; return the number of draw calls."""
+        shelf, calls, stride = self._shelves.now, 0, self._shelves.now.stride
         for stream in streams:
             count = shelf.streams[stream].count
             if not count:
                 continue
             if not calls:
-                program, told["wider"] = self.program, wider
-                for name, value in told.items():
+                program, uniforms["stride"] = self.program, stride
+                for name, value in uniforms.items():
                     set_uniform(program, name, value)
-            array, calls = self._array(stream, wider), calls + 1
+            array, calls = self._array(stream, stride), calls + 1
             corners = array.vertices // ORDERS
             array.render(moderngl.TRIANGLES, corners, first=shelf.order * corners, instances=count)
         return calls

@@ -13,7 +13,7 @@ uniform sampler2D rims;  // over the terrain: how far the next rim of a cliff is
 const float SLIDES = 0.75;  // part of that distance from which on the grid slides
 const float SLIDES_FIRST = 0.6;  // part of it from which on that of a quarter of a tile slides into the grid of whole ones
 
-uniform float wider = 1.0;  // how many times as far apart grid points are as a tile says, of which there are as many fewer
+uniform float stride = 1.0;  // grid points from one vertex to the next along an axis
 
 float spaced;  // how far apart grid points are there [m]: the same from both sides where tiles meet, as what it makes out
 
@@ -35,7 +35,7 @@ vec2 far_off(vec2 at, float from_rim) {
 // does, which is finer than others that are as near. Towards a rim, where tiles are finer, it lies as others do.
 vec2 slid(vec2 far) {
     float slide = clamp(((tile.w < 0.0 ? far.y : min(far.x, far.y)) - SLIDES) / (1.0 - SLIDES), 0.0, 1.0);
-    if (tile.w < PARTED * tile.z)
+    if (tile.w < QUARTERED * tile.z)
         return vec2(slide, 0.0);
     float at_rim = 1.0 - clamp((far.y - SLIDES) / (1.0 - SLIDES), 0.0, 1.0);
     return vec2(max(clamp((far.x - SLIDES_FIRST) / (SLIDES - SLIDES_FIRST), 0.0, 1.0), at_rim), slide);
@@ -48,10 +48,10 @@ vec2 on_samples(vec2 at) {
 }
 
 vec2 on_mesh_at(vec2 corner) {
-    float wide = tile.z * wider;
+    float wide = tile.z * stride;
     vec2 at = tile.xy + corner * tile.z;
     float from_rim = rim_at(at);
-    vec2 slide = slid(far_off(at, from_rim) / abs(tile.w)), pair = 0.5 / wider * corner;
+    vec2 slide = slid(far_off(at, from_rim) / abs(tile.w)), pair = 0.5 / stride * corner;
     spaced = wide * (1.0 + slide.x) * (1.0 + slide.y);
     at -= 2.0 * wide * (slide.x * fract(pair) + 2.0 * slide.y * fract(0.5 * floor(pair)));
     if (from_rim < ON_RIM.y * terrain_cell) {

@@ -28,7 +28,7 @@ from .air import Air
 from .edges import Edges
 from .found import Found
 from .ground import DENSE, OUTLINE, RAISED, THIN, WHOLE, GroundPainter
-from .pieces import ByLayer, Parted, by_layer, part, whole
+from .pieces import ByLayer, PieceEdges, by_layer, find_edges, no_edges
 from .pool import CarpetKept
 from .stock import CarpetStock
 from .textures import bent_texture, carpet_texture, sending_carpet
@@ -45,11 +45,11 @@ from .tiles import (
     within,
 )
 
-AT_RIMS = 1.0
-"""How far grid points are from their places at rims of cliffs at most, where they are farthest apart [grid points]."""
+RIM_OFFSET = 1.0
+"""Largest distance of a grid point from its place at a rim of a cliff [grid points]."""
 
 STEP = 0.4
-"""How far the eye goes before tiles are chosen anew, in sides of the finest."""
+"""Distance that the eye moves before tiles are chosen anew, in sides of the finest tiles."""
 
 
 class CarpetPainter(RepresentationPainter):
@@ -60,55 +60,55 @@ class CarpetPainter(RepresentationPainter):
         self._whole_to = canvas.reach[-2] - int(border_width(canvas.reach[-2])) - 1
         self._units = canvas.units
         self._around, self._seen = Remembered[Tiles](), Remembered[ByLayer]()
-        self._parted = Remembered[Parted]()
+        self._piece_edges = Remembered[PieceEdges]()
         self._edges, self._tallest = Edges(), 0.0
         self._rims, self._rims_sent = Found.of(ground.terrain).rims, -1
-        self._laid = Remembered[Bytes]()
+        self._shares = Remembered[Bytes]()
         self.images, self.bents = carpet_texture(canvas.ctx, stock.growths), bent_texture(canvas.ctx, stock.bents(()))
-        self._beside: tuple[CarpetStock, moderngl.TextureArray] | None = None
-        """What is brought into GL beside its own."""
+        self._staged: tuple[CarpetStock, moderngl.TextureArray] | None = None
+        """The next stock and its images, already in GL."""
         self._came: tuple[float, ...] = ()
         self.air = Air(canvas, side)
         self._deep = False
-        """Whether it writes depth only where it covers at least half a pixel."""
+        """Whether depth is written only where the carpet covers at least half a pixel."""
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
         self.ground = GroundPainter(
             canvas.ctx, canvas.block, stock, canvas.units, side=side, seed=canvas.seed, coarse=coarse
         )
 
     def texts(self) -> Iterator[Texts]:
-        """Return what the programs that are not there yet are made of."""
+        """Return the sources of the programs that are not made yet."""
         return self.ground.texts()
 
     def making(self) -> Iterator[None]:
-        """Make the programs that are not there yet, one at a time."""
+        """Make the programs that are not made yet, one at a time."""
         return self.ground.making()
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
-        """Draw on this ground from now on, with as much of each kind as has become what it is to be."""
+        """Draw on this ground from now on, with each kind as far on its way to what it is to become."""
         if grown.came != self._came:
             self._come(grown.came)
         terrain = grown.ground.terrain
-        if terrain is not self._rims.terrain or not self._rims.lie_over(record["terrain_origin"][0]):
+        if terrain is not self._rims.terrain or not self._rims.begin_at(record["terrain_origin"][0]):
             self._rims, self._rims_sent = Found.of(terrain).rims, -1
         self._ground, self._tallest = grown.ground, grown.tallest
         self._spacing = finest_spacing(grown.ground.terrain, grown.ground.patch)
 
     def fits(self, representation: Any, /) -> bool:
-        """Return whether its programs draw the images of another stock too."""
+        """Return whether the programs can draw another representation's stock too."""
         return self.ground.fits(representation.stock)
 
     def staging(self, stocks: Sequence[Any], /) -> Iterator[None]:
-        """Bring the images of another stock into GL beside its own."""
-        made = next(each for each in stocks if each.name == "carpet")
-        images = yield from sending_carpet(self.images.ctx, made.stock.growths)
-        self._beside = made.stock, images
+        """Upload the images of another stock, a piece at a time, while the present one is drawn."""
+        carpet = next(each for each in stocks if each.name == "carpet")
+        images = yield from sending_carpet(self.images.ctx, carpet.stock.growths)
+        self._staged = carpet.stock, images
 
     def restock(self) -> None:
-        """Draw what was staged."""
-        assert self._beside is not None
+        """Draw the stock that was staged."""
+        assert self._staged is not None
         self.images.release()
-        (stock, self.images), self._beside = self._beside, None
+        (stock, self.images), self._staged = self._staged, None
         self.ground.restock(stock)
         self._come(())
 
@@ -118,20 +118,20 @@ class CarpetPainter(RepresentationPainter):
         self.bents.write(self.ground.stock.bents(came))
 
     def making_for_winds(self) -> Iterator[None]:
-        """Make the programs by which receivers hear whatever winds will blow, one at a time."""
+        """Make the programs that compute the wind's messages to receivers, one at a time."""
         return self.air.hearing.making()
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
-        """Pretend that somebody treads it, and that grass ends somewhere."""
+        """Draw with every program, as if grass were trodden and ended somewhere."""
         del record
         self.ground.rehearse()
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
-        """Return how many patches there are."""
+        """Return the number of patches, each with one receiver."""
         return [len(outlook.patches.progress)]
 
     def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
-        """Send the tiles of the ground, and how much carpet lies on each patch; it has no blades."""
+        """Upload the tiles of the ground and the carpet's share of each patch; return 0, as it has no blades."""
         assert outlook.appearance is not None
         self.lay(outlook, outlook.appearance.cover[-1])
         self.ground.tread(is_trodden=bool(outlook.noted(Trodden, UNTRODDEN)))
@@ -139,24 +139,24 @@ class CarpetPainter(RepresentationPainter):
         return 0
 
     def hear(self) -> int:
-        """Let the middles of all patches hear the wind; return the number of draw calls."""
+        """Compute the wind's messages at the middles of all patches; return the number of draw calls."""
         if self._heard is None:
             return 0
         centre, first, kept = self._heard
         calls = self.air.hear(centre, first)
         for row, message in kept.receiving[0].letters.written():
             self.air.write(row, message[0])
-        return calls + self.air.sum_up()
+        return calls + self.air.average()
 
     def heard(self) -> Air:
-        """Return what the patches around the viewer have heard."""
+        """Return the messages at the patches around the viewer."""
         return self.air
 
     def lay(self, outlook: Outlook, cover: Floats | None, /) -> None:
-        """Send the tiles of the ground, and how much carpet lies on each patch.
+        """Upload the tiles of the ground and the carpet's share of each patch.
 
-        `cover` has shape (rows,); without it there is none on the terrain. Beyond the terrain's edge it is whole, where
-        a game has taken the grass away there is none.
+        `cover` (rows,) is the carpet's cover; with None there is no carpet on the terrain. Beyond the terrain's edge
+        the carpet is whole; where a game has taken the grass away, there is none.
         """
         patches, viewer = outlook.patches, outlook.viewer
         self._follow_rims()
@@ -183,21 +183,21 @@ class CarpetPainter(RepresentationPainter):
         )
         if tiles is not shelf.tiles:
             self.ground.write(tiles)
-        laid = cover, patches.alive, patches.grows, viewer.centre
-        shares = self._laid.of(viewer.name, laid, partial(_shares, patches, cover))
-        if shares is not shelf.shown:
+        shares_made_of = cover, patches.alive, patches.grows, viewer.centre
+        shares = self._shares.of(viewer.name, shares_made_of, partial(_shares, patches, cover))
+        if shares is not shelf.sent_shares:
             self.ground.write_shares(shares)
         self.ground.look_from(viewer, beyond=float(cover is not None))
 
     def cast(self, light: tuple[float, float, float], /) -> int:
-        """Write the depth at which grass stops light from a place [m]; return the number of draw calls."""
+        """Write the depth at which the carpet stops light from a place [m]; return the number of draw calls."""
         return self.ground.cast(light)
 
     def _tiles(self, viewer: Viewer, bare_to: int | None, mown: Mown | None, *, goes_on: bool) -> ByLayer:
         """Return the tiles that a viewer sees, by layer.
 
-        Up to the discrete distance `bare_to` there is no carpet on the terrain; None is everywhere. Tiles beyond the
-        terrain are left out unless ground `goes_on` there.
+        There is no carpet on the terrain up to the discrete distance `bare_to`; with None, nowhere on it. Tiles beyond
+        the terrain are left out unless the ground `goes_on` there.
         """
         around = self._tiles_around(viewer)
         seen = which_seen(around, viewer.eye, viewer.cone)
@@ -208,23 +208,23 @@ class CarpetPainter(RepresentationPainter):
         bare = on_terrain(tiles, self._ground.terrain)
         if bare_to is not None:
             bare &= within(tiles, viewer.centre, patch=self._ground.patch, reach=bare_to)
-        return by_layer(tiles, ~bare, self._parted_by(around, viewer, mown).of(seen), viewer.eye)
+        return by_layer(tiles, ~bare, self._find_edges(around, viewer, mown).take(seen), viewer.eye)
 
-    def _parted_by(self, around: Tiles, viewer: Viewer, mown: Mown | None) -> Parted:
-        """Return which pieces of the tiles all around have edges: the same as long as these and the edges are."""
-        touches = partial(self._edges.at, self._ground, mown, self._tallest)
-        wider, off = self.ground.wider, AT_RIMS if self._rims.any else 0.0
-        make = partial(part, around, touches, wider=wider, off=off)
-        return self._parted.of(viewer.name, (around, self._ground, *self._changes(mown), off), make)
+    def _find_edges(self, around: Tiles, viewer: Viewer, mown: Mown | None) -> PieceEdges:
+        """Return which pieces of the tiles all around have edges; remembered until tiles or edges change."""
+        touches = partial(self._edges.touch, self._ground, mown, self._tallest)
+        offset = RIM_OFFSET if self._rims.any else 0.0
+        make = partial(find_edges, around, touches, stride=self.ground.stride, offset=offset)
+        return self._piece_edges.of(viewer.name, (around, self._ground, *self._changes(mown), offset), make)
 
     def _changes(self, mown: Mown | None) -> tuple[int, int, int]:
-        """Return how often edges may have changed: by cutting, by sowing and clearing, and by digging."""
+        """Return the numbers of changes that may move edges: by cutting, by sowing and clearing, and by digging."""
         terrain = self._ground.terrain
         dug = 0 if terrain.holes is None else terrain.changes.count
         return 0 if mown is None else mown.strokes, self._ground.density.sown.count, dug
 
     def _tiles_around(self, viewer: Viewer) -> Tiles:
-        """Return the tiles all around: the same as long as the eye stays about where it is."""
+        """Return the tiles all around; remembered until the eye has moved by about `STEP`."""
         step, terrain = STEP * self._spacing * GRID, self._ground.terrain
         place = round(viewer.eye[0] / step) * step, round(viewer.eye[2] / step) * step
         rims = self._rims if self._rims.any else None
@@ -235,34 +235,34 @@ class CarpetPainter(RepresentationPainter):
             spacing=self._spacing,
             about=step * HALF_DIAGONAL,
             rims=rims,
-            parted=self.ground.wider > 1,
+            quartered=self.ground.stride > 1,
         )
         return self._around.of(viewer.name, (self._ground, place, *self._windows), make)
 
     @property
     def _windows(self) -> tuple[object, ...]:
-        """What tells apart which part of a ground is there, and which rims are known of it."""
+        """Identifies the terrain's window of its ground, and the rims known of it."""
         return self._rims, self._rims.version, self._ground.terrain.changes.moves
 
     def _follow_rims(self) -> None:
         self._rims.follow()
         if self._rims_sent != self._rims.version:
             self._rims_sent = self._rims.version
-            self.ground.write_rims(self._rims.far)
+            self.ground.write_rims(self._rims.distance)
 
     def _bare_to(self, patches: PatchTable, cover: Floats | None) -> int:
-        """Return the discrete distance up to which there is no carpet: it is nearer than always while ranges are."""
+        """Return the discrete distance up to which there is no carpet: less than usual while ranges are shortened."""
         if cover is None:
             return self._whole_to
-        seen = patches.alive & patches.near & (cover > 0.0)
-        nearest = patches.distance.min(where=seen, initial=self._whole_to + 1)
+        has_carpet = patches.alive & patches.near & (cover > 0.0)
+        nearest = patches.distance.min(where=has_carpet, initial=self._whole_to + 1)
         return int(nearest) - 1
 
     def lay_everywhere(self, outlook: Outlook, /, *, height: float) -> None:
-        """Send a carpet that lies everywhere, at this part of the height of the grass."""
+        """Upload a carpet that lies everywhere, at a fraction `height` of the grass's height."""
         viewer, rims = outlook.viewer, self._rims if self._rims.any else None
         tiles = ground_tiles(self._ground.terrain, viewer.eye, viewer.cone, spacing=self._spacing, rims=rims)
-        self.ground.write(by_layer(tiles, np.ones(len(tiles), np.bool_), whole(tiles), viewer.eye))
+        self.ground.write(by_layer(tiles, np.ones(len(tiles), np.bool_), no_edges(tiles), viewer.eye))
         everywhere = np.full(len(outlook.patches.progress), 255, np.uint8)
         self.ground.write_shares(everywhere)
         self.ground.look_from(viewer, beyond=1.0)
@@ -273,12 +273,12 @@ class CarpetPainter(RepresentationPainter):
         self.ground.raise_carpet(RAISED, outline=OUTLINE)
 
     def draw_ground(self, *, alone: bool) -> int:
-        """Draw the bare ground, where it comes `alone` that of the carpet too; return the number of draw calls."""
+        """Draw the bare ground, if `alone` also where carpet will lie; return the number of draw calls."""
         self.air.use()
         return self.ground.draw_bare(alone=alone)
 
     def draw_solid(self) -> int:
-        """Draw what lies under the carpet; return the number of draw calls."""
+        """Draw the opaque layer under the carpet; return the number of draw calls."""
         self.air.use()
         return self.ground.draw_under()
 
@@ -289,13 +289,13 @@ class CarpetPainter(RepresentationPainter):
         return self._draw(target, WHOLE)
 
     def draw_dense(self, target: moderngl.Framebuffer, /) -> int:
-        """Draw it where it covers at least half a pixel; return the number of draw calls."""
+        """Draw the carpet where it covers at least half a pixel; return the number of draw calls."""
         return self._draw(target, DENSE)
 
     def draw_thin(self, target: moderngl.Framebuffer, /) -> int:
-        """Draw the rest, which writes no depth; return the number of draw calls."""
+        """Draw the rest of the carpet, which writes no depth; return the number of draw calls."""
         self.ground.write_outlined()
-        set_depth_test(self.images.ctx, "<")  # where it is dense, it is itself in the way
+        set_depth_test(self.images.ctx, "<")  # dense carpet is there already, at equal depth
         calls = self._draw(target, THIN)
         set_depth_test(self.images.ctx, "<=")
         return calls
@@ -310,13 +310,13 @@ class CarpetPainter(RepresentationPainter):
         return calls
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release all GL objects."""
         release_all(self.ground, self.air, self.images, self.bents)
-        if self._beside is not None:
-            self._beside[1].release()
+        if self._staged is not None:
+            self._staged[1].release()
 
 
 def _shares(patches: PatchTable, cover: Floats | None) -> Bytes:
-    """Return how much carpet lies on each row of the patch table, of 255, shape (rows,)."""
+    """Return the carpet's share, of 255, for each row of the patch table, (rows,)."""
     whole = np.where(patches.alive, np.float32(0.0) if cover is None else cover, np.float32(1.0))
     return np.round(255.0 * np.where(patches.grows, whole, np.float32(0.0))).astype(np.uint8)

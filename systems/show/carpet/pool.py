@@ -12,31 +12,31 @@ from ...space.ground import Ground, densest_kind
 
 
 class CarpetPool:
-    """One receiver a patch; a slot is a row of the patch table."""
+    """One receiver per patch; a slot is a row of the patch table."""
 
     def __init__(self, patches: PatchTable, ground: Ground) -> None:
         self._patches, self._ground = patches, ground
 
     @property
     def slots(self) -> int:
-        """How many rows there are."""
+        """Number of slots."""
         return len(self._patches.progress)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How the receivers of a slot are laid out: one."""
+        """Shape of the receivers of a slot: a single one."""
         return (1,)
 
     def places(self, slots: Rows, /) -> Floats:
-        """Return the middles (x, z) [m] of some patches, shape (m, 1, 2)."""
+        """Return the middles (x, z) of the patches of slots (m,) [m], shape (m, 1, 2)."""
         return self._patches.middle[slots].astype(np.float32)[:, None]
 
     def kind(self, slots: Rows, /) -> NDArray[np.intp]:
-        """Return the kind that grows most densely in the middle of some patches, shape (m,)."""
+        """Return the kind that grows most densely in the middle of each patch of slots (m,), shape (m,)."""
         return densest_kind(self._ground.density, self.places(slots)[:, 0])
 
     def grows(self, slots: Rows, cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
-        """Return which patches have grass on these cells (m, 2), shape (m,)."""
+        """Return which slots (m,) hold a patch with grass on the cell given for it (m, 2), shape (m,)."""
         patches = self._patches
         return np.asarray(patches.stands[slots] & (patches.cell[slots] == cells).all(axis=1))
 
@@ -49,14 +49,14 @@ class CarpetKept(Kept):
         self.pool = pool
 
     def enlist(self, world: World, patches: PatchTable, /) -> None:
-        """Make no entities: the patches' own are enough."""
+        """Make no entities: the patches' own carry the receivers."""
 
     @property
     def is_listed(self) -> bool:
-        """There is nothing to be done."""
+        """Whether all entities are made: always."""
         return True
 
     def leave(self, rows: NDArray[np.int32], /) -> None:
-        """Forget what was asked for in some rows of the patch table."""
+        """Forget the messages that were set for some rows of the patch table."""
         for row in rows.tolist() if self.receiving[0].letters.busy else ():
             self.receiving[0].letters.forget(row)

@@ -24,7 +24,7 @@ from .stock import CarpetStock
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CarpetRepresentation(Representation):
-    """The carpet beyond the strips: a receiver in the middle of each patch moves its leaves and their light."""
+    """The carpet beyond the strips: a receiver in the middle of each patch moves leaves and changes their light."""
 
     name: ClassVar[str] = "carpet"
     label: ClassVar[str] = "2D carpet"
@@ -38,18 +38,18 @@ class CarpetRepresentation(Representation):
 
     @staticmethod
     def reach(quality: Quality, /) -> int:
-        """Return how far patches are kept at all."""
+        """Return the largest discrete distance of the carpet, which is that of all patches."""
         return quality.carpet_to
 
     @staticmethod
     def depends(kind: GrassKind, quality: Quality, /) -> object:
-        """Return how large its images are."""
+        """Return the side of the images [texels]."""
         del kind
         return quality.carpet
 
     @staticmethod
     def grow(seedling: Seedling, /) -> tuple[Carpet, ...]:
-        """Return a patch model's images."""
+        """Return the images of a patch model."""
         quality = seedling.quality
         images = grow_carpet(
             seedling.blades, seedling.postures, patch=quality.patch, texels=quality.carpet, taper=seedling.kind.taper,
@@ -59,7 +59,7 @@ class CarpetRepresentation(Representation):
 
     @staticmethod
     def fits(pictures: tuple[Any, ...], quality: Quality, blades: int, /) -> bool:
-        """Return whether there is one record of images of the right size."""
+        """Return whether there is exactly one record, and its arrays have the expected shapes."""
         del blades
         side = quality.carpet
         shapes = (len(SLOPES),), (len(SLOPES), 4, side, side, 4), (BENT_SLOPES, BENDS, 3)
@@ -69,7 +69,7 @@ class CarpetRepresentation(Representation):
 
     @staticmethod
     def layers(quality: Quality, /) -> int:
-        """Return how many images there are, from all angles."""
+        """Return the number of images of a patch model."""
         del quality
         return 4 * len(SLOPES)
 
@@ -77,21 +77,21 @@ class CarpetRepresentation(Representation):
     def stocked(
         cls, growths: Sequence[Growth], quality: Quality, ground: Ground, coming: Mapping[int, Growth] = NOTHING, /
     ) -> Self:
-        """Return it with all kinds' images."""
+        """Return the representation with the images of all kinds, and of what some are to become."""
         return cls(quality, ground, CarpetStock.of(growths, coming))
 
     def keep(self, patches: PatchTable, side: int, /) -> CarpetKept:
-        """Return a receiver for each patch."""
+        """Return a store of one receiver per patch."""
         del side
         return CarpetKept(CarpetPool(patches, self.ground), self.name)
 
     def components(self, outlook: Outlook, rows: list[int], /) -> list[tuple[object, ...]]:
-        """Return the receiver in the middle of each of some patches: the patch's own entity carries it."""
+        """Return the component of each patch's receiver, which the patch's own entity carries."""
         receiving, viewer = outlook.keeps(CarpetKept).receiving[0], outlook.viewer.name
         return [(receiving.component(row, viewer=viewer, patch=0),) for row in rows]
 
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> Rows:
-        """Return the patches whose receivers hear the wind: those in the view cone, and their neighbours."""
+        """Return the patches whose receivers feel the wind: those in the view cone, and their neighbours."""
         del cover
         kept = outlook.keeps(CarpetKept)
         rows = (outlook.patches.alive & outlook.patches.near).nonzero()[0]

@@ -1,4 +1,4 @@
-"""Rims of cliffs: how far the ground is from the next one, so that its mesh is finer there."""
+"""Rims of cliffs, and the distance of the ground from the nearest: its mesh is finer there."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,51 +8,52 @@ from ....engine.terrain.part import Part
 from ....engine.terrain.record import Terrain
 
 SHARP = 0.4
-"""By how much the slope falls off at a rim, from a cell of the terrain to the next [m/m]."""
+"""Smallest decrease of the slope at a rim, from one cell of the terrain to the next [m/m]."""
 
 MOST = 256
-"""Squares along a side of the terrain at most in which rims are told apart."""
+"""Largest number of squares along a side of the terrain; rims are known by square."""
 
 NOWHERE = 1e6
-"""How far off a rim is where there is none [m]."""
+"""Distance of a terrain without rims from the nearest rim [m]."""
 
 NEARER = 0.3
-"""What a metre from the eye counts at a rim, for how fine the mesh is there."""
+"""Weight of the distance from the eye in `mesh_distance`; the distance from the rim has weight 1."""
 
 GLSL = {"NEARER": NEARER}
 
 
 class Rims:
-    """How far places are from the next rim of a terrain, whatever it was before: changes are followed.
+    """Distances from the rims of a terrain; its changes are followed.
 
-    Where the terrain becomes another window of its ground, they are those of the one that it was.
+    Once the terrain has become another window of its ground, these are still the rims of the old one.
     """
 
     def __init__(self, terrain: Terrain) -> None:
         self.terrain, self._changes = terrain, terrain.changes.count
         self._first, self._low = terrain.first, np.array(terrain.origin)
         rows, columns = terrain.heights.shape
-        each = -(-max(rows, columns) // MOST)
-        self._each = each
-        self._known: Mask = np.zeros((-(-rows // each), -(-columns // each)), np.bool_)
-        self.far: Floats = np.full(self._known.shape, NOWHERE, np.float32)
-        """How far the middle of each square is from the next one at least [m], row 0 at the far edge (-z)."""
+        step = -(-max(rows, columns) // MOST)
+        self._step = step
+        """Cells of the terrain along a side of a square."""
+        self._has_rim: Mask = np.zeros((-(-rows // step), -(-columns // step)), np.bool_)
+        self.distance: Floats = np.full(self._has_rim.shape, NOWHERE, np.float32)
+        """Least distance of each square's middle from a rim [m], row 0 at the far edge (-z)."""
         self.any = False
-        """Whether there are any."""
+        """Whether the terrain has rims."""
         self.version = 0
-        """A number that is another one whenever that has changed."""
-        self._look(Part(0, 0, rows, columns))
+        """Number of changes of `distance`."""
+        self._update(Part(0, 0, rows, columns))
 
-    def belong(self, terrain: Terrain, /) -> None:
-        """Be those of a terrain that has just become what they were made out of."""
+    def attach(self, terrain: Terrain, /) -> None:
+        """Follow the changes of a terrain that has just taken over the heights these were computed from."""
         self.terrain, self._changes = terrain, terrain.changes.count
 
-    def lie_over(self, origin: Floats, /) -> bool:
-        """Return whether they are those of a window that begins at a place (x, z) [m]."""
+    def begin_at(self, origin: Floats, /) -> bool:
+        """Return whether these are the rims of a window that begins at a place (x, z) [m]."""
         return self._first is None or bool((np.abs(self._low - origin) < 0.5 * self.terrain.cell).all())
 
     def follow(self) -> None:
-        """Look where heights have changed."""
+        """Update the squares whose heights have changed."""
         changes = self.terrain.changes
         if self._changes == changes.count or self._first != self.terrain.first:
             return
@@ -60,52 +61,57 @@ class Rims:
         whole = Part(0, 0, *self.terrain.heights.shape)
         for part in [whole] if parts is None else parts:
             if within := part.within(whole.rows, whole.columns):
-                self._look(within)
+                self._update(within)
         self._changes = changes.count
 
-    def _look(self, part: Part) -> None:
-        """Look again at the squares in which a part may have made or taken rims."""
-        each = self._each
-        rows, columns = (slice(max(some.start - 1, 0) // each, some.stop // each + 1) for some in part.slices)
-        there = self._in(rows, columns)
-        known = self._known[rows, columns]
-        come, gone = np.argwhere(there & ~known) + np.array([rows.start, columns.start]), (known & ~there).any()
-        if not (gone or len(come)):
+    def _update(self, part: Part) -> None:
+        """Search the squares whose rims the heights of a part may have changed."""
+        step = self._step
+        rows, columns = (slice(max(span.start - 1, 0) // step, span.stop // step + 1) for span in part.slices)
+        found = self._find(rows, columns)
+        known = self._has_rim[rows, columns]
+        added, gone = np.argwhere(found & ~known) + np.array([rows.start, columns.start]), (known & ~found).any()
+        if not (gone or len(added)):
             return
-        self._known[rows, columns] = there
+        self._has_rim[rows, columns] = found
         if gone:
-            self.far, come = np.full(self._known.shape, NOWHERE, np.float32), np.argwhere(self._known)
-        if len(come):
-            self.far = np.minimum(self.far, _far_from(come, self._known.shape, self._each * self.terrain.cell))
-        self.any = bool(self._known.any())
+            self.distance, added = np.full(self._has_rim.shape, NOWHERE, np.float32), np.argwhere(self._has_rim)
+        if len(added):
+            distance = _distance_from(added, self._has_rim.shape, self._step * self.terrain.cell)
+            self.distance = np.minimum(self.distance, distance)
+        self.any = bool(self._has_rim.any())
         self.version += 1
 
-    def _in(self, rows: slice, columns: slice) -> Mask:
-        """Return which squares of some rows and columns of them have a rim in them."""
-        each, (count, across) = self._each, self._known[rows, columns].shape
-        top, left = rows.start * each, columns.start * each
+    def _find(self, rows: slice, columns: slice) -> Mask:
+        """Return which of these rows and columns of squares have a rim."""
+        step, (count, across) = self._step, self._has_rim[rows, columns].shape
+        top, left = rows.start * step, columns.start * step
         above, before = max(top - 1, 0), max(left - 1, 0)
-        window = self.terrain.heights[above : top + count * each + 1, before : left + across * each + 1]
-        row, column = np.nonzero(_sharp(window, self.terrain.cell))
+        window = self.terrain.heights[above : top + count * step + 1, before : left + across * step + 1]
+        row, column = np.nonzero(_rim_cells(window, self.terrain.cell))
         row, column = row + above - top, column + before - left
-        inside = (row >= 0) & (column >= 0) & (row < count * each) & (column < across * each)
+        inside = (row >= 0) & (column >= 0) & (row < count * step) & (column < across * step)
         found = np.zeros((count, across), np.bool_)
-        found[row[inside] // each, column[inside] // each] = True
+        found[row[inside] // step, column[inside] // step] = True
         return found
 
-    def near_to(self, places: Doubles, eye: Doubles, /) -> Doubles:
-        """Return how far off places (n, 2) count as, seen from an eye (2,), for the mesh of rims (n,) [m]."""
+    def mesh_distance(self, places: Doubles, eye: Doubles, /) -> Doubles:
+        """Return the distance that sets the mesh at places (n, 2) near rims, shape (n,) [m].
+
+        It is a weighted mean of the distances from the eye (2,) and from the nearest rim.
+        """
         low = self._low
         inside = np.clip(places, low, low + self.terrain.size)
-        rows, columns = self.far.shape
+        rows, columns = self.distance.shape
         side = np.divide(self.terrain.size, (columns, rows))
         column, row = np.minimum((inside - low) / side, (columns - 1, rows - 1)).astype(np.intp).T
         away = np.linalg.norm(places - eye, axis=1)
-        far = np.maximum(self.far[row, column] - side.max(), np.linalg.norm(places - inside, axis=1))
-        return np.asarray((NEARER * away + far) / (1.0 + NEARER), np.float64)
+        from_rim = np.maximum(self.distance[row, column] - side.max(), np.linalg.norm(places - inside, axis=1))
+        return np.asarray((NEARER * away + from_rim) / (1.0 + NEARER), np.float64)
 
 
-def _sharp(heights: Floats, cell: float) -> Mask:
+def _rim_cells(heights: Floats, cell: float) -> Mask:
+    """Return at which samples (rows, columns) the slope falls off by more than `SHARP`; `cell` is their spacing [m]."""
     found = np.zeros(heights.shape, np.bool_)
     inner = np.s_[1:-1], np.s_[:, 1:-1]
     for axis in (0, 1):
@@ -114,11 +120,14 @@ def _sharp(heights: Floats, cell: float) -> Mask:
     return found
 
 
-def _far_from(squares: NDArray[np.intp], shape: tuple[int, ...], side: float) -> Floats:
-    """Return how far squares (rows, columns) of a side [m] are from the nearest of some (n, 2) at least."""
+def _distance_from(chosen: NDArray[np.intp], shape: tuple[int, ...], side: float) -> Floats:
+    """Return a lower bound of the distance [m] of squares (rows, columns) of a side [m] from the nearest chosen one.
+
+    `chosen` (n, 2) has rows and columns.
+    """
     rows, columns = (np.arange(count, dtype=np.float32) for count in shape)
-    theirs = np.unique(squares[:, 0])
-    own = [squares[squares[:, 0] == row, 1] for row in theirs]
-    across = np.stack([np.abs(columns[:, None] - each).min(axis=1) for each in own]) ** 2
-    square = np.stack([(across + ((row - theirs) ** 2)[:, None]).min(axis=0) for row in rows])
+    chosen_rows = np.unique(chosen[:, 0])
+    chosen_columns = [chosen[chosen[:, 0] == row, 1] for row in chosen_rows]
+    across = np.stack([np.abs(columns[:, None] - own).min(axis=1) for own in chosen_columns]) ** 2
+    square = np.stack([(across + ((row - chosen_rows) ** 2)[:, None]).min(axis=0) for row in rows])
     return np.asarray(np.maximum(np.sqrt(square) - 2.0, 0.0) * side, np.float32)

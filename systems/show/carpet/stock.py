@@ -1,4 +1,4 @@
-"""What the carpet's programs are told of kinds: of what has grown, and of what that is to become."""
+"""The carpet's images of all kinds, as grown now and as they are to become, and the uniforms that describe them."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -17,27 +17,28 @@ from .heads import profile_of
 from .textures import bents_of
 
 HEADINGS = 4
-"""Images from all around, at each slope."""
+"""Number of viewing directions, at each slope."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Images:
-    """What is known of the images of all kinds, (kinds, ...) each."""
+    """Arrays that describe the images of all kinds, each (kinds, ...)."""
 
     height: Floats
-    """How high they reach [m]."""
+    """Height that the images cover [m], (kinds,)."""
 
     crown: Floats
-    """Height of the canopy [m]."""
+    """Height of the canopy [m], (kinds,)."""
 
     bents: Floats
+    """From `bents_of`."""
 
     profile: Floats
-    """Where leaf area is in the canopy; nothing where no kind bears heads."""
+    """From `profile_of`; empty if no kind bears heads."""
 
     @classmethod
     def of(cls, growths: Sequence[Growth], /, *, heads: bool) -> Self:
-        """Return what is to be known of what has grown of kinds."""
+        """Return the description of these growths; `heads` tells whether any kind bears heads."""
         return cls(
             height=np.array([carpet_of(growth.models[0]).height for growth in growths], np.float32),
             crown=np.array([canopy_height(growth) for growth in growths], np.float32),
@@ -48,21 +49,23 @@ class Images:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CarpetStock:
-    """The images of all kinds."""
+    """The images of all kinds, and of what some kinds are to become."""
 
     forms: tuple[Form, ...]
-    """In the order of their layers."""
+    """Forms of all kinds, in the order of their layers."""
 
     before: Images
+    """Of the kinds as they are."""
+
     after: Images
-    """Of what kinds are to be; of the others what they are."""
+    """Of the kinds as they are to become; of the others as they are."""
 
     heads: bool
     """Whether any kind bears heads."""
 
     @classmethod
     def of(cls, growths: Sequence[Growth], coming: Mapping[int, Growth] = NOTHING, /) -> Self:
-        """Return the stock of what has grown of kinds, and of what some are to become."""
+        """Return the stock of these growths, and of what some kinds are to become, `coming` by kind number."""
         forms = forms_of(growths, coming)
         heads = any_heads([form.growth for form in forms])
         before = Images.of(growths, heads=heads)
@@ -71,40 +74,40 @@ class CarpetStock:
 
     @property
     def growths(self) -> list[Growth]:
-        """What has grown of each form."""
+        """The growth of each form."""
         return [form.growth for form in self.forms]
 
-    def told(self, came: Sequence[float], part: float, /) -> dict[str, object]:
-        """Return what programs are told, by name, where `came` (kinds,) of each kind have become what they are to be.
+    def uniforms(self, came: Sequence[float], part: float, /) -> dict[str, object]:
+        """Return uniforms by name, for a carpet at a fraction `part` of the grass's height.
 
-        The carpet lies at a `part` of the height of the grass.
+        `came` (kinds,) is the fraction of each kind's plants that have become what the kind is to become.
         """
-        height = self._at("height", came)
-        told: dict[str, object] = {
-            "tops": by_kind((height / self._at("crown", came)).tolist()),
+        height = self._blended("height", came)
+        uniforms: dict[str, object] = {
+            "tops": by_kind((height / self._blended("crown", came)).tolist()),
             "raised": by_kind((part * height).tolist()),
         }
         if self.heads:
-            told["profile"] = self._at("profile", came).reshape(-1, 2).tolist()
-        return told
+            uniforms["profile"] = self._blended("profile", came).reshape(-1, 2).tolist()
+        return uniforms
 
     def bents(self, came: Sequence[float], /) -> NDArray[np.float16]:
-        """Return the table of bends, likewise."""
-        return self._at("bents", came).astype(np.float16)
+        """Return the table of `bents_of`, with `came` as in `uniforms`."""
+        return self._blended("bents", came).astype(np.float16)
 
-    def layers(self, seed: int, /, *, whole: bool) -> dict[str, object]:
-        """Return what programs are told of where images are; `seed` is the scene's.
+    def layer_uniforms(self, seed: int, /, *, whole: bool) -> dict[str, object]:
+        """Return uniforms by name that tell the texture layers of images; `seed` is the scene's.
 
-        Their sides are halved until they are 1; if `whole`, from the next power of two on.
+        If `whole`, images are stored with their sides rounded up to a power of two.
         """
-        one = carpet_of(self.forms[0].growth.models[0])
-        slopes, side = one.slope, one.texels.shape[-2]
+        example = carpet_of(self.forms[0].growth.models[0])
+        slopes, side = example.slope, example.texels.shape[-2]
         coarsest = (side - 1).bit_length() if whole else side.bit_length() - 1
-        kinds, at = len(self.before.height), 0
+        kinds, layer = len(self.before.height), 0
         first = [0.0] * (2 * kinds)
         for form in self.forms:
-            first[form.number] = float(at)
-            at += len(form.growth.models) * len(slopes) * HEADINGS
+            first[form.number] = float(layer)
+            layer += len(form.growth.models) * len(slopes) * HEADINGS
         return {
             "slopes": slopes.tolist(),
             "first": by_kind(first[:kinds]),
@@ -112,7 +115,7 @@ class CarpetStock:
             "stock": (len(self.forms[0].growth.models), seed, coarsest),
         }
 
-    def _at(self, name: str, came: Sequence[float]) -> Floats:
+    def _blended(self, name: str, came: Sequence[float]) -> Floats:
         before, after = getattr(self.before, name), getattr(self.after, name)
         if not came:
             return np.asarray(before)

@@ -1,4 +1,4 @@
-"""The carpet's images, and what becomes of them in the wind, as textures."""
+"""The carpet's images, and their changes in the wind, as textures."""
 
 from collections.abc import Generator, Sequence
 
@@ -13,26 +13,26 @@ from .grow import carpet_of
 
 
 def carpet_texture(ctx: moderngl.Context, growths: Sequence[Growth]) -> moderngl.TextureArray:
-    """Return all carpet images; forms, models, slopes and directions are layers, in this order."""
+    """Return all carpet images as layers, ordered by form, model, slope and direction."""
     return at_once(sending_carpet(ctx, growths))
 
 
 def sending_carpet(ctx: moderngl.Context, growths: Sequence[Growth]) -> Generator[None, None, moderngl.TextureArray]:
-    """Do what `carpet_texture` does a piece at a time."""
-    every = [carpet_of(model).texels for growth in growths for model in growth.models]
-    images = [texels.reshape(-1, *texels.shape[2:]) for texels in every]
+    """Make the texture of `carpet_texture`, a piece at a time."""
+    by_model = [carpet_of(model).texels for growth in growths for model in growth.models]
+    images = [texels.reshape(-1, *texels.shape[2:]) for texels in by_model]
     layers, (rows, columns) = image_count(growths), images[0].shape[1:3]
     if stack_for(ctx, layers) > 1:
         texture = yield from mipmapping(ctx, [_whole(np.concatenate(images))])
         texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         return texture
     texture = ctx.texture_array((columns, rows, layers), 4)
-    each, at = max(PIECE // images[0][0].nbytes, 1), 0
+    piece, layer = max(PIECE // images[0][0].nbytes, 1), 0
     for of_model in images:
-        for first in range(0, len(of_model), each):
-            part = np.ascontiguousarray(of_model[first : first + each])
-            texture.write(part, viewport=(0, 0, at, columns, rows, len(part)))
-            at += len(part)
+        for first in range(0, len(of_model), piece):
+            part = np.ascontiguousarray(of_model[first : first + piece])
+            texture.write(part, viewport=(0, 0, layer, columns, rows, len(part)))
+            layer += len(part)
             yield
     texture.build_mipmaps()
     texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
@@ -40,12 +40,12 @@ def sending_carpet(ctx: moderngl.Context, growths: Sequence[Growth]) -> Generato
 
 
 def image_count(growths: Sequence[Growth], /) -> int:
-    """Return how many images there are."""
+    """Return the number of images of all growths."""
     return sum(int(np.prod(carpet_of(model).texels.shape[:2])) for growth in growths for model in growth.models)
 
 
 def _whole(images: Bytes) -> Bytes:
-    """Return images (layers, side, side, 4) with sides of a power of two: they go on beyond their edges."""
+    """Return images (layers, side, side, 4) resampled to the next power of two, as they repeat."""
     side = images.shape[1]
     whole = 1 << (side - 1).bit_length()
     nearest = np.arange(whole) * side // whole
@@ -53,13 +53,13 @@ def _whole(images: Bytes) -> Bytes:
 
 
 def bents_of(growths: Sequence[Growth], /) -> Floats:
-    """Return `Carpet.bent` of all kinds, models taken in the mean, (kinds, slopes, bends, 4)."""
+    """Return `Carpet.bent` of all kinds, averaged over models and padded by a channel, (kinds, slopes, bends, 4)."""
     tables = np.stack([np.mean([carpet_of(model).bent for model in growth.models], axis=0) for growth in growths])
     return np.pad(tables, ((0, 0), (0, 0), (0, 0), (0, 1)))
 
 
 def bent_texture(ctx: moderngl.Context, texels: NDArray[np.float16]) -> moderngl.TextureArray:
-    """Return `bents_of` as a texture, a layer for each kind: bends are columns, slopes rows."""
+    """Return a table of `bents_of` as a texture: kinds are layers, slopes rows, bends columns."""
     layers, rows, columns, _ = texels.shape
     texture = ctx.texture_array((columns, rows, layers), 4, texels.tobytes(), dtype="f2")
     texture.filter = (moderngl.LINEAR, moderngl.LINEAR)

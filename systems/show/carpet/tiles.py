@@ -1,4 +1,4 @@
-"""Square tiles of the ground, coarser with distance: which there are, are seen, and are drawn by each layer."""
+"""Square tiles of the ground, coarser with distance: their layout, culling, grids and triangle orders."""
 
 from math import cos, sin
 
@@ -12,32 +12,38 @@ from .rims import Rims
 Tiles = NDArray[np.float64]
 
 TILE = np.dtype([("tile", "4f4"), ("piece", "3f4")])
+"""Instance record of a tile or of a piece of one. `tile`: low corner (x, z) [m]; grid spacing [m]; distance at which
+the next coarser spacing has taken over [m], negative if rims alone ask for the tile. `piece`: grid coordinates of the
+piece's start, 0 for whole tiles; sum of `SKIRTS`."""
+
 GRID = 8
 """Quads along a side of a tile."""
 
 PIECE = 2
-"""Quads along a side of a piece of one: as few as one may have whose points are twice as far apart."""
+"""Quads along a side of a piece of a tile: the fewest that a grid with a stride of 2 allows."""
 
 FINE, COARSENESS = 1.25, 0.3
-"""Largest distance between grid points near the viewer: on cells of 1 m and more, and on the smallest cells [m]."""
+"""Largest grid spacing near the viewer: on cells of 1 m and more, and on the smallest cells [m]."""
 
 SPREAD = 6.0
-"""Distance at which a spacing gives way to the next, in tile sides: the farthest corner of a tile of twice the side
-that is split must lie inside it."""
+"""Distance at which a spacing gives way to the next coarser one, in tile sides: when a tile of twice the side is split,
+its farthest corner must lie inside."""
 
 OUTWARD = np.array([False, True, True, False])
-"""Of the sides of a border, to low z, high z, low x and high x: whether triangles down from it look out of the tile."""
+"""Whether a skirt's triangles, in the order of its vertices, face out of the piece, for the sides of `SKIRTS`."""
 
 ORDERS = 8
-"""Orders in which the triangles of a tile are drawn."""
+"""Number of orders in which the triangles of a tile may be drawn."""
 
-PARTED = 1.5 * SPREAD * GRID
-"""How far tiles reach at least, of their spacing, that are a quarter of one."""
+QUARTERED = 1.5 * SPREAD * GRID
+"""Smallest ratio of take-over distance to spacing in `TILE` that marks a quarter of a tile."""
 
-HANGS = 1, 2, 4, 8
-"""What `piece` of `TILE` has for sides of a piece whose border hangs down: to low z, high z, low x and high x."""
+SKIRTS = 1, 2, 4, 8
+"""Bits for the sides of a piece that have a skirt, a border that hangs down: low z, high z, low x and high x."""
 
-GLSL = {"PARTED": PARTED, "PIECE": float(PIECE)} | dict(zip(("LOW_Z", "HIGH_Z", "LOW_X", "HIGH_X"), HANGS, strict=True))
+GLSL = {"QUARTERED": QUARTERED, "PIECE": float(PIECE)} | dict(
+    zip(("LOW_Z", "HIGH_Z", "LOW_X", "HIGH_X"), SKIRTS, strict=True)
+)
 
 
 def tiles_around(
@@ -48,16 +54,16 @@ def tiles_around(
     spacing: float,
     about: float = 0.0,
     rims: Rims | None = None,
-    parted: bool = False,
+    quartered: bool = False,
 ) -> Tiles:
-    """Return the tiles that cover a terrain and what is beyond it, for who is near a place (x, z) [m], shape (n, 4).
+    """Return the tiles (n, 4), rows as in `TILE`, that cover a terrain and what is beyond it.
 
-    "Near" is at most `about` [m] away, which may be a third of the finest tiles' side. A tile of `GRID` quads is split
-    in four while it is nearer than `SPREAD` sides of its quarters, down to `spacing` [m] between grid points. At `rims`
-    tiles count as nearer, and are split as often as it takes for each cell of the terrain. A row is what `TILE` says.
-    With `parted`, the finest that no rim asks for come as four each, of half their spacing, which reach as far as they.
+    They suit every eye within `about` [m] of a place (x, z) [m]; `about` may be a third of the finest tiles' side. A
+    tile of `GRID` quads is split in four while it is nearer than `SPREAD` sides of its quarters, down to a grid spacing
+    of `spacing` [m]. At `rims` tiles count as nearer, and are split down to the terrain's cells. With `quartered`, each
+    of the finest tiles that no rim asks for comes as four quarters of half the spacing and the same take-over distance.
     """
-    more = 0 if rims is None else max(int(np.ceil(np.log2(spacing / terrain.cell))), 0)
+    extra_levels = 0 if rims is None else max(int(np.ceil(np.log2(spacing / terrain.cell))), 0)
     side = spacing * GRID
     edge, size = np.asarray(terrain.origin) - terrain.beyond, np.asarray(terrain.size) + 2.0 * terrain.beyond
     levels = max(0, int(np.ceil(np.log2(max(size) / side))))
@@ -66,15 +72,15 @@ def tiles_around(
     counts = np.ceil((edge + size - low) / side).astype(int)
     corners = low + side * np.stack(np.meshgrid(*map(np.arange, counts)), -1).reshape(-1, 2)
     done: list[Tiles] = []
-    for level in range(levels, -1 - more, -1):
+    for level in range(levels, -1 - extra_levels, -1):
         corners = corners[((corners < edge + size) & (corners + side > edge)).all(axis=1)]
         near = _nearest(corners, side, place) - about if level > 0 else np.full(len(corners), np.inf)
         if rims is not None:
             reach = HALF_DIAGONAL * side + about
-            near = np.minimum(near, rims.near_to(corners + 0.5 * side, np.array(place)) - reach)
-        split = (near < SPREAD * side / 2) if level > -more else np.zeros(len(corners), np.bool_)
+            near = np.minimum(near, rims.mesh_distance(corners + 0.5 * side, np.array(place)) - reach)
+        split = (near < SPREAD * side / 2) if level > -extra_levels else np.zeros(len(corners), np.bool_)
         kept, far = corners[~split], SPREAD * side * (1.0 if level >= 0 else -1.0)
-        if parted and level == 0:
+        if quartered and level == 0:
             done.append(_rows(_in_four(kept, side), side / 2.0, far))
         else:
             done.append(_rows(kept, side, far))
@@ -84,22 +90,22 @@ def tiles_around(
 
 
 def _rows(corners: Tiles, side: float, far: float) -> Tiles:
-    """Return what `TILE` says of tiles with these corners (n, 2), of a side [m], shape (n, 4)."""
+    """Return rows of `TILE`, (n, 4), of tiles with these low corners (n, 2), a side and a take-over distance [m]."""
     return np.column_stack([corners, np.full(len(corners), side / GRID), np.full(len(corners), far)])
 
 
 def _in_four(corners: Tiles, side: float) -> Tiles:
-    """Return the corners of the quarters (4 n, 2) of tiles with these corners (n, 2), of a side [m]."""
+    """Return the low corners (4 n, 2) of the quarters of tiles with low corners (n, 2) and a side [m]."""
     return (corners[:, None, :] + 0.5 * side * np.array([[0, 0], [1, 0], [0, 1], [1, 1]])).reshape(-1, 2)
 
 
 def tiles_seen(tiles: Tiles, eye: tuple[float, float, float], cone: tuple[float, float], /) -> NDArray[np.void]:
-    """Return those of `tiles_around` (n, 4) that may be seen, records of `TILE`, far to near."""
+    """Return the tiles, of those of `tiles_around` (n, 4), that may be seen: records of `TILE`, far to near."""
     return records_of(tiles, which_seen(tiles, eye, cone))
 
 
 def which_seen(tiles: Tiles, eye: tuple[float, float, float], cone: tuple[float, float], /) -> NDArray[np.intp]:
-    """Return the numbers of those of `tiles_around` (n, 4) that may be seen, far to near."""
+    """Return the row numbers of the tiles, of `tiles_around` (n, 4), that may be seen, far to near."""
     side = tiles[:, 2] * GRID
     x, z = tiles[:, 0] + 0.5 * side, tiles[:, 1] + 0.5 * side
     seen = (beyond_cone(x, z, apex=(eye[0], eye[2]), cone=cone) <= 0.75 * side).nonzero()[0]
@@ -107,10 +113,10 @@ def which_seen(tiles: Tiles, eye: tuple[float, float, float], cone: tuple[float,
     return seen.take(np.argsort(-(across * across + along * along)))
 
 
-def records_of(tiles: Tiles, which: NDArray[np.intp], /) -> NDArray[np.void]:
-    """Return some of `tiles_around` (n, 4) whole, records of `TILE`."""
-    found = np.zeros(len(which), TILE)
-    found["tile"] = tiles.take(which, axis=0)
+def records_of(tiles: Tiles, rows: NDArray[np.intp], /) -> NDArray[np.void]:
+    """Return the records of `TILE` of some rows of `tiles_around` (n, 4), as whole tiles."""
+    found = np.zeros(len(rows), TILE)
+    found["tile"] = tiles.take(rows, axis=0)
     return found
 
 
@@ -123,14 +129,14 @@ def ground_tiles(
     spacing: float,
     rims: Rims | None = None,
 ) -> NDArray[np.void]:
-    """Return the tiles that cover what is seen of the ground, records of `TILE`, far to near."""
+    """Return the tiles that cover the visible ground, records of `TILE`, far to near."""
     return tiles_seen(tiles_around(terrain, (eye[0], eye[2]), spacing=spacing, rims=rims), eye, cone)
 
 
 def finest_spacing(terrain: Terrain, patch: float, /) -> float:
-    """Return the distance between grid points near the viewer [m], a whole fraction of a patch's side.
+    """Return the grid spacing near the viewer [m], a whole fraction of a patch's side.
 
-    It is fine enough for the terrain's own cells, so that no root stands in the air or in the ground.
+    It resolves the terrain's cells, so that no root stands in the air or in the ground.
     """
     enough = min(FINE, max(FINE * terrain.cell, COARSENESS))
     return float(patch / 2.0 ** max(1, int(np.ceil(np.log2(patch / enough)))))
@@ -161,42 +167,43 @@ def meets_terrain(tiles: NDArray[np.void], terrain: Terrain, /) -> NDArray[np.bo
 
 
 def _nearest(corners: Tiles, side: float, place: tuple[float, float]) -> Tiles:
+    """Return the distance (n,) from a place (x, z) to the tiles with these low corners (n, 2) and a side [m]."""
     here = np.array(place)
     away: Tiles = np.linalg.norm(here - np.clip(here, corners, corners + side), axis=1)
     return away
 
 
-def tile_grid(wider: int = 1, /, *, quads: int = GRID) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
-    """Return the grid points (n, 2) of a tile, or of a piece of fewer quads, and the corners of its triangles, (m, 6).
+def tile_grid(stride: int = 1, /, *, quads: int = GRID) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+    """Return the grid points (n, 2) of a tile or piece, and the corners of its triangles, two per quad, (m, 6).
 
-    Corners are `wider` grid points apart.
+    Corners are `stride` grid points apart.
     """
-    line, firsts = np.arange(quads + 1), np.arange(0, quads, wider)
+    line, firsts = np.arange(quads + 1), np.arange(0, quads, stride)
     corners = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2).astype(np.float32)
-    first, up = (firsts[:, None] * (quads + 1) + firsts).reshape(-1, 1), wider * (quads + 1)
-    quad = np.array([0, up, wider, wider, up, up + wider])
+    first, up = (firsts[:, None] * (quads + 1) + firsts).reshape(-1, 1), stride * (quads + 1)
+    quad = np.array([0, up, stride, stride, up, up + stride])
     return corners, (first + quad).astype(np.int32)
 
 
-def hanging_grid(wider: int = 1, /, *, quads: int = GRID) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
-    """Return the same with a border that hangs down: its lower corners lie beyond the grid."""
-    corners, triangles = tile_grid(wider, quads=quads)
+def skirted_grid(stride: int = 1, /, *, quads: int = GRID) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+    """Return `tile_grid` with a skirt. Its vertices lie beyond the grid: the upper ones by 0.5, the lower ones by 1."""
+    corners, triangles = tile_grid(stride, quads=quads)
     line, beyond = np.arange(quads + 1.0), list[NDArray[np.float32]]()
-    for off in (0.5, 1.0):  # just under the border, and on the ground
+    for off in (0.5, 1.0):  # upper vertices, just under the border; lower ones, on the ground
         for axis in (0, 1):
             ends = (-off, quads + off)
             beyond += [np.insert(line[:, None], 1 - axis, end, axis=1).astype(np.float32) for end in ends]
-    upper = len(corners) + (quads + 1) * np.arange(4)[:, None] + np.arange(0, quads, wider)
+    upper = len(corners) + (quads + 1) * np.arange(4)[:, None] + np.arange(0, quads, stride)
     lower = upper + 4 * (quads + 1)
     first, other = np.where(OUTWARD[:, None], upper, lower), np.where(OUTWARD[:, None], lower, upper)
-    hangs = np.stack([first, other, first + wider, first + wider, other, other + wider], axis=-1).reshape(-1, 6)
-    return np.concatenate([corners, *beyond]).astype(np.float32), np.concatenate([triangles, hangs]).astype(np.int32)
+    skirt = np.stack([first, other, first + stride, first + stride, other, other + stride], axis=-1).reshape(-1, 6)
+    return np.concatenate([corners, *beyond]).astype(np.float32), np.concatenate([triangles, skirt]).astype(np.int32)
 
 
 def in_orders(corners: NDArray[np.float32], triangles: NDArray[np.int32], /) -> NDArray[np.int32]:
-    """Return triangles (m, 6) of a tile in each order that `order_toward` may choose, (ORDERS * m, 6).
+    """Return the triangles (m, 6) of a tile in each order that `order_toward` may choose, (ORDERS * m, 6).
 
-    Over a crest a carpet lets through what is behind, but writes its depth: so that has to be drawn before.
+    Over a crest the carpet is translucent but writes depth, so what is behind it has to be drawn first.
     """
     x, z = corners[triangles].mean(axis=1).T
     keys = [(x * (1 - 2 * (number & 1)), z * (1 - (number & 2))) for number in range(ORDERS)]
@@ -205,9 +212,9 @@ def in_orders(corners: NDArray[np.float32], triangles: NDArray[np.int32], /) -> 
 
 
 def order_toward(azimuth: float, /) -> int:
-    """Return which of `in_orders` goes from far to near for who looks that way [rad]: first along the nearer axis.
+    """Return the order of `in_orders` that is far to near along an azimuth [rad]: first along the axis nearest to it.
 
-    With bit 0 it is by x downwards, with bit 1 by z downwards, and with bit 2 by x first.
+    Bit 0: descending x. Bit 1: descending z. Bit 2: sorted by x first.
     """
     right, back = sin(azimuth), -cos(azimuth)
     return (right > 0.0) + 2 * (back > 0.0) + 4 * (abs(right) > abs(back))

@@ -90,14 +90,14 @@ def test_tiles_are_fine_near_the_viewer_and_coarser_with_distance(eye: tuple[flo
 
 def test_the_finest_tiles_may_come_in_four_that_cover_the_same_ground() -> None:
     eye = (3.0, 1.7, 4.0)
-    whole, parted = (tiles_around(WIDE, (eye[0], eye[2]), spacing=SPACING, parted=each) for each in (False, True))
+    whole, quartered = (tiles_around(WIDE, (eye[0], eye[2]), spacing=SPACING, quartered=each) for each in (False, True))
     finest = whole[:, 2] == SPACING
-    assert len(parted) == len(whole) + 3 * finest.sum()
-    fine = parted[:, 2] == SPACING / 2
+    assert len(quartered) == len(whole) + 3 * finest.sum()
+    fine = quartered[:, 2] == SPACING / 2
     assert fine.sum() == 4 * finest.sum() > 0
-    assert set(parted[fine, 3]) == set(whole[finest, 3])
+    assert set(quartered[fine, 3]) == set(whole[finest, 3])
     place = np.random.default_rng(0).uniform(-290, 290, (400, 2)) * (1.0, 0.6)
-    assert (covering(tiles_seen(parted, eye, ALL_ROUND), place) == 1).all()
+    assert (covering(tiles_seen(quartered, eye, ALL_ROUND), place) == 1).all()
 
 
 def test_t5_tiles_come_from_far_to_near() -> None:
@@ -170,12 +170,12 @@ def corners(
     grid = ctx.buffer(np.stack(np.meshgrid(line, line), -1).reshape(-1, 2))
 
     def place(
-        tiles: NDArray[np.void], eye: tuple[float, float, float], rims: Rims | None = None, wider: int = 1
+        tiles: NDArray[np.void], eye: tuple[float, float, float], rims: Rims | None = None, stride: int = 1
     ) -> NDArray[np.float32]:
-        set_uniform(made, "wider", float(wider))
+        set_uniform(made, "stride", float(stride))
         if rims is not None:
             textures["rims"].release()
-            textures["rims"] = ctx.texture(rims.far.shape[::-1], 1, rims.far.tobytes(), dtype="f4")
+            textures["rims"] = ctx.texture(rims.distance.shape[::-1], 1, rims.distance.tobytes(), dtype="f4")
             textures["rims"].repeat_x = textures["rims"].repeat_y = False
         record["eye"] = eye
         block.write(record)
@@ -189,7 +189,7 @@ def corners(
         array.transform(result, moderngl.POINTS, vertices=points, instances=len(tiles))
         found = np.frombuffer(result.read(), np.float32).reshape(len(tiles), GRID + 1, GRID + 1, 3)
         release_all(array, rows, result)
-        return found[:, ::wider, ::wider]
+        return found[:, ::stride, ::stride]
 
     yield place
     release_all(made, grid, block, *textures.values())
@@ -207,10 +207,10 @@ def borders(points: NDArray[np.float32]) -> list[NDArray[np.float32]]:
 def test_t1_tiles_of_different_fineness_meet_without_cracks_for_all_who_stand_about_there(
     corners: Corners, hills: Terrain, eye: tuple[float, float, float], off: float, *, coarse: bool
 ) -> None:
-    around = tiles_around(hills, (eye[0] + off, eye[2]), spacing=0.125, about=abs(off), parted=coarse)
+    around = tiles_around(hills, (eye[0] + off, eye[2]), spacing=0.125, about=abs(off), quartered=coarse)
     tiles = tiles_seen(around, eye, ALL_ROUND)
     assert len(set(tiles["tile"][:, 2].tolist())) >= 4
-    points = corners(tiles, eye, wider=1 + coarse)
+    points = corners(tiles, eye, stride=1 + coarse)
     everything = np.unique(np.round(np.concatenate([np.concatenate(borders(tile)) for tile in points]), 3), axis=0)
     checked = 0
     for tile in points:
@@ -231,23 +231,23 @@ def cliff(hills: Terrain) -> Rims:
     """As if a rim went across the hills."""
     x, z = ((np.arange(60) + 0.5) * side / 60 - side / 2 for side in hills.size)
     rims = Rims(hills)
-    rims.far = np.maximum(np.abs(z[:, None] - 0.3 * x - 4.0) / 1.05 - 1.0, 0.0).astype(np.float32)
+    rims.distance = np.maximum(np.abs(z[:, None] - 0.3 * x - 4.0) / 1.05 - 1.0, 0.0).astype(np.float32)
     rims.version = 1
     return rims
 
 
-@pytest.mark.parametrize("parted", [False, True])
+@pytest.mark.parametrize("quartered", [False, True])
 @pytest.mark.parametrize("eye", [(0.3, 3.0, 0.7), (-31.0, 3.0, 17.0), (7.77, 3.0, -22.2)])
 def test_t1_tiles_meet_without_cracks_at_rims_of_cliffs_where_they_are_finer(
-    corners: Corners, hills: Terrain, cliff: Rims, eye: tuple[float, float, float], *, parted: bool
+    corners: Corners, hills: Terrain, cliff: Rims, eye: tuple[float, float, float], *, quartered: bool
 ) -> None:
     spacing = 2.5
-    around = tiles_around(hills, (eye[0], eye[2]), spacing=spacing, rims=cliff, parted=parted)
+    around = tiles_around(hills, (eye[0], eye[2]), spacing=spacing, rims=cliff, quartered=quartered)
     tiles = tiles_seen(around, eye, ALL_ROUND)
     assert tiles["tile"][:, 2].min() <= hills.cell < spacing
     assert len(tiles) < 4 * len(ground_tiles(hills, eye, ALL_ROUND, spacing=spacing))
     ways: dict[tuple[tuple[float, ...], ...], int] = {}
-    for tile in corners(tiles, eye, cliff, 1 + parted):
+    for tile in corners(tiles, eye, cliff, 1 + quartered):
         for edge in borders(tile):
             at = np.round(edge[:, ::2].astype(float), 2) + 0.0
             for one, other in zip(map(tuple, at), map(tuple, at[1:]), strict=False):
@@ -264,7 +264,7 @@ def test_rims_are_found_where_the_ground_breaks_off_and_nowhere_else() -> None:
     for heights, found in ((5.0 * np.sin(z / 15.0), False), (np.clip(60.0 - z, 0.0, 12.0) + 0.0 * x, True)):
         rims = Rims(Terrain(heights.astype(np.float32), 1.0))
         assert rims.any == found
-    away = rims.near_to(np.array([(0.0, z - 50.0) for z in (48.0, 60.0, 90.0)]), np.zeros(2))
+    away = rims.mesh_distance(np.array([(0.0, z - 50.0) for z in (48.0, 60.0, 90.0)]), np.zeros(2))
     assert away[0] < 2.0
     assert away[2] > away[1] > away[0]
     terrain = Terrain(np.zeros((101, 101), np.float32), 1.0)
@@ -285,7 +285,7 @@ def test_rims_that_a_game_makes_and_takes_away_are_those_of_the_ground_as_it_is(
         terrain.put(part, np.full(shape, height, np.float32), np.zeros(shape, np.bool_))
         followed.follow()
         found = Rims(terrain)
-        np.testing.assert_array_equal(followed.far, found.far)
+        np.testing.assert_array_equal(followed.distance, found.distance)
         assert followed.any == found.any
 
 

@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 
 from tallgrass.components.arrays import Mask
 from tallgrass.engine.terrain.record import Terrain
-from tallgrass.systems.show.carpet.holes import Stretches
-from tallgrass.systems.show.carpet.pieces import PIECES, ByLayer, Parted, by_layer, part, whole
+from tallgrass.systems.show.carpet.holes import Rectangles
+from tallgrass.systems.show.carpet.pieces import PIECES, ByLayer, PieceEdges, by_layer, find_edges, no_edges
 from tallgrass.systems.show.carpet.tiles import (
     GRID,
-    HANGS,
     PIECE,
+    SKIRTS,
     Tiles,
     records_of,
     tiles_around,
@@ -29,18 +29,18 @@ CORNER = (31.0, 11.0)
 """Where grass ends: in a corner of a tile."""
 
 
-def touches(stretches: Stretches) -> Mask:
+def touches(rectangles: Rectangles) -> Mask:
     """Return which have that corner in them."""
-    low_x, high_x, low_z, high_z = stretches
+    low_x, high_x, low_z, high_z = rectangles
     x, z = CORNER
     return np.asarray((low_x <= x) & (x < high_x) & (low_z <= z) & (z < high_z))
 
 
-def laid_out(tiles: Tiles, *, wider: int = 1, off: float = 0.0, laid: bool = True) -> ByLayer:
+def laid_out(tiles: Tiles, *, stride: int = 1, offset: float = 0.0, laid: bool = True) -> ByLayer:
     records = records_of(tiles, which_seen(tiles, EYE, ALL_ROUND))
     seen = which_seen(tiles, EYE, ALL_ROUND)
-    parted = part(tiles, touches, wider=wider, off=off).of(seen)
-    return by_layer(records, np.full(len(records), laid), parted, EYE)
+    edges = find_edges(tiles, touches, stride=stride, offset=offset).take(seen)
+    return by_layer(records, np.full(len(records), laid), edges, EYE)
 
 
 def lies_on(records: NDArray[np.void], *, quads: int) -> NDArray[np.float64]:
@@ -80,7 +80,7 @@ def test_t1_every_place_is_under_one_tile_or_one_piece(*, laid: bool) -> None:
 def test_without_edges_tiles_are_drawn_whole() -> None:
     tiles = tiles_seen(tiles_around(WIDE, EYE[::2], spacing=SPACING), EYE, ALL_ROUND)
     laid = np.arange(len(tiles)) % 2 == 0
-    drawn = by_layer(tiles, laid, whole(tiles), EYE)
+    drawn = by_layer(tiles, laid, no_edges(tiles), EYE)
     np.testing.assert_array_equal(drawn.even, tiles[laid])
     np.testing.assert_array_equal(drawn.bare, tiles[~laid])
     assert not any(map(len, (drawn.bare_pieces, drawn.even_pieces, drawn.edged, drawn.edged_carpet)))
@@ -107,8 +107,8 @@ def test_borders_hang_down_but_for_those_between_pieces_with_edges() -> None:
     tiles = tiles_seen(tiles_around(WIDE, EYE[::2], spacing=SPACING), EYE, ALL_ROUND)[:1]
     edged = np.zeros((1, PIECES), np.bool_)
     edged[0, [5, 6]] = True  # one beside the other along x
-    drawn = by_layer(tiles, np.ones(1, np.bool_), Parted(edged, edged), EYE)
-    low_z, high_z, low_x, high_x = HANGS
+    drawn = by_layer(tiles, np.ones(1, np.bool_), PieceEdges(edged, edged), EYE)
+    low_z, high_z, low_x, high_x = SKIRTS
     hangs = dict(
         zip(map(tuple, drawn.edged["piece"][:, :2].tolist()), drawn.edged["piece"][:, 2].tolist(), strict=True)
     )
@@ -118,9 +118,9 @@ def test_borders_hang_down_but_for_those_between_pieces_with_edges() -> None:
 def test_a_piece_has_an_edge_that_it_comes_to_as_its_points_slide_or_lie_at_a_rim() -> None:
     tiles = tiles_around(WIDE, EYE[::2], spacing=SPACING)
     fine, slid, rim = (
-        len(laid_out(tiles, wider=wider, off=off).edged) for wider, off in ((1, 0.0), (2, 0.0), (1, 1.0))
+        len(laid_out(tiles, stride=stride, offset=offset).edged) for stride, offset in ((1, 0.0), (2, 0.0), (1, 1.0))
     )
     assert fine == 1
     assert slid == rim == 4
-    parted = tiles_around(WIDE, EYE[::2], spacing=SPACING, parted=True)
-    assert len(laid_out(parted, wider=2).edged) > slid
+    quartered = tiles_around(WIDE, EYE[::2], spacing=SPACING, quartered=True)
+    assert len(laid_out(quartered, stride=2).edged) > slid

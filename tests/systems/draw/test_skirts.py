@@ -3,18 +3,18 @@
 import numpy as np
 import pytest
 
-from tallgrass.systems.show.carpet.tiles import ORDERS, PIECE, hanging_grid, in_orders, order_toward, tile_grid
+from tallgrass.systems.show.carpet.tiles import ORDERS, PIECE, in_orders, order_toward, skirted_grid, tile_grid
 
 
-@pytest.mark.parametrize("wider", [1, 2])
-def test_triangles_of_a_border_look_out_of_the_piece_on_all_sides_as_those_of_the_sheet_look_up(wider: int) -> None:
-    corners, quads = hanging_grid(wider, quads=PIECE)
+@pytest.mark.parametrize("stride", [1, 2])
+def test_triangles_of_a_border_look_out_of_the_piece_on_all_sides_as_those_of_the_sheet_look_up(stride: int) -> None:
+    corners, quads = skirted_grid(stride, quads=PIECE)
     above = corners.clip(0.0, PIECE)
     down = np.abs(corners - above).max(axis=1)
     places = np.stack([above[:, 0], -down, above[:, 1]], axis=1)
     triangles = places[quads.reshape(-1, 3)]
     sides = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    sheet = 2 * len(tile_grid(wider, quads=PIECE)[1])
+    sheet = 2 * len(tile_grid(stride, quads=PIECE)[1])
     assert (sides[:sheet, 1] > 0.0).all()
     outwards = triangles[sheet:].mean(axis=1)[:, ::2] - PIECE / 2.0
     seen_from = np.abs(outwards) > PIECE / 2.0 - 1e-3
