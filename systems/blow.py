@@ -13,7 +13,7 @@ from .around.outlook import Outlook
 from .around.receivers import Receiving
 from .grow.record import Growth
 from .space.cone import HALF_DIAGONAL
-from .wind.blow import Blowing, ReceiverArrays, places_alone
+from .wind.blow import Blowing, ReceiverArrays, lone_receivers
 from .wind.grass import grass_of
 
 
@@ -69,7 +69,7 @@ class Blow:
     def _messages(self, receiving: Receiving, time: float, slots: NDArray[np.int64]) -> Floats:
         """Return the messages (n, 2) at `time` [s] to the receivers in some slots of a pool."""
         place = receiving.pool.places(slots).reshape(-1, 2)
-        alone = places_alone(place, grass_of(self.growths, receiving.pool.kind(slots)))
+        alone = lone_receivers(place, grass_of(self.growths, receiving.pool.kind(slots)))
         return self.hear(replace(alone, still=len(place) if receiving.still else 0), time=time)
 
 

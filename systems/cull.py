@@ -8,8 +8,8 @@ from math import pi
 import numpy as np
 
 from .around.outlook import Outlook
-from .space.cone import HALF_DIAGONAL, beyond_cone
-from .space.frustum import beyond_sides
+from .space.cone import HALF_DIAGONAL, outside_cone
+from .space.frustum import outside_planes_on_grid
 
 HIGH_UP = 10.0
 """Height above the highest ground around from which the frustum's upper and lower planes are worth testing [m]."""
@@ -36,10 +36,10 @@ class Cull:
     def _run(self, outlook: Outlook) -> None:
         patches, viewer = outlook.patches, outlook.viewer
         patches.was_visible[:] = patches.visible
-        beyond = beyond_cone(*patches.lines, apex=(viewer.eye[0], viewer.eye[2]), cone=viewer.cone)
+        outside = outside_cone(*patches.lines, apex=(viewer.eye[0], viewer.eye[2]), cone=viewer.cone)
         if viewer.cone[1] >= pi or viewer.eye[1] > HIGH_UP + float(patches.height.max()):
             heights = patches.height.reshape(patches.side, patches.side)
-            beyond = np.maximum(beyond, beyond_sides(*patches.lines, heights, viewer.sides))
-        beyond = beyond.ravel()
-        np.less_equal(beyond, HALF_DIAGONAL * self.patch + self.sway, out=patches.visible)
-        np.less_equal(beyond, 2.0 * self.patch + self.sway, out=patches.near)
+            outside = np.maximum(outside, outside_planes_on_grid(*patches.lines, heights, viewer.sides))
+        outside = outside.ravel()
+        np.less_equal(outside, HALF_DIAGONAL * self.patch + self.sway, out=patches.visible)
+        np.less_equal(outside, 2.0 * self.patch + self.sway, out=patches.near)

@@ -114,8 +114,8 @@ class Painter(Holding):
             with aside(self.ctx, target):
                 return self._prepare()
         scene, blown = site.scene, outlook.noted(Blown, Blown())
-        to = mean_yaw(scene.wind)
-        air.write(blown.winds, time=blown.time, seed=scene.seed, mixing=scene.mixing, to=to)
+        yaw = mean_yaw(scene.wind)
+        air.write(blown.winds, time=blown.time, seed=scene.seed, mixing=scene.mixing, yaw=yaw)
         air.tell(partial(_receivers, outlook, site), self.quarantine, numbers=partial(numbers_of, outlook, self._first))
         with aside(self.ctx, target):
             calls = self._prepare()

@@ -19,13 +19,13 @@ from .show.blades.plant import standing_blades
 from .show.blades.representation import BladeRepresentation
 from .show.carpet.painter import CarpetPainter
 from .space.cone import HALF_DIAGONAL, discrete_distance, inside_cone, view_cone
-from .space.frustum import beyond, beyond_sides, picture_sides
+from .space.frustum import outside_planes, outside_planes_on_grid, picture_sides
 from .space.ground import Ground
 from .space.window import cell_of
 from .tile import cells_on, patch_models
 from .trees.draw import TreePart
 from .trees.standing import PICTURE_BELOW
-from .wind.blow import places_alone
+from .wind.blow import lone_receivers
 from .wind.grass import grass_of
 
 Place = tuple[float, float, float]
@@ -73,8 +73,8 @@ def cells_in_picture(prairie: Prairie, cells: Ints, seen: View, /) -> Ints:
     corners = (cells[:, None] + np.array([(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)])) * patch
     heights = height_at(terrain, corners.reshape(-1, 2).astype(np.float32)).reshape(-1, 4)
     x, z = ((cells.T + 0.5) * patch).astype(np.float64)
-    beyond = beyond_sides(x, z, heights.mean(axis=1), picture_sides(seen))
-    inside: Ints = cells[beyond <= HALF_DIAGONAL * patch + ROOM * site.tallest + np.ptp(heights, axis=1)]
+    outside = outside_planes_on_grid(x, z, heights.mean(axis=1), picture_sides(seen))
+    inside: Ints = cells[outside <= HALF_DIAGONAL * patch + ROOM * site.tallest + np.ptp(heights, axis=1)]
     return inside
 
 
@@ -94,7 +94,7 @@ def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /, *, seen: 
         return 0
     place = np.ascontiguousarray(blades["root"][:, ::2])
     grass = grass_of(site.growths, blades["kind"].astype(np.intp))
-    receivers = places_alone(place, grass)
+    receivers = lone_receivers(place, grass)
     painter.write(blades, prairie.pressers.over(prairie.winds.heard(receivers, time=prairie.time), receivers))
     return len(blades)
 
@@ -104,7 +104,7 @@ def near_picture(blades: NDArray[np.void], seen: View, /) -> NDArray[np.bool_]:
     root = blades["root"].astype(np.float64)
     length = blades["height"] + (blades["stem"] if "stem" in (blades.dtype.names or ()) else 0.0)
     reach = ROOM * length.astype(np.float64) + blades["width"]
-    return np.asarray(beyond(root, picture_sides(seen)) <= reach)
+    return np.asarray(outside_planes(root, picture_sides(seen)) <= reach)
 
 
 def carpet_painter(painter: Painter, /) -> CarpetPainter:

@@ -26,7 +26,7 @@ from .grow.record import Growth
 from .space.canopy import canopy_height, top_over
 from .space.ground import Ground, densest_kind
 from .space.grown import Grown
-from .wind.blow import Blowing, ReceiverArrays, blowing, hear, mean_index, mean_yaw, places_alone
+from .wind.blow import Blowing, ReceiverArrays, blowing, hear, lone_receivers, mean_index, mean_yaw
 from .wind.card import SAMPLERS
 from .wind.grass import grass_of
 from .wind.quarantine import Quarantine, QuarantinedError
@@ -267,8 +267,8 @@ class Winds(Feature):
 
     def heard(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
         """Return the message that each receiver ends up with at `time` [s], shape (n, 2)."""
-        seed, mixing, to = self._scene.seed, self._scene.mixing, mean_yaw(self._scene.wind)
-        return hear(self.now(time), receivers, self.quarantine, time=time, seed=seed, mixing=mixing, to=to)
+        seed, mixing, yaw = self._scene.seed, self._scene.mixing, mean_yaw(self._scene.wind)
+        return hear(self.now(time), receivers, self.quarantine, time=time, seed=seed, mixing=mixing, yaw=yaw)
 
     def at(self, place: Floats, /, *, time: float, kind: int | None = None) -> Floats:
         """Return what grass of a kind, or the densest there, feels at ground positions (n, 2) [m], shape (n, 2)."""
@@ -277,7 +277,7 @@ class Winds(Feature):
     def standing(self, place: Floats, /, *, kind: int | None = None) -> ReceiverArrays:
         """Return receivers in grass of a kind, or of the densest there, at ground positions (n, 2) [m]."""
         kinds = densest_kind(self._ground.density, place) if kind is None else np.full(len(place), kind, np.intp)
-        return places_alone(place, grass_of(self._growths, kinds))
+        return lone_receivers(place, grass_of(self._growths, kinds))
 
     def _revive(self) -> None:
         """Let the winds of the scene be entities again after the game has cleared its world; say so once."""

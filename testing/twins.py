@@ -13,7 +13,7 @@ from ..components.wind import Grass, Mixing, WindPrimitive, WindSource
 from ..engine.gl.stream import release_all
 from ..engine.gl.units import FIRST_UNIT
 from ..systems.grow.record import Response
-from ..systems.wind.blow import Blowing, ReceiverArrays, hear, places_alone
+from ..systems.wind.blow import Blowing, ReceiverArrays, hear, lone_receivers
 from ..systems.wind.card import SAMPLERS, CardWinds
 from ..systems.wind.quarantine import Quarantine
 from ..systems.wind.twin import TwinError, twin_of
@@ -55,7 +55,7 @@ def _differences(ear: "CardEar", wind: WindPrimitive, seed: int) -> list[str]:
         for part in wind.parts(time=time, seed=seed):
             extent = part.extent(time=time)
             place = crowd(extent, _CROWD)
-            receivers, now = places_alone(place, grass_at(place)), [Blowing(source, part, HERE, extent, seed, 1.0)]
+            receivers, now = lone_receivers(place, grass_at(place)), [Blowing(source, part, HERE, extent, seed, 1.0)]
             for mixing in ("priority", "weight"):
                 due = hear(now, receivers, Quarantine(), time=time, seed=seed, mixing=mixing)
                 found = ear.hear(now, receivers, Quarantine(), time=time, seed=seed, mixing=mixing)

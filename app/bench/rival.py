@@ -17,7 +17,7 @@ from ...systems.reference import terrain_cells
 from ...systems.show.blades.plant import BladeStock
 from ...systems.show.blades.representation import BladeRepresentation
 from ...systems.site import Site
-from ...systems.space.frustum import beyond, picture_sides
+from ...systems.space.frustum import outside_planes, picture_sides
 from ...systems.tile import patch_models
 from ...systems.wind.breeze import Breeze
 
@@ -89,7 +89,7 @@ class ByHand:
         """Choose the tiles that are seen, and how many blades of each, and send them."""
         eye = np.array(view.eye)
         planes = picture_sides(view, ends=True).astype(np.float32)
-        seen = np.flatnonzero(beyond(self._middle, planes) <= self._radius)
+        seen = np.flatnonzero(outside_planes(self._middle, planes) <= self._radius)
         away = np.linalg.norm(self._middle[seen] - eye.astype(np.float32), axis=1)
         order = np.argsort(away)
         seen, away = seen[order], away[order]

@@ -1,4 +1,4 @@
-"""Features: what a prairie has beside its grass, and all that painters, reloads and the frame block ask of it."""
+"""Features: things in a prairie beside its grass, and their hooks into painting, reloading and the frame block."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -20,63 +20,66 @@ Eye = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Start:
-    """What there is when features are made."""
+    """Inputs that features are made from."""
 
     world: World
     grown: Grown
     quarantine: Quarantine
     live: bool
-    """Whether somebody watches while pictures are drawn."""
+    """Whether frames are watched as they are drawn, as in a game and not in a film."""
 
 
 class Heard(Protocol):
-    """What patches around a viewer have heard of the wind, as textures: of each, wrapping round, and their mean."""
+    """The wind around a viewer: textures of the messages to each patch, which wraps round, and of their mean."""
 
     texture: moderngl.Texture
     mean: moderngl.Texture
 
 
 class Part:
-    """What one GL context holds of a feature, and the drawing of it; a frame calls its methods in this order."""
+    """A feature's share of one GL context: it holds buffers and textures, and draws them.
+
+    A frame calls the methods in this order.
+    """
 
     def make_ready(self, grown: Grown, /) -> None:
-        """Make all that a game may come to need in GL, so that no frame does: it is asked where a game prepares."""
+        """Allocate all that a game may come to need in GL, so that no frame has to; `Prairie.prepare` calls it."""
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
-        """Pretend until the next frame that there is whatever it draws otherwise for: drivers work when they draw."""
+        """Make every draw call in the next frame, even of absent things: drivers finish programs at the first draw."""
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
-        """Take over what is other than before, and write it into the frame's record (1,)."""
+        """Apply changes since the last frame, and write them into the frame block's record (1,)."""
 
     def defines(self) -> Mapping[str, str | int]:
-        """Return what the programs of representations are told: where it changes, they are made anew."""
+        """Return defines for the programs of representations; when these change, the programs are compiled anew."""
         return {}
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
-        """Send what a viewer is shown in this frame."""
+        """Upload the data of a viewer's frame."""
 
     def use(self) -> None:
-        """Bind what programs read throughout the frame."""
+        """Bind the textures that programs read throughout the frame."""
 
     def texts(self) -> Iterator[Texts]:
-        """Return what the programs are made of that no frame has drawn with yet."""
+        """Yield the sources of programs that no frame has drawn with yet."""
         return iter(())
 
     def making(self) -> Iterator[None]:
-        """Make them, one at a time, before somebody waits for them."""
+        """Compile these programs, one at a step, before a frame waits for them."""
         return iter(())
 
     def breathe(self, air: "Heard", /) -> int:
-        """Take up what the patches around the viewer have heard of the wind; return the number of draw calls."""
+        """Take over the wind at the patches around the viewer; return the number of draw calls."""
         del air
         return 0
 
     def prepare(self) -> int:
-        """Draw what is read in this frame, into framebuffers of its own; return the number of draw calls."""
+        """Draw the textures of this frame, into framebuffers of its own; return the number of draw calls."""
         return 0
 
     def cast(self, light: tuple[float, float, float], /) -> int:
-        """Write the depth of what stops light from a place [m] into a shadow map; return the number of draw calls."""
+        """Draw the shadow casters of a light at (x, y, z) [m] into a shadow map; return the number of draw calls."""
         del light
         return 0
 
@@ -85,27 +88,27 @@ class Part:
         return 0
 
     def look_up(self) -> int:
-        """Draw what is drawn behind all from, into framebuffers of its own; return the number of draw calls."""
+        """Draw the textures that `draw_behind` reads, into framebuffers of its own; return the number of draw calls."""
         return 0
 
     def draw_behind(self) -> int:
-        """Draw behind all that is opaque; return the number of draw calls."""
+        """Draw the background behind everything opaque; return the number of draw calls."""
         return 0
 
     def draw_soft(self, beyond: float = 0.0) -> int:
-        """Blend over ground and sky, before the grass that stands; return the number of draw calls.
+        """Blend over ground and sky, before blades and strips; return the number of draw calls.
 
-        What has more of it left to draw than what lies `beyond` a distance along the ground [m] is asked again.
+        Things nearer than `beyond` along the ground [m] are left for later calls.
         """
         del beyond
         return 0
 
     def soft_left(self) -> float | None:
-        """Return how far off what is behind the next thing begins that `draw_soft` has left to draw [m], or None."""
+        """Return the distance of the farthest thing that `draw_soft` has left [m], or None if it has left nothing."""
         return None
 
     def release(self) -> None:
-        """Give everything back to the context."""
+        """Release everything in the context."""
 
 
 class TexturePart(Part):
@@ -116,46 +119,46 @@ class TexturePart(Part):
         self._unit = unit
 
     def use(self) -> None:
-        """Bind it."""
+        """Bind the texture."""
         self.texture.use(self._unit)
 
     def release(self) -> None:
-        """Give the texture back."""
+        """Release the texture."""
         self.texture.release()
 
 
 class Feature:
-    """One thing that a prairie has. `FEATURES` lists them; what one leaves open has an answer here."""
+    """A thing in a prairie beside its grass. `FEATURES` lists them; methods that one does not override do nothing."""
 
     samplers: ClassVar[tuple[str, ...]] = ()
-    """The names of its samplers that are bound throughout a frame."""
+    """Names of its samplers that are bound throughout a frame."""
 
     asked: ClassVar[tuple[str, ...]] = ()
-    """The names of those that only passes over receivers read."""
+    """Names of its samplers that only passes over receivers read."""
 
     own: ClassVar[tuple[str, ...]] = ()
-    """The names of those that it binds itself whenever it draws."""
+    """Names of its samplers that it binds itself whenever it draws."""
 
     @classmethod
     def begin(cls, start: Start, /) -> Self:
-        """Return it for a prairie."""
+        """Return the feature of a new prairie."""
         del start
         return cls()
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
-        """Go on at a time [s] with a scene read again; `before` is what the scene was."""
+        """Go on with a scene that was read again at a time [s]; `before` is the old one."""
 
     def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
-        """Come to the next frame that is drawn for a viewer whose eye is at (x, y, z) [m], at a time [s]."""
+        """Advance to a viewer's next frame, with its eye at (x, y, z) [m], at a time [s]."""
 
     def look(self, outlook: Outlook, /) -> None:
-        """Note what other systems are to know of it in this frame."""
+        """Note records for other systems in this frame."""
 
     def release(self) -> None:
-        """Leave nothing behind where the prairie is released."""
+        """Clean up when the prairie is released."""
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> Part:
-        """Return what a GL context holds of it."""
+        """Return the feature's part in a GL context."""
         del ctx, block, units
         return Part()
 
@@ -164,5 +167,5 @@ Sort = TypeVar("Sort", Part, Feature)
 
 
 def doing(sort: type[Sort], name: str, things: Iterable[Sort], /) -> list[Sort]:
-    """Return those of parts or features that have a method of their own: in a frame, most leave most of them open."""
+    """Return the parts or features that override a method of `sort`: most leave most of them as they are."""
     return [each for each in things if getattr(type(each), name) is not getattr(sort, name)]

@@ -16,7 +16,7 @@ from ..frame.feature import TexturePart
 from ..light.color import linear, luminance
 from ..light.daylight import LEAF, LUX
 from ..shadows.shades import fallen, told_of
-from ..space.frustum import beyond
+from ..space.frustum import outside_planes
 from .listed import ROOM, SIDE, Listed, listed
 
 MOST = 256
@@ -80,7 +80,7 @@ def seen(told: Floats, sides: Doubles, eye: tuple[float, float, float], /) -> Fl
     `sides` are the planes of the picture. Of more, those count that are brightest at the eye, in the order they had.
     """
     reach = told[:, 0, 3] ** -0.5
-    found = told[beyond(told[:, 0, :3].astype(np.float64), sides) <= reach]
+    found = told[outside_planes(told[:, 0, :3].astype(np.float64), sides) <= reach]
     return found[_first(-found[:, 1, :3].sum(axis=1) / np.maximum(_away(found, eye), 1.0))]
 
 

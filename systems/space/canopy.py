@@ -1,4 +1,4 @@
-"""How high the grass stands over the ground."""
+"""Height of the canopy over the ground."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from ..grow.record import Blades, Growth
 from .ground import Ground
 
 LODGED = 0.55
-"""How much lower the canopy is where all grass lies, as a part of its height at rest."""
+"""Loss of height of a canopy whose grass all lies flat, as a part of its height at rest."""
 
 GLSL = {"LODGED": LODGED}
 
@@ -24,12 +24,12 @@ def lodged(index: float, /) -> float:
 
 @while_it_lives
 def canopy_height(growth: Growth, /) -> float:
-    """Return the height of a kind's canopy [m]: what nearly all its plants stay below."""
+    """Return the height of a kind's canopy [m]: nine tenths of its plants stay below it."""
     return float(np.quantile(np.concatenate([_tall(model.blades) for model in growth.models]), 0.9))
 
 
 def _tall(blades: Blades, /) -> Floats:
-    """Return how tall each plant is, by its tallest row [m], shape (plants,)."""
+    """Return the height of each plant, that of its tallest blade [m], shape (plants,)."""
     row = np.maximum(blades.height, blades.stem * blades.part)
     first = np.flatnonzero(np.diff(blades.rank, prepend=np.float32(-1.0)))
     return np.asarray(np.maximum.reduceat(row, first), np.float32)
@@ -37,31 +37,31 @@ def _tall(blades: Blades, /) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class Top:
-    """The top of the grass over a ground that had been changed so often; two alike are equal."""
+    """The top of the canopy over a ground in one state; tops of the same ground in the same state are equal."""
 
     ground: Ground
     canopy: tuple[float, ...]
     """Height of each kind's canopy [m]."""
 
     changes: tuple[int, int]
-    """How often its heights had been changed, and what is sown on it."""
+    """Number of changes of the ground's heights, and of what is sown on it."""
 
     def __call__(self, place: Floats, /) -> Floats:
-        """Return how high the top of the grass is (y) at ground positions (n, 2) [m], shape (n,)."""
+        """Return the elevation y of the top of the canopy at ground positions (n, 2) [m], shape (n,)."""
         return top_at(self.ground, self.canopy, place)
 
 
 def top_over(ground: Ground, canopy: tuple[float, ...], /) -> Top:
-    """Return the top of the grass over a ground as it is now."""
+    """Return the top of the canopy over a ground in its present state."""
     return Top(ground, canopy, (ground.terrain.changes.count, ground.density.sown.count))
 
 
 def top_at(ground: Ground, canopy: Sequence[float], place: Floats, /) -> Floats:
-    """Return how high the top of the grass is (y) at ground positions (x, z), shape (n, 2), [m], shape (n,).
+    """Return the elevation y of the top of the canopy at ground positions (x, z), shape (n, 2), [m], shape (n,).
 
-    `canopy` has the height of each kind's. Of kinds that grow together the tallest counts, lowered to the ground as it
-    grows more thinly: the top has no steps where a kind ends. Blades are taken as they stand in calm air, and what a
-    game has cleared counts as if it grew.
+    `canopy` has the height of each kind's canopy [m]. Where kinds grow together, the tallest counts. Its height is
+    multiplied by its density, so that the top has no steps where a kind ends. Blades stand as in calm air, and cleared
+    grass counts as if it grew.
     """
-    tall = np.asarray(canopy, np.float32)[:, None] * density_at(ground.density, place)
-    return np.asarray(height_at(ground.terrain, place) + tall.max(axis=0), np.float32)
+    canopy_height = np.asarray(canopy, np.float32)[:, None] * density_at(ground.density, place)
+    return np.asarray(height_at(ground.terrain, place) + canopy_height.max(axis=0), np.float32)

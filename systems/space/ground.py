@@ -1,4 +1,4 @@
-"""What stands under the grass."""
+"""The ground under the grass: terrain, densities and the side of patches."""
 
 from dataclasses import dataclass
 
@@ -14,17 +14,17 @@ _COS = np.array([1, 0, -1, 0], np.float32)
 _SIN = np.array([0, 1, 0, -1], np.float32)
 
 PRESENT = 1.0 / 255.0
-"""Density below which a kind is taken not to grow at all."""
+"""Density below which a kind counts as absent."""
 
-STEP, WITHIN = 0.35, 1.0 / 3.0
-"""At an edge in the grass a kind's density changes by so much at least, within this part of a patch's side."""
+EDGE_STEP, EDGE_WIDTH = 0.35, 1.0 / 3.0
+"""Least change of a kind's density that is an edge in the grass, and its width as a part of a patch's side."""
 
 GLSL = {"PRESENT": PRESENT}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ground:
-    """What stands under the grass."""
+    """Terrain, densities of the kinds of grass, and the side of patches."""
 
     terrain: Terrain
     density: Density
@@ -33,7 +33,7 @@ class Ground:
 
 
 def quarter_turn(turn: int | Ints, /) -> tuple[Floats, Floats]:
-    """Return cosine and sine of quarter turns."""
+    """Return cosine and sine of a number of quarter turns."""
     return _COS[turn], _SIN[turn]
 
 

@@ -1,4 +1,4 @@
-"""What a scene has become: its ground, and what was grown of its kinds."""
+"""A scene's ground and the growths of its kinds."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -12,7 +12,7 @@ from .ground import Ground
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Grown:
-    """A scene with its ground and its grown kinds."""
+    """A scene with its ground and the growths of its kinds."""
 
     scene: Scene
     quality: Quality
@@ -23,20 +23,20 @@ class Grown:
     """Height of each kind's canopy [m]."""
 
     tallest: float
-    """Height that no blade comes to [m]."""
+    """Upper bound of the height of all blades [m]."""
 
     coming: Mapping[int, Growth] = field(default_factory=dict, kw_only=True)
-    """What some kinds are to become, by their numbers."""
+    """Growths that are replacing those of some kinds, by the kinds' numbers."""
 
     came: tuple[float, ...] = field(default=(), kw_only=True)
-    """How many of its plants each kind has had become that already, from 0 to 1; empty where none is to."""
+    """Fraction of each kind's plants that have been replaced by `coming`, 0 to 1; empty where no kind is replaced."""
 
     @property
     def top_at(self) -> Top:
-        """Gives how high the top of the grass is (y) at ground positions (n, 2) [m], shape (n,)."""
+        """Function from ground positions (n, 2) [m] to the elevation y of the top of the canopy [m], shape (n,)."""
         return top_over(self.ground, self.canopy)
 
     @property
     def own_segments(self) -> tuple[int | None, ...]:
-        """Line segments per blade at the finest level that each kind asks for; None of those that do not say."""
+        """Line segments per blade at the finest level, as each kind declares them; None where it does not."""
         return tuple(kind.segments for kind in self.scene.grass.values())

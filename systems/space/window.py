@@ -1,4 +1,4 @@
-"""The square window of cells around a viewer, which wraps round."""
+"""Cells of ground positions, and the square window of cells around a viewer, which wraps round."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,7 +10,7 @@ from ...engine.handed import FARTHEST, as_floats
 def as_places(xz: ArrayLike, /) -> Floats:
     """Return ground positions (x, z) [m] as an array of shape (n, 2); raises ValueError for anything else.
 
-    An empty list is no places. What is farther out than `FARTHEST` counts as being there.
+    An empty list gives shape (0, 2). Coordinates are clamped to `FARTHEST`.
     """
     due = "ground positions are finite (x, z) pairs, one in each row"
     places = as_floats(xz, due)
@@ -20,7 +20,7 @@ def as_places(xz: ArrayLike, /) -> Floats:
 
 
 def cell_of(place: NDArray[np.float32], /, *, patch: float) -> Ints:
-    """Return the cells (i, j) that ground positions (x, z) lie in, both of shape (..., 2)."""
+    """Return the cells (i, j) of ground positions (x, z), both of shape (..., 2)."""
     return np.floor(np.asarray(place, np.float64) / patch).astype(np.int32)
 
 

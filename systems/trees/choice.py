@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles, Floats
-from ..space.frustum import beyond
+from ..space.frustum import outside_planes
 from .bark import PIXEL_RADII
 from .leafy import near_twigs, twig_instances
 from .model import MARGIN, Model
@@ -153,7 +153,7 @@ class Choice:
     def in_picture(self, sides: Doubles, /) -> Numbers:
         """Return the indices of the trees within a frustum's sides."""
         middle, radius = self._spheres
-        near = np.flatnonzero(np.repeat(beyond(middle, sides) <= radius, CLUSTER)[: len(self._model)])
+        near = np.flatnonzero(np.repeat(outside_planes(middle, sides) <= radius, CLUSTER)[: len(self._model)])
         inside = self._middle.take(near, axis=0) @ sides[:, :3].T + sides[:, 3]
         reach = np.outer(self._high[near], np.abs(sides[:, 1])) + np.outer(
             self._aside[near], np.hypot(*sides[:, :3:2].T)

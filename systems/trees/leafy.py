@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
-from ..space.frustum import beyond
+from ..space.frustum import outside_planes
 from .model import Model
 from .standing import INSTANCE, TWIG_INSTANCE
 from .stream import twigs_drawn
@@ -25,7 +25,7 @@ def near_twigs(model: Model, instance: np.void, eye: Doubles, sides: Doubles, wi
         near < twigs_drawn(len(model.twigs), float(instance["keep"] * (1.0 - instance["gone"]) * instance["foliage"]))
     ]
     reach = scale * (2.0 * model.habit.twigs.length + SWAYS * model.height)
-    return np.asarray(near[beyond(foot[near], sides) <= reach])
+    return np.asarray(near[outside_planes(foot[near], sides) <= reach])
 
 
 def twig_instances(trees: NDArray[np.void], twigs: NDArray[np.intp]) -> NDArray[np.void]:

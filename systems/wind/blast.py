@@ -1,4 +1,4 @@
-"""The blast of air under a flying object: a mask of any outline, pushed outwards (paper, section 3.3)."""
+"""The blast of air under a flying body: grass within any outline is pressed outwards (paper, section 3.3)."""
 
 from collections.abc import Sequence
 from functools import lru_cache
@@ -20,10 +20,10 @@ from .placed import PlacedWind
 from .shape import smooth
 
 BEAT, PULSE, AT_ONCE = 2.2, 0.14, 1.5
-"""How often rings run outwards through a blast [1/s], by how much they change its index, how many there are at once."""
+"""Frequency of the rings that run outwards through a blast [1/s]; their amplitude, of its index; their number."""
 
 SOFT_RIM = 0.45
-"""The part of the way in from its outline over which it grows to its strength."""
+"""Width of the rim over which a blast grows to its strength, as a part of the way from the outline inwards."""
 
 
 class Shape(Declaration):
@@ -65,7 +65,7 @@ class Shape(Declaration):
         return self
 
     def outline(self) -> Outline:
-        """Return the outline, sampled. Raises DeclarationError where the picture cannot be read."""
+        """Return the sampled outline. Raises DeclarationError where the picture cannot be read."""
         if self.image is not None:
             return self._loaded or _pictured(self.image, Path(), self.width)
         return _drawn(self)
@@ -102,7 +102,7 @@ class Blast(PlacedWind):
     """How high the body flies above the grass [m]."""
 
     def hover(self) -> Hover | None:
-        """Return the body that it comes from."""
+        """Return the body that flies over it."""
         return _hover(self.body, self.height) if self.body else None
 
     def extent(self, *, time: float) -> Extent:
@@ -116,7 +116,7 @@ class Blast(PlacedWind):
         return smooth(depth / np.float32(self._width(outline)))
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
-        """Return its messages: radial to the outline, strongest half way out, with rings that run outwards."""
+        """Return its messages: at right angles to the outline, strongest half way out, with rings that run outwards."""
         outline = self.outline.outline()
         depth, outward = outline.at(place)
         out = np.float32(1.0) - np.clip(depth / np.float32(outline.deepest), 0.0, 1.0)
@@ -127,7 +127,7 @@ class Blast(PlacedWind):
         return np.asarray(outward * index[:, None], np.float32)
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
-        """Return how its outline is sampled [m], how it takes hold, its mean, and how far its rings have run."""
+        """Return the samples' grid [m], the rim's width [m], the mean index, and the rings' phase [turns]."""
         outline = self.outline.outline()
         rows, columns = outline.field.shape[:2]
         record: dict[str, float | Sequence[float]] = {
@@ -142,12 +142,13 @@ class Blast(PlacedWind):
         return TwinValues(record, (outline.field,))
 
     def _width(self, outline: Outline) -> float:
-        """Return over what distance from its outline it takes hold [m]."""
+        """Return the width of its mask's rim [m]."""
         return max(min(self.soft, outline.deepest), 1e-6)
 
 
 @by_identity(most=256)
 def _drawn(shape: Shape) -> Outline:
+    """Return the outline of a shape that is no picture."""
     if shape.polygon is not None:
         return outline_of_polygon(tuple((x, z) for x, z in shape.polygon))
     across, along = shape.ellipse or (shape.disc or 1.0, shape.disc or 1.0)
@@ -160,6 +161,7 @@ def _hover(model: Model, height: float) -> Hover:
 
 
 def _pictured(name: str, folder: Path, width: float) -> Outline:
+    """Return the outline of a picture file; raises DeclarationError where it cannot be read."""
     path = folder / name
     try:
         return _picture(str(path), path.stat().st_mtime_ns, width)
@@ -175,7 +177,7 @@ def _pictured(name: str, folder: Path, width: float) -> Outline:
 @lru_cache(maxsize=64)
 def _picture(path: str, changed: int, width: float) -> Outline:
     del changed
-    # Of a damaged file Pillow warns before it raises, and what it raises becomes a problem of the scene.
+    # Pillow warns of a damaged file before it raises, and the exception becomes a problem of the scene.
     with catch_warnings(action="ignore", category=UserWarning), Image.open(path) as opened:
         opened.thumbnail((FINE, FINE))
         bands = opened.convert("LA")

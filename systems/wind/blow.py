@@ -1,4 +1,4 @@
-"""Blowing: primitives send their messages to the receivers (paper, sections 3.2 and 3.3)."""
+"""Blowing: winds send their messages to receivers, by priority or by weight (paper, sections 3.2 and 3.3)."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
@@ -22,8 +22,8 @@ from .mean import TOWARDS, MeanWind
 from .quarantine import Quarantine, QuarantinedError
 from .shape import smooth
 
-BESIDE = 1e-3
-"""How far outside an extent a mask is still asked for, so that rounding cuts nothing off [m]."""
+MARGIN = 1e-3
+"""Margin around an extent within which the mask still counts, so that rounding cuts nothing off [m]."""
 
 Rows = NDArray[np.intp]
 
@@ -39,7 +39,7 @@ class Blowing:
     seed: int
 
     strength: float
-    """How far it has set in, in (0, 1]."""
+    """Factor of its setting in and dying down, in (0, 1]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,23 +50,23 @@ class ReceiverArrays:
     """Ground positions (x, z) [m], shape (n, 2)."""
 
     grass: Grass
-    """How the grass at each answers."""
+    """Responses of the grass at the receivers."""
 
     patch: Rows
-    """The patch that each belongs to, shape (n,)."""
+    """Index of each receiver's patch, shape (n,)."""
 
     middle: Floats
     """Middles of the patches (x, z) [m], shape (m, 2)."""
 
     radius: float
-    """How far a patch's receivers may be from its middle [m]."""
+    """Largest distance of a receiver from its patch's middle [m]."""
 
     still: int = 0
-    """How many of them, the last ones, are without the small oscillations."""
+    """Number of receivers, the last ones, without the small oscillations."""
 
 
-def places_alone(place: Floats, grass: Grass, /) -> ReceiverArrays:
-    """Return receivers at any places, each a patch by itself."""
+def lone_receivers(place: Floats, grass: Grass, /) -> ReceiverArrays:
+    """Return receivers at ground positions (n, 2) [m], each a patch of its own."""
     return ReceiverArrays(place, grass, np.arange(len(place)), place, 0.0)
 
 
@@ -82,10 +82,10 @@ def blowing(
 ) -> list[Blowing]:
     """Return the winds that act at `time` [s], the strongest claim first.
 
-    Higher priority goes first; of equal ones that which began later; then by kind, by what they declare, by name and by
-    pose. So the order in which winds were made never counts. `poses` says where each source is; None, or none for it,
-    leaves that to the wind. A source may be there more than once, at other poses. `winds` has the primitive of each
-    source with the course of its phases, where that is another than the source's own.
+    Higher priority goes first; of equal ones the wind that began later; then kind, declared values, name and pose
+    decide. So the order in which winds were made never counts. `poses` overrides the pose of each source, if not None;
+    a source may be given more than once, at other poses. `winds` overrides the primitive of each source, if not None,
+    by one that carries the course of its phases.
     """
     given = zip(sources, chain(poses, repeat(None)), chain(winds, repeat(None)), strict=False)
     found = [wind for source, pose, own in given for wind in _parts(source, quarantine, time, seed, pose, own)]
@@ -95,92 +95,99 @@ def blowing(
 
 def hear(
     winds: list[Blowing],
-    heard: ReceiverArrays,
+    receivers: ReceiverArrays,
     quarantine: Quarantine,
     /,
     *,
     time: float,
     seed: int,
     mixing: Mixing = "priority",
-    to: float = 0.0,
+    yaw: float = 0.0,
 ) -> Floats:
-    """Return the message that each receiver ends up with, shape (n, 2).
+    """Return the resulting message at each receiver, shape (n, 2).
 
-    By `priority`, the first wind in `winds` whose mask holds a receiver cancels the others (paper, section 3.3). By
-    `weight`, a wind covers those of lower priority as far as its mask, its weight and its setting in say, and winds of
-    one priority are averaged. Where no mask reaches, grass is at rest. The small oscillations are carried to the yaw
-    `to` [rad], whichever winds act.
+    With `priority`, the first wind in `winds` whose mask is above 0 at a receiver cancels the others (paper, section
+    3.3). With `weight`, a wind covers those of lower priority by its mask times its weight times its `strength`, and
+    winds of equal priority are averaged. Where no mask reaches, grass is at rest. The small oscillations drift towards
+    `yaw` [rad], whichever winds act.
     """
     left_out = -1
-    while left_out < quarantine.count:  # what a wind sent before it failed is no message
+    while left_out < quarantine.count:  # messages of a wind that failed later are no messages: begin again without it
         left_out = quarantine.count
-        sums = _heard(winds, heard, quarantine, time, mixing)
-    return _bounded(_fluttered(sums, heard, time, seed, to))
+        sums = _summed(winds, receivers, quarantine, time, mixing)
+    return _bounded(_fluttered(sums, receivers, time, seed, yaw))
 
 
 def mean_index(sources: Iterable[WindSource], quarantine: Quarantine, /, *, time: float) -> float:
-    """Return the posture index that winds bring grass to everywhere at `time` [s], in the mean: the largest of any."""
-    blown = [0.0]
+    """Return the mean posture index of grass everywhere at `time` [s]: the largest of the mean winds' strengths."""
+    strengths = [0.0]
     for source in sources:
         if isinstance(source.primitive, MeanWind):
             with suppress(QuarantinedError):
-                blown.append(quarantine.ask(source, "its strength", partial(_mean_strength, source.primitive, time)))
-    return min(max(blown), 1.0)
+                strengths.append(
+                    quarantine.ask(source, "its strength", partial(_mean_strength, source.primitive, time))
+                )
+    return min(max(strengths), 1.0)
 
 
 def _mean_strength(wind: MeanWind, time: float) -> float:
-    return float(wind.strength) * _set_in(wind, wind.stop, time) if is_on(wind, time) else 0.0
+    return float(wind.strength) * _envelope(wind, wind.stop, time) if is_on(wind, time) else 0.0
 
 
 def mean_wind(winds: Iterable[WindPrimitive], /) -> MeanWind | None:
-    """Return a scene's mean wind, which clouds and the small oscillations go with.
-
-    Of those that blow everywhere it is the one that claims least.
-    """
+    """Return a scene's mean wind, which carries clouds and the small oscillations: the one with the least claim."""
     found = [wind for wind in winds if isinstance(wind, MeanWind)]
     return min(found, key=lambda wind: (claim(wind), wind.direction), default=None)
 
 
 def mean_yaw(winds: Iterable[WindPrimitive], /) -> float:
-    """Return where a scene's mean wind blows to [rad]."""
+    """Return the yaw that a scene's mean wind blows to [rad]."""
     found = mean_wind(winds)
     return radians(found.direction if found else TOWARDS)
 
 
-def _heard(winds: list[Blowing], heard: ReceiverArrays, quarantine: Quarantine, time: float, mixing: Mixing) -> "_Sums":
-    sums = _Sums(np.zeros((len(heard.place), 2), np.float32), *np.zeros((2, len(heard.place)), np.float32))
-    sums.left[:] = 1.0
+def _summed(
+    winds: list[Blowing], receivers: ReceiverArrays, quarantine: Quarantine, time: float, mixing: Mixing
+) -> "_Sums":
+    """Sum up the messages and swings of winds, the strongest claim first."""
+    count = len(receivers.place)
+    sums = _Sums(np.zeros((count, 2), np.float32), np.zeros(count, np.float32), np.ones(count, np.float32))
     groups: Iterable[list[Blowing]] = ([wind] for wind in winds)
     if mixing == "weight":
         winds = [wind for wind in winds if wind.primitive.weight > 0.0]
         groups = (list(group) for _, group in groupby(winds, key=lambda wind: wind.primitive.priority))
     for group in groups:
-        sent = [one for wind in group if (one := send(wind, heard, sums.left, quarantine, time, mixing))]
+        sent = [one for wind in group if (one := send(wind, receivers, sums.unclaimed, quarantine, time, mixing))]
         _cover(sums, sent)
     return sums
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Sums:
-    message: Floats
-    swing: Floats
+    """Weighted sums over the winds so far, at each receiver."""
 
-    left: Floats
-    """How much of each receiver no wind has claimed yet, shape (n,)."""
+    message: Floats
+    """Messages, shape (n, 2)."""
+
+    swing: Floats
+    """Swings, shape (n,)."""
+
+    unclaimed: Floats
+    """Part of each receiver that no wind has claimed yet, shape (n,)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sent:
-    """What one wind sends."""
+    """Messages of one wind."""
 
     rows: Rows | slice
-    """The receivers that it reaches."""
+    """Receivers that it reaches."""
 
     weight: Floats
-    """How much of each it claims, its weight and how far it has set in included, shape (n,)."""
+    """Part of each receiver that it claims: its mask, weight and strength multiplied, shape (n,)."""
 
     message: Floats
-    """Its messages, in the world's frame, shape (n, 2)."""
+    """Messages in the world's frame, shape (n, 2)."""
 
     swing: float
     """Largest index of the small oscillations in it."""
@@ -194,13 +201,14 @@ def _parts(
     placed: Pose | None,
     on_course: WindPrimitive | None,
 ) -> Iterator[Blowing]:
+    """Yield the parts of a source's wind that act at `time` [s]; none where one of its answers fails."""
     wind = on_course or source.primitive
     own = _own_seed(seed, source.name)
     try:
         if not quarantine.ask(source, "its timeline", partial(is_on, wind, time)):
             return
         parts = quarantine.ask(source, "parts", partial(wind.parts, time=time, seed=own))
-        if type(parts) is not tuple:  # these questions are asked of each wind in each frame
+        if type(parts) is not tuple:  # the quicker check, as this runs for each wind in each frame
             quarantine.must_be(source, "parts", parts, Sequence)
         for part in parts:
             if part is not wind:
@@ -210,7 +218,7 @@ def _parts(
             quarantine.must_be(source, "pose", pose, Pose)
             quarantine.must_be(source, "extent", extent, Extent, NoneType)
             quarantine.must_stand(source, part, pose, extent)
-            strength = _set_in(part, wind.stop, time)
+            strength = _envelope(part, wind.stop, time)
             if strength > 0.0:
                 yield Blowing(source, part, pose, extent, own, strength)
     except QuarantinedError:
@@ -227,7 +235,8 @@ def is_on(wind: WindPrimitive, time: float, /) -> bool:
     return wind.start <= time and (wind.stop is None or time < wind.stop)
 
 
-def _set_in(wind: WindPrimitive, stop: float | None, time: float) -> float:
+def _envelope(wind: WindPrimitive, stop: float | None, time: float) -> float:
+    """Return the factor by which a wind sets in over `ease` after its start and dies down before `stop` [s]."""
     begun = (time - wind.start) / wind.ease if wind.ease and wind.start else 1.0
     to_go = (stop - time) / wind.ease if wind.ease and stop is not None else 1.0
     part = min(begun, to_go)
@@ -235,7 +244,7 @@ def _set_in(wind: WindPrimitive, stop: float | None, time: float) -> float:
 
 
 def claim(wind: WindPrimitive, /) -> tuple[int, float, str]:
-    """Return what winds are ordered by at a place: the largest comes first."""
+    """Return the sort key of winds that meet at a place: the largest comes first."""
     return wind.priority, wind.start, wind.kind
 
 
@@ -244,80 +253,82 @@ def _claim(wind: Blowing) -> tuple[int, float, str]:
 
 
 def _untied(winds: list[Blowing], quarantine: Quarantine) -> list[Blowing]:
-    told: list[tuple[tuple[str | float, ...], Blowing]] = []
+    """Order winds of equal claim by their declared values, name and pose."""
+    keyed: list[tuple[tuple[str | float, ...], Blowing]] = []
     for wind in winds:
         with suppress(QuarantinedError):
             values = quarantine.ask(wind.source, "model_dump_json", wind.primitive.model_dump_json)
-            told.append(((values, wind.source.name, wind.pose.x, wind.pose.z, wind.pose.yaw), wind))
-    return [wind for _, wind in sorted(told, key=itemgetter(0))]
+            keyed.append(((values, wind.source.name, wind.pose.x, wind.pose.z, wind.pose.yaw), wind))
+    return [wind for _, wind in sorted(keyed, key=itemgetter(0))]
 
 
 def send(
-    wind: Blowing, heard: ReceiverArrays, left: Floats, quarantine: Quarantine, time: float, mixing: Mixing
+    wind: Blowing, receivers: ReceiverArrays, unclaimed: Floats, quarantine: Quarantine, time: float, mixing: Mixing
 ) -> Sent | None:
-    """Return what a wind sends to the receivers that it reaches and that are still to be had; None is nothing.
+    """Return a wind's messages to the receivers that it reaches and others have not claimed; None where there are none.
 
-    `left` (n,) is how much of each no wind has claimed yet. A wind that fails sends nothing.
+    `unclaimed` (n,) is the part of each receiver that no wind has claimed yet. A wind that fails sends nothing.
     """
-    rows, own = _within(wind, heard, left)
+    rows, place = _within(wind, receivers, unclaimed)
     source, primitive = wind.source, wind.primitive
-    own = own.view()
-    own.flags.writeable = False  # it may be everybody's
+    place = place.view()
+    place.flags.writeable = False  # it may be shared with other winds
     try:
-        if not len(own):
+        if not len(place):
             return None
-        weight = quarantine.ask_for(source, "mask", partial(primitive.mask, own, time=time), shape=(len(own),))
+        weight = quarantine.ask_for(source, "mask", partial(primitive.mask, place, time=time), shape=(len(place),))
         reached = np.flatnonzero(weight > 0.0)
-        if len(reached) < len(own):
+        if len(reached) < len(place):
             rows = reached if isinstance(rows, slice) else rows[reached]
-            own, weight = own[reached], weight[reached]
-        if not len(own):
+            place, weight = place[reached], weight[reached]
+        if not len(place):
             return None
-        grass = heard.grass if isinstance(rows, slice) else heard.grass.at(rows)
-        act = partial(primitive.action, own, time=time, seed=wind.seed, grass=grass)
-        message = quarantine.ask_for(source, "action", act, shape=own.shape)
+        grass = receivers.grass if isinstance(rows, slice) else receivers.grass.at(rows)
+        act = partial(primitive.action, place, time=time, seed=wind.seed, grass=grass)
+        message = quarantine.ask_for(source, "action", act, shape=place.shape)
     except QuarantinedError:
         return None
     weight = np.ones_like(weight) if mixing == "priority" else np.minimum(weight, 1.0) * np.float32(primitive.weight)
     return Sent(rows, weight * np.float32(wind.strength), wind.pose.outside(message), primitive.swing)
 
 
-def _within(wind: Blowing, heard: ReceiverArrays, left: Floats) -> tuple[Rows | slice, Floats]:
-    """Return the receivers in a wind's extent that others have not claimed wholly, and their places in its frame.
+def _within(wind: Blowing, receivers: ReceiverArrays, unclaimed: Floats) -> tuple[Rows | slice, Floats]:
+    """Return the receivers in a wind's extent that are not wholly claimed, and their places in the wind's frame.
 
-    For a wind without an extent these are all receivers, unless most of them are claimed: to pick out some costs more
-    than to ask all.
+    For a wind without an extent these are all receivers, unless at least half of them are claimed: picking some out
+    costs more than asking for all.
     """
-    unclaimed = left > 0.0
+    is_free = unclaimed > 0.0
     if wind.extent is None:
-        rows = np.flatnonzero(unclaimed)
-        if 2 * len(rows) > len(left):
-            return slice(None), _seen_from(wind, heard.place)
-        return rows, _seen_from(wind, heard.place[rows])
-    met = _holds(wind.extent, wind.pose.inside(heard.middle), heard.radius)
-    rows = np.flatnonzero(met[heard.patch] & unclaimed) if met.any() else np.zeros(0, np.intp)
-    own = _seen_from(wind, heard.place.take(rows, axis=0))
-    held = np.flatnonzero(_holds(wind.extent, own, 0.0))
-    return rows[held], own.take(held, axis=0)
+        rows = np.flatnonzero(is_free)
+        if 2 * len(rows) > len(unclaimed):
+            return slice(None), _in_frame(wind, receivers.place)
+        return rows, _in_frame(wind, receivers.place[rows])
+    met = _in_extent(wind.extent, wind.pose.inside(receivers.middle), receivers.radius)
+    rows = np.flatnonzero(met[receivers.patch] & is_free) if met.any() else np.zeros(0, np.intp)
+    place = _in_frame(wind, receivers.place.take(rows, axis=0))
+    held = np.flatnonzero(_in_extent(wind.extent, place, 0.0))
+    return rows[held], place.take(held, axis=0)
 
 
-def _seen_from(wind: Blowing, place: Floats) -> Floats:
+def _in_frame(wind: Blowing, place: Floats) -> Floats:
+    """Transform places to a wind's frame."""
     return wind.pose.inside(place) if wind.pose != HERE else place
 
 
-def _holds(box: Extent, place: Floats, radius: float) -> NDArray[np.bool_]:
-    """Return whether an extent comes within `radius` [m] of places in the same frame, but for rounding, shape (n,)."""
-    x, z, far = place[:, 0], place[:, 1], radius + BESIDE
-    held = (x > box.left - far) & (x < box.right + far) & (z > box.ahead - far) & (z < box.behind + far)
+def _in_extent(extent: Extent, place: Floats, radius: float) -> NDArray[np.bool_]:
+    """Return which places in its frame are within `radius` [m] of an extent, with a margin for rounding, shape (n,)."""
+    x, z, far = place[:, 0], place[:, 1], radius + MARGIN
+    held = (x > extent.left - far) & (x < extent.right + far) & (z > extent.ahead - far) & (z < extent.behind + far)
     return np.asarray(held)
 
 
 def _cover(sums: _Sums, sent: list[Sent]) -> None:
-    """Lay the messages of winds of one claim over what is left of the receivers."""
+    """Lay the messages of winds with equal claims over the unclaimed parts of receivers, averaged by weight."""
     if len(sent) == 1:
         _lay(sums, sent[0].rows, sent[0].weight, sent[0].message, np.float32(sent[0].swing))
     elif sent:
-        total, kept = np.zeros_like(sums.left), np.ones_like(sums.left)
+        total, kept = np.zeros_like(sums.unclaimed), np.ones_like(sums.unclaimed)
         message, swing = np.zeros_like(sums.message), np.zeros_like(sums.swing)
         for one in sent:
             total[one.rows] += one.weight
@@ -325,32 +336,35 @@ def _cover(sums: _Sums, sent: list[Sent]) -> None:
             message[one.rows] += one.weight[:, None] * one.message
             swing[one.rows] += one.weight * np.float32(one.swing)
         rows = np.flatnonzero(total)
-        share = total[rows]
-        _lay(sums, rows, 1.0 - kept[rows], message[rows] / share[:, None], swing[rows] / share)
+        weight = total[rows]
+        _lay(sums, rows, 1.0 - kept[rows], message[rows] / weight[:, None], swing[rows] / weight)
 
 
 def _lay(sums: _Sums, rows: Rows | slice, weight: Floats, message: Floats, swing: Floats | np.float32) -> None:
-    if isinstance(rows, slice) and len(weight) and weight.min() == sums.left.min() == 1.0:  # all of all, as a breeze's
-        sums.message[:], sums.swing[:], sums.left[:] = message, swing, 0.0
+    """Lay messages with these weights over the unclaimed parts of receivers."""
+    is_all = isinstance(rows, slice) and len(weight) and weight.min() == sums.unclaimed.min() == 1.0
+    if is_all:  # as of a breeze alone
+        sums.message[:], sums.swing[:], sums.unclaimed[:] = message, swing, 0.0
         return
-    share = sums.left[rows] * weight
+    share = sums.unclaimed[rows] * weight
     sums.message[rows] += share[:, None] * message
     sums.swing[rows] += share * swing
-    sums.left[rows] -= share
+    sums.unclaimed[rows] -= share
 
 
-def _fluttered(sums: _Sums, heard: ReceiverArrays, time: float, seed: int, to: float) -> Floats:
-    moving = len(heard.place) - heard.still
+def _fluttered(sums: _Sums, receivers: ReceiverArrays, time: float, seed: int, yaw: float) -> Floats:
+    """Return the summed messages with the small oscillations added, scaled by the summed swing."""
+    moving = len(receivers.place) - receivers.still
     swing = sums.swing[:moving]
     rows = np.flatnonzero(swing)
     chosen = slice(moving) if len(rows) == moving else rows
     if len(rows):
-        sums.message[chosen] += swing[chosen, None] * flutter(heard.place[chosen], time=time, seed=seed, to=to)
+        sums.message[chosen] += swing[chosen, None] * flutter(receivers.place[chosen], time=time, seed=seed, yaw=yaw)
     return sums.message
 
 
 def _bounded(message: Floats) -> Floats:
-    """Return messages whose index is at most 1."""
+    """Return messages with their lengths clamped to 1."""
     index = np.sqrt(message[:, 0] * message[:, 0] + message[:, 1] * message[:, 1])
     message /= np.maximum(index, np.float32(1.0))[:, None]
     return message

@@ -1,4 +1,4 @@
-"""The gentle breeze: everywhere, small oscillations around a rest that drifts slowly (paper, section 3.3)."""
+"""The gentle breeze: everywhere, small oscillations about a mean that drifts slowly (paper, section 3.3)."""
 
 from math import radians
 from typing import ClassVar, Literal
@@ -12,7 +12,7 @@ from ...engine.noise import PERIOD, noise_table, smooth_noise
 from .mean import MeanWind
 
 WAVE, VEERS = 7.0, 0.7
-"""Distance between the waves that travel over the field [m]; how far they turn the wind at a gustiness of 1 [rad]."""
+"""Length of the waves that travel over the prairie [m]; largest turn of the wind in them at a gustiness of 1 [rad]."""
 
 
 class Breeze(MeanWind):
@@ -28,7 +28,7 @@ class Breeze(MeanWind):
     """How far its strength and direction drift in waves, 0 is steady."""
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
-        """Return its messages at ground positions (n, 2): a rest that drifts slowly, shape (n, 2)."""
+        """Return its messages at ground positions (n, 2): a mean that drifts slowly, shape (n, 2)."""
         heading, (x, z) = np.radians(self.direction), self.phases(time=time)
         wave = smooth_noise(noise_table(seed, 0), place / np.float32(WAVE), shift=(-x / WAVE, -z / WAVE))
         drift = np.float32(self.gustiness) * (wave[:, 0] + np.float32(0.5) * wave[:, 1])
@@ -37,7 +37,7 @@ class Breeze(MeanWind):
         return np.stack([np.sin(angle) * index, -np.cos(angle) * index], axis=1).astype(np.float32)
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
-        """Return its heading [rad], and how far waves have come, within the noise's period."""
+        """Return its heading [rad], and the shift of its waves within the noise's period [lattice units]."""
         x, z = self.phases(time=time)
         shift = -x / WAVE % PERIOD, -z / WAVE % PERIOD
         return TwinValues({"heading": radians(self.direction), "shift": shift}, (noise_table(seed, 0),))

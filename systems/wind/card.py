@@ -16,7 +16,7 @@ from ...engine.gl.guest import block_binding
 from ...engine.gl.shaders import Line, ShaderError, program
 from ...engine.gl.stream import release_all
 from ..grow.record import Response
-from .blow import BESIDE, Blowing, ReceiverArrays, claim, send
+from .blow import MARGIN, Blowing, ReceiverArrays, claim, send
 from .flutter import flutter_values
 from .quarantine import Quarantine
 from .sheets import Sheets, Told
@@ -153,11 +153,11 @@ class CardWinds:
             self._order = before
 
     def write(
-        self, winds: Sequence[Blowing], /, *, time: float, seed: int, mixing: Mixing, to: float = 0.0
+        self, winds: Sequence[Blowing], /, *, time: float, seed: int, mixing: Mixing, yaw: float = 0.0
     ) -> list[Blowing]:
         """Send the winds of a frame, the strongest claim first, and return those that have no twin.
 
-        `time` [s], `seed`, `mixing` and `to` are those of `systems.wind.blow.hear`. Winds without a twin say nothing
+        `time` [s], `seed`, `mixing` and `yaw` are those of `systems.wind.blow.hear`. Winds without a twin say nothing
         until `tell` has asked them.
         """
         self._asked = time, mixing
@@ -167,7 +167,7 @@ class CardWinds:
         self._sheets.begin()
         numbers = [self._write(number, wind, time, weighs=weighs) for number, wind in enumerate(self._winds)]
         self._untwinned = [number for number, twin in enumerate(numbers) if twin == TOLD]
-        frame = flutter_values(time=time, seed=seed, to=to)
+        frame = flutter_values(time=time, seed=seed, yaw=yaw)
         self._put(0, (float(weighs), *_NOTHING), TwinValues([*frame.numbers, *self._runs(numbers)], frame.sheets))
         self._send()
         return [self._winds[number] for number in self._untwinned]
@@ -360,5 +360,5 @@ def _frame_of(wind: Blowing) -> tuple[float, ...]:
     turned = pose.x, pose.z, cos(pose.yaw), sin(pose.yaw)
     if held is None:
         return *turned, -LARGEST, LARGEST, -LARGEST, LARGEST
-    low, high = max(held.left, -LARGEST) - BESIDE, min(held.right, LARGEST) + BESIDE
-    return *turned, low, high, max(held.ahead, -LARGEST) - BESIDE, min(held.behind, LARGEST) + BESIDE
+    low, high = max(held.left, -LARGEST) - MARGIN, min(held.right, LARGEST) + MARGIN
+    return *turned, low, high, max(held.ahead, -LARGEST) - MARGIN, min(held.behind, LARGEST) + MARGIN

@@ -9,20 +9,19 @@ from ...components.arrays import Doubles, Floats
 from ...engine.noise import ASLANT, PERIOD, power_left
 
 WIDE, FINER = 24.0, 12.0
-"""After how many length scales the table of large eddies repeats, and how much sooner that of small ones does."""
+"""Period of the table of large eddies [length scales]; ratio of this period to that of small eddies."""
 
 FINE = 256
-"""Points along a side of the table of small eddies: so many that the spectrum falls over two decades as it should."""
+"""Points along a side of the table of small eddies: enough for two decades of the spectrum's slope."""
 
 BETWEEN, SMALLEST = 6.5, 370.0
-"""Wave numbers where small eddies take over from large ones, and where they end, of the length scale."""
+"""Wave numbers where small eddies take over from large ones, and where they end [1 / length scale]."""
 
 SOFT, SOFT_END = 0.8, 0.2
-"""Over how wide a ratio's logarithm they do."""
+"""Widths of these two transitions, in the logarithm of the wave number."""
 
 CORNER = 1.285
-"""What the length scale is multiplied by in the spectrum: 1.339 in one without end, less in ours, which ends at
-`SMALLEST`."""
+"""Factor on the length scale in the spectrum: 1.339 in one without end, less here, as it ends at `SMALLEST`."""
 
 
 @lru_cache(maxsize=16)
@@ -30,10 +29,9 @@ def eddy_tables(seed: int, /) -> tuple[Floats, Floats]:
     """Return tables of large and of small eddies, shapes (PERIOD, PERIOD, 4) and (FINE, FINE, 4).
 
     They are a horizontal slice of isotropic turbulence, for a length scale of 1: velocity along the wind and to its
-    right, and both once more a quarter of a turn on. Table points are WIDE / PERIOD apart, those of small eddies
-    WIDE / FINER / FINE; the wind crosses them `ASLANT`. What `smooth_noise` reads of both
-    tables together has, in each component, the variance 1. So it has where the two halves of a table are mixed by the
-    cosine and sine of any angle.
+    right, and both again with their phases a quarter turn on. Points are WIDE / PERIOD apart, those of small eddies
+    WIDE / FINER / FINE; the wind crosses them `ASLANT`. The sum of both tables, as `smooth_noise` reads them, has the
+    variance 1 in each component, also where the two halves of a table are mixed by the cosine and sine of any angle.
     """
     random = np.random.default_rng((seed, 0x65646479))
     coarse, fine = _waves(WIDE, PERIOD), _waves(WIDE / FINER, FINE)
@@ -56,15 +54,15 @@ def _waves(period: float, points: int) -> Doubles:
 def _power(waves: Doubles, least: float, most: float) -> Doubles:
     """Return the power of each wave's velocity, along it and across, shape (2, rows, columns).
 
-    Of von Karman's isotropic spectrum, E(k) ~ k^4 / (k^2 + 1 / CORNER^2)^(17/6), all waves are summed up that a
-    horizontal plane sees as the same one; between `least` and `most` of the wave numbers. Of what the tables hold,
-    `smooth_noise` takes some away, which is added here.
+    It is von Karman's isotropic spectrum, E(k) ~ k^4 / (k^2 + 1 / CORNER^2)^(17/6), between wave numbers `least` and
+    `most`, integrated over the vertical wave number: waves that differ only there look the same in a horizontal plane.
+    It is divided by the power that `smooth_noise` leaves between a table's points.
     """
     square = (waves * waves).sum(axis=0)
     low = 1.0 / CORNER**2
 
     def over(power: float) -> Doubles:
-        """Return the integral of (square + low + h^2)^-power over the height's wave number h."""
+        """Return the integral of (square + low + h^2)^-power over the vertical wave number h."""
         return np.asarray(sqrt(pi) * gamma(power - 0.5) / gamma(power) * (square + low) ** (0.5 - power))
 
     across = over(11.0 / 6.0) - low * over(17.0 / 6.0)
@@ -76,25 +74,25 @@ def _power(waves: Doubles, least: float, most: float) -> Doubles:
 
 
 def _left(points: int) -> Doubles:
-    """Return how much of each wave's power is left between a table's points, shape (points, points)."""
+    """Return the part of each wave's power that interpolation between a table's points leaves, (points, points)."""
     axis = power_left(2.0 * pi * np.fft.fftfreq(points).astype(np.float64))
     return axis[:, None] * axis
 
 
 def _share(square: Doubles, most: float, soft: float) -> Doubles:
-    """Return 1 for wave numbers well below `most`, 0 for those well above it, from their squares.
+    """Return 1 for wave numbers well below `most` and 0 for those well above it, from their squares.
 
-    Between them is a ratio whose logarithm is `soft`.
+    The step is `soft` wide in the logarithm of the wave number.
     """
     ratio = np.log(np.maximum(square, 1e-30)) / 2.0 - np.log(most)
     return np.asarray(0.5 - 0.5 * np.sin(pi * np.clip(ratio / soft, -0.5, 0.5)))
 
 
 def _velocity(waves: Doubles, power: Doubles, random: np.random.Generator) -> Floats:
-    """Return a table of waves of these powers whose phases are random, shape (points, points, 4).
+    """Return the velocities of waves with these powers and random phases, shape (points, points, 4).
 
-    Each wave's two directions, and its two halves, are a quarter of a turn apart, so that no chance changes the
-    variance. Of a wave and its opposite, which are one, the table has one.
+    Each wave's two components, and the table's two halves, are a quarter turn apart in phase, so that the variance does
+    not depend on chance. A wave and its opposite are the same wave; the table has only one of them.
     """
     drawn = random.random(power.shape[1:])
     opposite = np.roll(drawn[::-1, ::-1], 1, (0, 1))

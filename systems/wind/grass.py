@@ -1,4 +1,4 @@
-"""What winds are told of the grass at their receivers."""
+"""Responses of the grass at receivers, as winds read them."""
 
 from collections.abc import Sequence
 
@@ -10,7 +10,7 @@ from ..grow.record import Growth
 
 
 def grass_of(growths: Sequence[Growth], kind: NDArray[np.intp], /) -> Grass:
-    """Return how grass of these kinds answers the wind; `kind` (n,) counts the rows of `growths`."""
+    """Return the responses of these kinds of grass; `kind` (n,) has indices into `growths`."""
     grass = Grass(
         kind=kind.view(),
         step=np.array([growth.response.step for growth in growths], np.float32),
@@ -18,5 +18,5 @@ def grass_of(growths: Sequence[Growth], kind: NDArray[np.intp], /) -> Grass:
         fall=np.stack([growth.response.fall for growth in growths]),
     )
     for shared in (grass.kind, grass.step, grass.rise, grass.fall):
-        shared.flags.writeable = False  # no wind may change what the next is told
+        shared.flags.writeable = False  # no wind may change what the next one reads
     return grass

@@ -17,13 +17,13 @@ from ...engine.memo import by_identity
 from .shape import rim, rim_width
 
 LATEST = 36000.0
-"""Repetitions come again after so long, and somewhat more [s]."""
+"""Least period after which the random series of repetitions recurs [s]."""
 
 BENDS, LOWER = np.array((4.1, 1.7), np.float32), np.float32(0.6)
-"""Of the ragged front: from wave to wave, of two [m], and how high the second is, of the first."""
+"""Scale of each of the two sine waves of the ragged front [m/rad]; height of the second relative to the first."""
 
 MOST_KEPT = 64
-"""How many of a gust's repetitions are kept."""
+"""Most repetitions of a gust that are kept in memory."""
 
 
 class Gust(WindPrimitive):
@@ -88,26 +88,26 @@ class Gust(WindPrimitive):
 
     @property
     def life(self) -> float:
-        """How long it is on its way, until the last grass is at rest again [s]."""
+        """Time from setting out until its last grass is at rest again [s]."""
         return (self.reach + self.ragged) / self.speed + self.hold + self.tail
 
     def rates(self) -> tuple[float]:
-        """Return how fast it travels [m/s]."""
+        """Return its speed [m/s]."""
         return (self.speed,)
 
     def ends(self) -> float:
-        """Return when its last grass is at rest again [s]; `inf` for one that comes again without end."""
+        """Return the time when its last grass is at rest again [s]; `inf` for one that repeats without end."""
         stop = super().ends()
         return stop if self.every is not None else min(stop, self.start + self._longest)
 
     @property
     def _longest(self) -> float:
-        """How long it is on its way at most, at the slowest that it has ever been [s]."""
+        """Largest possible `life`, at the slowest speed that it has ever had [s]."""
         slowest = self.speed if self.course is None else self.course.slowest[0]
         return (self.reach + self.ragged) / slowest + self.hold + self.tail
 
     def is_on_its_way(self, time: float, /) -> bool:
-        """Return whether it has set out at `time` [s], and some of its grass is not at rest again."""
+        """Return whether it has set out at `time` [s] and not all of its grass is at rest again."""
         return self.start <= time and self._way(time) < self.speed * self.life
 
     def parts(self, *, time: float, seed: int) -> Sequence[WindPrimitive]:
@@ -117,15 +117,15 @@ class Gust(WindPrimitive):
         waits, sides = _repetitions(seed, *self.every)
         once, period = len(waits) - 1, waits[-1]
         first, last = (_set_out(waits, time - self.start - past) for past in (self._longest, 0.0))
-        known = _again(self)
+        known = _kept_repetitions(self)
         if len(known) > MOST_KEPT:
             known.clear()
-        again = (
+        repetitions = (
             known.get((seed, k))
             or known.setdefault((seed, k), self._repeated(k // once * period + waits[k % once], sides[k % once]))
             for k in range(first, last)
         )
-        return [each for each in again if each.is_on_its_way(time)]
+        return [each for each in repetitions if each.is_on_its_way(time)]
 
     def _repeated(self, wait: float, side: float) -> "Gust":
         heading, aside = radians(self.direction), self.wander * side
@@ -138,11 +138,11 @@ class Gust(WindPrimitive):
         return Pose(self.position[0] + way * sin(heading), self.position[1] - way * cos(heading), heading)
 
     def extent(self, *, time: float) -> Extent:
-        """Return the rectangle it holds: from the front back to where grass is at rest again."""
+        """Return its rectangle: from the front back to where grass is at rest again."""
         way = self._way(time)
         depth = self.speed * (self.hold + self.tail) + self.ragged
         half, ahead = self.width / 2, max(0.0, way - self.reach)
-        return Extent(-half, half, ahead, max(min(depth, way), ahead))  # at the very end rounding may turn it round
+        return Extent(-half, half, ahead, max(min(depth, way), ahead))  # at the very end rounding may swap its ends
 
     def mask(self, place: Floats, /, *, time: float) -> Floats:
         """Return 1 in the middle of the strip, falling to 0 at its edges over `soft` [m]."""
@@ -154,23 +154,24 @@ class Gust(WindPrimitive):
         behind = place[:, 1] - self._lag(place[:, 0], seed)
         elapsed = behind / np.float32(self.speed)
         index = grass.after_start(elapsed) + grass.after_stop(elapsed - np.float32(self.hold)) - np.float32(1.0)
-        left = np.clip((np.float32(self.hold + self.tail) - elapsed) / np.float32(0.5 * self.tail), 0.0, 1.0)
+        fade = np.clip((np.float32(self.hold + self.tail) - elapsed) / np.float32(0.5 * self.tail), 0.0, 1.0)
         message = np.zeros((len(place), 2), np.float32)
-        message[:, 1] = np.clip(-np.float32(self.strength) * index * left, -1.0, 1.0)
+        message[:, 1] = np.clip(-np.float32(self.strength) * index * fade, -1.0, 1.0)
         return message
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
-        """Return where the strip begins and ends, how wide its rims are [m], and where its front's waves begin."""
+        """Return the strip's front and back, the widths of its rims [m], and the phases of its front's waves [rad]."""
         held = self.extent(time=time)
         side, end = rim_width(held.left, held.right, self.soft), rim_width(held.ahead, held.behind, self.soft)
         along = held.ahead, held.behind
         return TwinValues({"ahead_behind": along, "side": side, "end": end, "waves": _phases(seed)})
 
     def _way(self, time: float) -> float:
+        """Return the distance that the front has travelled at `time` [s] [m]."""
         return self.phases(time=time, since=self.start)[0]
 
     def _lag(self, across: Floats, seed: int) -> Floats:
-        """Return how far parts of the front are behind, from 0 to `ragged` [m], shape (n,)."""
+        """Return the lag of the front at each x, from 0 to `ragged` [m], shape (n,)."""
         first, second = (np.float32(phase) for phase in _phases(seed))
         wave = np.sin(across / BENDS[0] + first) + np.sin(across / BENDS[1] + second) * LOWER
         return np.asarray(
@@ -179,20 +180,20 @@ class Gust(WindPrimitive):
 
 
 @by_identity(most=256)
-def _again(_: Gust) -> dict[tuple[int, int], Gust]:
-    """Return where a gust's repetitions are kept, by its seed and their number."""
+def _kept_repetitions(_: Gust) -> dict[tuple[int, int], Gust]:
+    """Return the store of a gust's repetitions, by seed and number."""
     return {}
 
 
 @lru_cache(maxsize=256)
 def _phases(seed: int) -> tuple[float, float]:
-    """Return where the two waves of a front begin [rad]."""
+    """Return the phases of the two waves of a front [rad]."""
     first, second = np.random.default_rng(seed).uniform(0.0, 2.0 * np.pi, 2).tolist()
     return first, second
 
 
 def _set_out(waits: list[float], elapsed: float) -> int:
-    """Return how many gusts have set out `elapsed` [s] after the first: after the last wait they begin anew."""
+    """Return the number of gusts that have set out `elapsed` [s] after the first; the waits recur after the last."""
     if elapsed < 0.0:
         return 0
     again, rest = divmod(elapsed, waits[-1])
@@ -201,7 +202,7 @@ def _set_out(waits: list[float], elapsed: float) -> int:
 
 @lru_cache(maxsize=256)
 def _repetitions(seed: int, shortest: float, longest: float) -> tuple[list[float], list[float]]:
-    """Return when a gust sets out [s], rising from 0, and how far aside, in [-1, 1]; the first one straight."""
+    """Return the times when a gust sets out [s], rising from 0, and its offsets aside, in [-1, 1], the first one 0."""
     random = np.random.default_rng((seed, 0x67757374))
     count = int(LATEST / shortest) + 1
     waits = np.concatenate([[0.0], np.cumsum(random.uniform(shortest, longest, count))])

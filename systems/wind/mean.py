@@ -9,11 +9,11 @@ from ...components.arrays import Floats
 from ...components.wind import WindPrimitive
 
 TOWARDS = 90.0
-"""Where winds blow to unless they are told, as a camera's yaw [degrees]."""
+"""Default direction that winds blow to, as a camera's yaw [degrees]."""
 
 
 class MeanWind(WindPrimitive):
-    """A wind over the whole prairie; what drifts in it travels with it."""
+    """A wind over the whole prairie, with a direction and a mean strength; its waves or eddies travel with it."""
 
     direction: float = Field(default=TOWARDS, ge=-360.0, le=360.0)
     """Where it blows to, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""
@@ -26,12 +26,12 @@ class MeanWind(WindPrimitive):
 
     @property
     def velocity(self) -> tuple[float, float]:
-        """How fast its waves or eddies travel along x and z [m/s]."""
+        """Velocity of its waves or eddies along x and z [m/s]."""
         heading = radians(self.direction)
         return self.speed * sin(heading), -self.speed * cos(heading)
 
     def rates(self) -> tuple[float, ...]:
-        """Return how fast its waves travel along x and z [m/s]."""
+        """Return the velocity of its waves along x and z [m/s]."""
         return self.velocity
 
     def mask(self, place: Floats, /, *, time: float) -> Floats:

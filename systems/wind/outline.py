@@ -1,4 +1,4 @@
-"""Outlines of any shape: how deep a place lies inside, and which way leads out (paper, section 3.3)."""
+"""Outlines of any shape: depth of places inside them, and the direction outwards (paper, section 3.3)."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -10,10 +10,10 @@ from ...components.arrays import Doubles, Floats, Mask
 from ..space.polygon import in_polygon
 
 FINE = 96
-"""Samples along the longer side of an outline."""
+"""Number of samples along the longer side of an outline."""
 
 _BLUR = 2.0
-"""How far directions are evened out, so that no ridge shows where two sides are equally near [samples]."""
+"""Standard deviation of the blur of directions, so that no ridge shows where two sides are equally near [samples]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -21,7 +21,7 @@ class Outline:
     """A shape on the ground, sampled in a rectangle a little larger than itself."""
 
     corner: tuple[float, float]
-    """Where the first sample is, (x, z) [m]."""
+    """Position of the first sample, (x, z) [m]."""
 
     step: float
     """Distance between samples [m]."""
@@ -39,7 +39,7 @@ class Outline:
 
     @property
     def bounds(self) -> tuple[float, float, float, float]:
-        """Least and largest x, least and largest z that it is sampled at [m]."""
+        """Rectangle of the samples: least x, largest x, least z, largest z [m]."""
         rows, columns = self.field.shape[:2]
         x, z = self.corner
         return x, x + (columns - 1) * self.step, z, z + (rows - 1) * self.step
@@ -65,7 +65,7 @@ class Outline:
 
 @lru_cache(maxsize=256)
 def polygon_of_ellipse(across: float, along: float, /) -> tuple[tuple[float, float], ...]:
-    """Return the corners of an ellipse with these half axes [m], its first one to the right."""
+    """Return the corners of a polygon for an ellipse with these half axes [m], the first one to the right."""
     angle = np.linspace(0.0, 2.0 * np.pi, 96, endpoint=False)
     return tuple(zip((across * np.cos(angle)).tolist(), (along * np.sin(angle)).tolist(), strict=True))
 
@@ -96,8 +96,8 @@ def outline_of_picture(holds: Mask, /, *, width: float) -> Outline:
 
 
 def _outline(depth: Doubles, corner: tuple[float, float], step: float) -> Outline:
-    even = _blurred(depth)
-    down, right = np.gradient(even, step)
+    """Return the outline of a signed depth (rows, columns) [m]; directions are the gradient of the blurred depth."""
+    down, right = np.gradient(_blurred(depth), step)
     outward = -np.stack([right, down], axis=2)
     length = np.linalg.norm(outward, axis=2, keepdims=True)
     outward /= np.maximum(length, 1e-9)
@@ -107,7 +107,7 @@ def _outline(depth: Doubles, corner: tuple[float, float], step: float) -> Outlin
 
 
 def _to_edges(place: Doubles, points: Doubles) -> tuple[Doubles, Mask]:
-    """Return the distances of places (..., 2) to a closed polygon's edges, and whether it holds them (even-odd)."""
+    """Return the distances of places (..., 2) to a closed polygon's edges, and which lie inside (even-odd rule)."""
     away = np.full(place.shape[:-1], np.inf)
     for a, b in zip(points, np.roll(points, -1, axis=0), strict=True):
         edge, to = b - a, place - a
@@ -117,16 +117,17 @@ def _to_edges(place: Doubles, points: Doubles) -> tuple[Doubles, Mask]:
 
 
 def _signed(holds: Mask) -> Doubles:
-    """Return each pixel's distance to the nearest one of the other sort, negative where not set [pixels]."""
-    inside, outside = np.argwhere(holds & _edged(~holds)), np.argwhere(~holds & _edged(holds))
+    """Return the signed distance of each pixel to the shape's edge, negative where not set [pixels]."""
+    inside, outside = np.argwhere(holds & _next_to(~holds)), np.argwhere(~holds & _next_to(holds))
     rows, columns = np.indices(holds.shape)
     here = np.stack([rows, columns], axis=-1).reshape(-1, 2)
     depth = np.where(holds.reshape(-1), _nearest(here, outside), -_nearest(here, inside))
     return np.asarray((depth - 0.5 * np.sign(depth)).reshape(holds.shape))
 
 
-def _edged(other: Mask) -> Mask:
-    padded = np.pad(other, 1)
+def _next_to(pixels: Mask) -> Mask:
+    """Return which pixels have one of these set ones beside, above or below them."""
+    padded = np.pad(pixels, 1)
     return np.asarray(padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:])
 
 
@@ -138,12 +139,13 @@ def _nearest(here: NDArray[np.intp], targets: NDArray[np.intp]) -> Doubles:
 
 
 def _blurred(field: Doubles) -> Doubles:
-    reach = np.arange(-int(3 * _BLUR), int(3 * _BLUR) + 1)
-    bell = np.exp(-0.5 * (reach / _BLUR) ** 2)
-    bell /= bell.sum()
+    """Return a field after a Gaussian blur of `_BLUR` samples."""
+    offset = np.arange(-int(3 * _BLUR), int(3 * _BLUR) + 1)
+    kernel = np.exp(-0.5 * (offset / _BLUR) ** 2)
+    kernel /= kernel.sum()
     for axis in (0, 1):
         pad = [(0, 0), (0, 0)]
-        pad[axis] = (len(reach) // 2, len(reach) // 2)
+        pad[axis] = (len(offset) // 2, len(offset) // 2)
         padded = np.pad(field, pad, mode="reflect", reflect_type="odd")
-        field = np.apply_along_axis(np.convolve, axis, padded, bell, mode="valid")
+        field = np.apply_along_axis(np.convolve, axis, padded, kernel, mode="valid")
     return field

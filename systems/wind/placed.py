@@ -1,4 +1,4 @@
-"""Winds that are somewhere: at a fixed place, or on their way along a path (paper, section 3.3)."""
+"""Local winds: at a fixed place, or travelling along a path (paper, section 3.3)."""
 
 from pydantic import Field
 

@@ -16,16 +16,16 @@ from .mean import MeanWind
 Record = dict[str, Sequence[float]]
 
 CLOSER = FINER * FINE / PERIOD
-"""How much closer the points of the table of small eddies are than those of the other."""
+"""Density of the points in the table of small eddies relative to the table of large ones."""
 
 LIFE, SOONER = 64.0, 8.0
-"""How many length scales the wind goes while large eddies become others, and how much sooner small ones do."""
+"""Way of the wind while large eddies change into others [length scales]; ratio of their life to that of small ones."""
 
 TURNS = 2.0 * pi
-"""Largest phase that eddies come to as they become others [rad]."""
+"""Largest phase that mixes the two halves of a table, as eddies change [rad]."""
 
 SWAY = 1.5
-"""How many length scales, ahead and aside, they wander from the way that the mean wind carries them."""
+"""Distance that eddies wander from the path of the mean wind, ahead and aside [length scales]."""
 
 
 class Turbulence(MeanWind):
@@ -47,12 +47,12 @@ class Turbulence(MeanWind):
     """How large its eddies are: the integral length scale along its direction [m]."""
 
     def rates(self) -> tuple[float, ...]:
-        """Return how fast its eddies travel, along x and z and altogether [length scales/s]."""
+        """Return the velocity of its eddies along x and z, and their speed [length scales/s]."""
         x, z = self.velocity
         return x / self.scale, z / self.scale, self.speed / self.scale
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
-        """Return its messages at ground positions (n, 2): the mean with its eddies, shape (n, 2)."""
+        """Return its messages at ground positions (n, 2): the mean plus its eddies, shape (n, 2)."""
         values = self.twin_values(time=time, seed=seed)
         record = {name: np.asarray(each, np.float32) for name, each in cast(Record, values.numbers).items()}
         (ahead_x, ahead_z), (across, along) = record["mean"], record["lie"]
@@ -66,7 +66,7 @@ class Turbulence(MeanWind):
 
     @staticmethod
     def _eddies(at: Floats, record: Mapping[str, Floats], tables: Sequence[Floats]) -> tuple[Floats, Floats]:
-        """Return how much faster the wind is than its mean, and how much goes aside, of the mean, shape (n,) each."""
+        """Return the fluctuations along the mean wind and to its right, relative to the mean, shape (n,) each."""
         shift, share = record["shift"], record["share"]
         large = smooth_noise(tables[0], at, shift=(shift[0], shift[1]))
         small = smooth_noise(tables[1], np.float32(CLOSER) * at, shift=(shift[2], shift[3]))
@@ -80,7 +80,7 @@ class Turbulence(MeanWind):
         return faster, aside
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
-        """Return the mean, how the tables lie, how far they are carried, and how much is felt of each half of both."""
+        """Return the mean message, the tables' rotation and scale, their shifts, and the weights of their halves."""
         heading, step = radians(self.direction), self.scale * WIDE / PERIOD
         first = radians(self.first.direction)  # a wind that a game turns leaves its tables as they lie
         gone_x, gone_z, gone = self.phases(time=time)

@@ -1,4 +1,4 @@
-"""The whirlwind: a disc that bends grass along its circles, most of all near the middle (paper, section 3.3)."""
+"""The whirlwind: a disc that bends grass along circles, strongest near the middle (paper, section 3.3)."""
 
 from math import cos, pi, sin
 from typing import ClassVar, Literal
@@ -12,10 +12,10 @@ from .placed import PlacedWind
 from .shape import rim, rim_width, smooth
 
 EYE = 0.3
-"""Radius of the calm in the middle, where no direction is along a circle [m]."""
+"""Radius of the calm middle, where circles have no direction [m]."""
 
 LOBES, UNEVEN, FALLS = 2, 0.18, 0.85
-"""In how many places around its middle it is stronger, by how much, and by how much it is weaker at its rim."""
+"""Number of stronger sides around the middle; their amplitude, of the strength; loss of strength at the rim."""
 
 
 class Whirlwind(PlacedWind):
@@ -46,7 +46,7 @@ class Whirlwind(PlacedWind):
     """Over what distance from its edge it sets in, unless winds meet by priority [m]."""
 
     def rates(self) -> tuple[float]:
-        """Return how fast its stronger sides go round, clockwise seen from above [turns/s]."""
+        """Return the speed of its stronger sides, clockwise seen from above [turns/s]."""
         return (-self.turning if self.spin == "left" else self.turning,)
 
     def extent(self, *, time: float) -> Extent:
@@ -59,23 +59,23 @@ class Whirlwind(PlacedWind):
         return rim(away, -self.radius, self.radius, self.soft)
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
-        """Return its messages: tangent to the circles, an index that falls from the middle to the edge."""
+        """Return its messages: tangent to circles, with an index that falls from the middle to the edge."""
         x, z = place[:, 0], place[:, 1]
         away = np.asarray(np.maximum(np.sqrt(x * x + z * z), np.float32(1e-6)), np.float32)
         part = np.minimum(away / np.float32(self.radius), np.float32(1.0))
         fall = np.float32(1.0) - part * part * np.float32(FALLS)
         sign = np.float32(-1.0 if self.spin == "left" else 1.0)
-        around = np.arctan2(z, x) * np.float32(LOBES) - np.float32(self._turned(time))
-        uneven = np.float32(1.0 - UNEVEN) + np.float32(UNEVEN) * np.cos(around)
+        phase = np.arctan2(z, x) * np.float32(LOBES) - np.float32(self._phase(time))
+        uneven = np.float32(1.0 - UNEVEN) + np.float32(UNEVEN) * np.cos(phase)
         index = np.float32(self.strength) * fall * uneven * smooth(away / np.float32(EYE))
         return np.stack([-sign * z / away * index, sign * x / away * index], axis=1)
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
-        """Return the width of its rim [m], which way it turns, and how far its stronger sides are: cosine and sine."""
-        sign, phase = -1.0 if self.spin == "left" else 1.0, self._turned(time)
+        """Return the width of its rim [m], its sense of rotation, and cosine and sine of its stronger sides' phase."""
+        sign, phase = -1.0 if self.spin == "left" else 1.0, self._phase(time)
         width = rim_width(-self.radius, self.radius, self.soft)
         return TwinValues({"side": width, "sign": sign, "turned": (cos(phase), sin(phase))})
 
-    def _turned(self, time: float) -> float:
-        """Return how far its stronger sides have gone round, as far as that shows [rad]."""
+    def _phase(self, time: float) -> float:
+        """Return `LOBES` times the angle that its stronger sides have gone round, within one turn [rad]."""
         return 2.0 * pi * LOBES * self.phases(time=time)[0] % (2.0 * pi)

@@ -29,7 +29,7 @@ from tallgrass.engine.camera import Camera, projection_matrix, view_matrix, view
 from tallgrass.engine.gl import rasteriser
 from tallgrass.engine.scene import read_scene
 from tallgrass.systems.reference import draw_truth, patch_distances
-from tallgrass.systems.space.frustum import beyond, picture_sides
+from tallgrass.systems.space.frustum import outside_planes, picture_sides
 
 COMMON = {"machine", "scene", "preset", "size", "frames"}
 FRAME = COMMON | {
@@ -188,7 +188,13 @@ def test_the_frustum_holds_what_a_picture_shows_and_nothing_behind_or_far_aside(
     view = view_of(view_matrix(camera), projection_matrix(camera.view, 1.0))
     middle = np.array([[0, 1, -5], [0, 1, 5], [9, 1, -5], [3.5, 1, -5], [0, 9, -5]], np.float32)
     radius = np.full(5, 1.0, np.float32)
-    assert (beyond(middle, picture_sides(view, ends=True)) <= radius).tolist() == [True, False, False, True, False]
+    assert (outside_planes(middle, picture_sides(view, ends=True)) <= radius).tolist() == [
+        True,
+        False,
+        False,
+        True,
+        False,
+    ]
 
 
 def test_the_yardstick_is_the_least_of_its_timings(monkeypatch: pytest.MonkeyPatch) -> None:

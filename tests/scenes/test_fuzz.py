@@ -30,7 +30,7 @@ from tallgrass.components.wind import Grass, WindPrimitive, WindSource
 from tallgrass.engine.plugins import wind, wind_kinds
 from tallgrass.engine.scene import LoadedScene, SceneError, bundled_scenes, load_maps, printable, read_scene
 from tallgrass.engine.scene.compose import read_document
-from tallgrass.systems.wind.blow import blowing, hear, places_alone
+from tallgrass.systems.wind.blow import blowing, hear, lone_receivers
 from tallgrass.systems.wind.quarantine import Quarantine
 
 COUNT = int(os.environ.get("TALLGRASS_FUZZ", "300"))
@@ -243,7 +243,7 @@ def blown(loaded: LoadedScene) -> None:
     quarantine, seed = Quarantine(), loaded.scene.seed
     for time in (0.0, 4.75, 36000.0):
         winds = blowing(sources, quarantine, time=time, seed=seed)
-        heard = hear(winds, places_alone(place, grass), quarantine, time=time, seed=seed, mixing=loaded.scene.mixing)
+        heard = hear(winds, lone_receivers(place, grass), quarantine, time=time, seed=seed, mixing=loaded.scene.mixing)
         assert heard.shape == (5, 2)
         assert np.hypot(*heard.T).max() <= 1.0 + 1e-5
     failed = [reason for reason in quarantine.reasons.values() if " raised " in reason or " returned " in reason]

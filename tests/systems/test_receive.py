@@ -16,7 +16,7 @@ from tallgrass.systems.show.strips.pool import StripPool, StripsKept
 from tallgrass.systems.show.strips.shown import StripsOfRing, StripsShown
 from tallgrass.systems.site import Site
 from tallgrass.systems.space.cone import nearness
-from tallgrass.systems.wind.blow import ReceiverArrays, places_alone
+from tallgrass.systems.wind.blow import ReceiverArrays, lone_receivers
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.grass import grass_of
 
@@ -161,7 +161,7 @@ def test_w1_every_receiver_that_is_seen_hears_the_wind(site: Site, look: Look, w
     for (pool, shown), hears in zip(pooled(outlook), receiving(outlook), strict=True):
         np.testing.assert_array_equal(hears.slots, shown.slots)
         place, message = pool.places(shown.slots).reshape(-1, 2), hears.letters.heard(shown.slots)
-        alone = places_alone(place, grass_of(site.growths, pool.kind(shown.slots)))
+        alone = lone_receivers(place, grass_of(site.growths, pool.kind(shown.slots)))
         np.testing.assert_array_equal(message, hear(alone, time=0.0))
         assert np.linalg.norm(message, axis=1).mean() > 0.3
         count += len(message)

@@ -21,7 +21,7 @@ from tallgrass.systems.painter import Painter
 from tallgrass.systems.show.blades.shown import BladesShown
 from tallgrass.systems.show.strips.shown import StripsShown
 from tallgrass.systems.site import Site
-from tallgrass.systems.wind.blow import ReceiverArrays, places_alone
+from tallgrass.systems.wind.blow import ReceiverArrays, lone_receivers
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.grass import grass_of
 
@@ -155,7 +155,7 @@ def test_d2_what_receivers_hear_is_read_from_their_component(
     found = of(world, "blades") + of(world, "strips")
     assert all(np.linalg.norm(receivers.message, axis=1).mean() > 0.05 for _, receivers in found)
     for _, receivers in found:
-        alone = places_alone(receivers.place, grass_of(site.growths, receivers.kind))
+        alone = lone_receivers(receivers.place, grass_of(site.growths, receivers.kind))
         np.testing.assert_array_equal(receivers.message, hear(alone, time=0.0))
     near = outlook.kept["blades"].receiving[0]
     where = {tuple(place) for place in near.pool.places(near.slots).reshape(-1, 2).tolist()}

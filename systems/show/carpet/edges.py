@@ -9,7 +9,7 @@ from ....components.arrays import Floats, Mask
 from ....engine.handed import FARTHEST
 from ....engine.terrain.plots import CELLS, SIDE, Plots, Values
 from ...mow.mown import Mown
-from ...space.ground import STEP, WITHIN, Ground
+from ...space.ground import EDGE_STEP, EDGE_WIDTH, Ground
 from .found import Found
 from .holes import MOST_BLOCKS, Blocks, Holes, Rectangles
 
@@ -31,7 +31,7 @@ class Edges:
         self._maps: Values | None = None
         self._painted: Blocks | None = None
         self._holes: Holes | None = None
-        self._sown, self._cut = _PlotEdges(STEP * 255.0), _PlotEdges(HEIGHT_STEP)
+        self._sown, self._cut = _PlotEdges(EDGE_STEP * 255.0), _PlotEdges(HEIGHT_STEP)
 
     def touch(self, ground: Ground, mown: Mown | None, tallest: float, rectangles: Rectangles, /) -> Mask:
         """Return which rectangles of ground touch an edge, in their common shape.
@@ -57,8 +57,8 @@ class Edges:
 def _painted_edges(maps: Values, ground: Ground) -> Blocks | None:
     """Return the edges of the painted densities (kinds, rows, columns), None if there are none."""
     shape, size = np.array(maps.shape[1:]), np.array(ground.terrain.size)[::-1]
-    within = ground.patch * WITHIN
-    step = STEP / min(1.0, within * float((shape / size).max()))
+    within = ground.patch * EDGE_WIDTH
+    step = EDGE_STEP / min(1.0, within * float((shape / size).max()))
     down, across = np.maximum(np.ceil(np.maximum(within * shape / size, shape / MOST_BLOCKS)), 1).astype(int).tolist()
     uneven = [_uneven_blocks(values, down, across, step) for values in maps if np.ptp(values) > step]
     if not any(blocks.any() for blocks in uneven):

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....engine.terrain.record import Terrain
-from ...space.cone import HALF_DIAGONAL, beyond_cone
+from ...space.cone import HALF_DIAGONAL, outside_cone
 from .rims import Rims
 
 Tiles = NDArray[np.float64]
@@ -108,7 +108,7 @@ def which_seen(tiles: Tiles, eye: tuple[float, float, float], cone: tuple[float,
     """Return the row numbers of the tiles, of `tiles_around` (n, 4), that may be seen, far to near."""
     side = tiles[:, 2] * GRID
     x, z = tiles[:, 0] + 0.5 * side, tiles[:, 1] + 0.5 * side
-    seen = (beyond_cone(x, z, apex=(eye[0], eye[2]), cone=cone) <= 0.75 * side).nonzero()[0]
+    seen = (outside_cone(x, z, apex=(eye[0], eye[2]), cone=cone) <= 0.75 * side).nonzero()[0]
     across, along = x.take(seen) - eye[0], z.take(seen) - eye[2]
     return seen.take(np.argsort(-(across * across + along * along)))
 

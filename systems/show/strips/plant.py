@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ....components.arrays import Floats, Ints, Mask
 from ....engine.terrain.plots import CELL
 from ....engine.terrain.sample import density_on_lines, left_on_lines
-from ...space.ground import PRESENT, STEP, WITHIN, Ground
+from ...space.ground import EDGE_STEP, EDGE_WIDTH, PRESENT, Ground
 from .pool import StripPool
 
 MOST_PLACES = 13
@@ -70,8 +70,8 @@ def _steps(dense: Floats, within: Floats, spacing: float, patch: float) -> Mask:
 
     Told is how much that of any changes `within` each, (m,).
     """
-    apart = min(max(int(patch * WITHIN / spacing), 1), dense.shape[-1] - 1)
-    step = STEP * max(spacing / (patch * WITHIN), 1.0)
+    apart = min(max(int(patch * EDGE_WIDTH / spacing), 1), dense.shape[-1] - 1)
+    step = EDGE_STEP * max(spacing / (patch * EDGE_WIDTH), 1.0)
     found, some = np.zeros(len(within), np.bool_), np.flatnonzero(within > step)
     if len(some):
         dense = dense[:, some]

@@ -69,7 +69,7 @@ def test_f8_the_scenes_mean_wind_carries_the_small_oscillations(load: Load, tmp_
     scene = (tmp_path / "scene.yaml").read_text("utf-8")
     (tmp_path / "swinging.yaml").write_text(scene.replace("{ kind: breeze, strength: 0.4 }", swinging), "utf-8")
     prairie = load(tmp_path / "swinging.yaml")
-    due = flutter(PLACES, time=40.0, seed=5, to=radians(direction))
+    due = flutter(PLACES, time=40.0, seed=5, yaw=radians(direction))
     np.testing.assert_allclose(prairie.wind_at(PLACES, 40.0), np.float32(0.25) * due, atol=1e-6)
 
 

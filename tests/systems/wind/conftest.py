@@ -11,7 +11,7 @@ from tallgrass.components.wind import Grass, Mixing, WindPrimitive, WindSource
 from tallgrass.engine.declared.grass import GrassKind
 from tallgrass.systems.grow.record import Response
 from tallgrass.systems.grow.response import grow_response
-from tallgrass.systems.wind.blow import blowing, hear, places_alone
+from tallgrass.systems.wind.blow import blowing, hear, lone_receivers
 from tallgrass.systems.wind.quarantine import Quarantine
 
 Answer = Callable[..., Grass]
@@ -57,7 +57,7 @@ def feel(answer: Answer) -> Feel:
         sources = [WindSource(wind, name) for wind, name in zip(winds, called, strict=True)]
         quarantine = Quarantine()
         now = blowing(sources, quarantine, time=time, seed=seed, poses=poses or [])
-        receivers = places_alone(place, answer(len(place), kind=kind))
+        receivers = lone_receivers(place, answer(len(place), kind=kind))
         message = hear(now, receivers, quarantine, time=time, seed=seed, mixing=mixing)
         assert not quarantine.reasons
         return message

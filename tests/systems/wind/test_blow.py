@@ -12,7 +12,7 @@ from pydantic import Field
 from tallgrass.components.arrays import Floats
 from tallgrass.components.declaration import Pair
 from tallgrass.components.wind import Grass, Mixing, WindPrimitive, WindSource
-from tallgrass.systems.wind.blow import blowing, hear, places_alone
+from tallgrass.systems.wind.blow import blowing, hear, lone_receivers
 from tallgrass.systems.wind.quarantine import Quarantine
 
 PLACES = np.stack(np.meshgrid(np.linspace(-5, 5, 41), np.linspace(-5, 5, 41)), -1).reshape(-1, 2).astype(np.float32)
@@ -53,7 +53,7 @@ def told(
     quarantine = Quarantine()
     winds = blowing(sources, quarantine, time=time, seed=0)
     at = np.arange(len(PLACES)) if rows is None else np.array(rows, np.intp)
-    message = hear(winds, places_alone(PLACES[at], STILL.at(at)), quarantine, time=time, seed=0, mixing=mixing)
+    message = hear(winds, lone_receivers(PLACES[at], STILL.at(at)), quarantine, time=time, seed=0, mixing=mixing)
     assert not quarantine.reasons
     return message
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass, WindSource
-from tallgrass.systems.wind.blow import blowing, hear, mean_index, places_alone
+from tallgrass.systems.wind.blow import blowing, hear, lone_receivers, mean_index
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.quarantine import Quarantine
@@ -39,7 +39,7 @@ def felt(breeze: Breeze, place: Floats = FIELD, *, time: float = 3.0, seed: int 
     quarantine = Quarantine()
     winds = blowing([WindSource(breeze, "breeze")], quarantine, time=time, seed=seed)
     grass = Grass(np.zeros(len(place), np.intp), *np.ones((3, 1, 2), np.float32))
-    message = hear(winds, places_alone(place, grass), quarantine, time=time, seed=seed)
+    message = hear(winds, lone_receivers(place, grass), quarantine, time=time, seed=seed)
     assert not quarantine.reasons
     return message
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Extent, Grass, Mixing, TwinValues, WindPrimitive, WindSource
 from tallgrass.systems.wind.blast import Blast
-from tallgrass.systems.wind.blow import Blowing, ReceiverArrays, blowing, hear, places_alone
+from tallgrass.systems.wind.blow import Blowing, ReceiverArrays, blowing, hear, lone_receivers
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.quarantine import Quarantine
@@ -89,7 +89,7 @@ def now_of(*winds: WindPrimitive, time: float = TIME) -> list[Blowing]:
 
 
 def receivers() -> ReceiverArrays:
-    return places_alone(PLACE, grass_at(PLACE))
+    return lone_receivers(PLACE, grass_at(PLACE))
 
 
 def agrees(ear: CardEar, now: list[Blowing], mixing: Mixing = "weight", quarantine: Quarantine | None = None) -> None:
@@ -139,7 +139,7 @@ def test_where_all_winds_have_twins_no_receivers_are_asked_for(ear: CardEar) -> 
 def test_receivers_may_have_numbers_of_their_own(ear: CardEar) -> None:
     now, some = now_of(Draught()), np.arange(0, 1500, 3)
     due = hear(now, receivers(), Quarantine(), time=TIME, seed=7)
-    chosen = places_alone(PLACE[some], grass_at(PLACE).at(some))
+    chosen = lone_receivers(PLACE[some], grass_at(PLACE).at(some))
     hearing = ear.card.tell
     ear.card.tell = lambda _, quarantine: hearing(lambda: chosen, quarantine, numbers=lambda: some)  # type: ignore[assignment,method-assign,misc]
     found = ear.hear(now, receivers(), Quarantine(), time=TIME, seed=7, mixing="priority")

@@ -14,7 +14,7 @@ from tallgrass.systems.light.repeating import CLOUDS_SIDE, FASTER, drifted
 from tallgrass.systems.wind.blast import Blast, Shape
 from tallgrass.systems.wind.blow import mean_yaw
 from tallgrass.systems.wind.breeze import Breeze
-from tallgrass.systems.wind.flutter import CARRIED, PACES, flutter
+from tallgrass.systems.wind.flutter import CARRIED, FREQUENCIES, flutter
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.turbulence import Turbulence
 from tallgrass.systems.wind.whirlwind import Whirlwind
@@ -114,12 +114,12 @@ def test_w10_another_seed_swings_otherwise(feel: Feel) -> None:
 @pytest.mark.parametrize("time", [0.0, 1000.0, 36000.0])
 def test_f8_the_mean_wind_carries_the_oscillations_along(to: float, time: float) -> None:
     """After a whole turn of the slowest beat, and with what they wander on the way."""
-    later = 2.0 * pi / PACES[1]
-    before = flutter(FIELD, time=time, seed=7, to=to)[:, 1]
+    later = 2.0 * pi / FREQUENCIES[1]
+    before = flutter(FIELD, time=time, seed=7, yaw=to)[:, 1]
     away = np.linspace(-1.5, 1.5, 31)
     ahead = np.array([sin(to), -cos(to)])
     found = [
-        np.corrcoef(before, flutter((FIELD + on * ahead).astype(np.float32), time=time + later, seed=7, to=to)[:, 1])
+        np.corrcoef(before, flutter((FIELD + on * ahead).astype(np.float32), time=time + later, seed=7, yaw=to)[:, 1])
         for on in away
     ]
     best = np.array([each[0, 1] for each in found])
@@ -132,7 +132,7 @@ def test_f8_the_mean_wind_carries_the_oscillations_along(to: float, time: float)
 def test_f8_the_oscillations_do_not_come_again_within_an_hour(to: float) -> None:
     """Whichever way they are carried, along an axis of their noise's table too."""
     steps = np.arange(0.0, 2.0 * 3600.0, 0.5)
-    story = np.stack([flutter(FIELD[:60], time=time, seed=7, to=to) for time in steps], axis=2)
+    story = np.stack([flutter(FIELD[:60], time=time, seed=7, yaw=to) for time in steps], axis=2)
     power = (np.abs(np.fft.rfft(story, 2 * len(steps), axis=2)) ** 2).mean(axis=0)
     correlation = np.fft.irfft(power)[:, : len(steps)] / (len(steps) - np.arange(len(steps)))
     within = correlation[:, 20 : 3600 * 2 + 1] / correlation[:, :1]
@@ -162,7 +162,7 @@ def test_clouds_go_with_the_same_mean_wind_as_the_oscillations() -> None:
 
 def test_f8_after_ten_hours_they_go_on_as_smoothly_as_at_first() -> None:
     changes = [
-        np.abs(flutter(FIELD, time=time + 1e-3, seed=7, to=1.0) - flutter(FIELD, time=time, seed=7, to=1.0)).max()
+        np.abs(flutter(FIELD, time=time + 1e-3, seed=7, yaw=1.0) - flutter(FIELD, time=time, seed=7, yaw=1.0)).max()
         for time in (0.0, 36000.0)
     ]
     assert max(changes) < 0.05

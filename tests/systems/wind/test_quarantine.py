@@ -14,7 +14,7 @@ from tallgrass.components.wind import Extent, Grass, Mixing, WindPrimitive, Wind
 from tallgrass.engine.schedule import PATIENCE, WINDOW
 from tallgrass.systems.wind import quarantine as quarantine_module
 from tallgrass.systems.wind.blast import Blast
-from tallgrass.systems.wind.blow import blowing, hear, places_alone
+from tallgrass.systems.wind.blow import blowing, hear, lone_receivers
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.quarantine import (
@@ -141,7 +141,7 @@ def told(
     sources: list[WindSource], quarantine: Quarantine, *, time: float = 1.0, mixing: Mixing = "priority"
 ) -> Floats:
     winds = blowing(sources, quarantine, time=time, seed=0)
-    return hear(winds, places_alone(PLACES.copy(), GRASS), quarantine, time=time, seed=0, mixing=mixing)
+    return hear(winds, lone_receivers(PLACES.copy(), GRASS), quarantine, time=time, seed=0, mixing=mixing)
 
 
 BREEZE = WindSource(Breeze(), "wind[0] breeze")

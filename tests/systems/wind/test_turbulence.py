@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tallgrass.components.arrays import Doubles, Floats
 from tallgrass.components.wind import Grass, WindSource
 from tallgrass.engine.noise import PERIOD, noise_table, power_left, smooth_noise
-from tallgrass.systems.wind.blow import blowing, hear, places_alone
+from tallgrass.systems.wind.blow import blowing, hear, lone_receivers
 from tallgrass.systems.wind.eddies import CORNER, eddy_tables
 from tallgrass.systems.wind.quarantine import Quarantine
 from tallgrass.systems.wind.turbulence import Turbulence
@@ -118,11 +118,11 @@ def test_f8_what_grass_feels_in_time_falls_by_five_thirds_over_two_decades(wind:
     place = np.random.default_rng(2).uniform(-500.0, 500.0, (64, 2)).astype(np.float32)
     pace, steps, quarantine = wind.speed / wind.scale, 2048, Quarantine()
     rate = 72.0 * pace
-    receivers = places_alone(place, Grass(np.zeros(64, np.intp), *np.ones((3, 1, 2), np.float32)))
+    receivers = lone_receivers(place, Grass(np.zeros(64, np.intp), *np.ones((3, 1, 2), np.float32)))
     to, source, story = np.radians(wind.direction), WindSource(wind, "turbulence"), []
     for time in np.arange(2 * steps) / rate:
         now = blowing([source], quarantine, time=float(time), seed=7)
-        story.append(axes(wind)[0] @ hear(now, receivers, quarantine, time=float(time), seed=7, to=float(to)).T)
+        story.append(axes(wind)[0] @ hear(now, receivers, quarantine, time=float(time), seed=7, yaw=float(to)).T)
     parts = np.array(story, np.float64).T.reshape(64 * 2, steps)
     parts -= parts.mean(axis=1, keepdims=True)
     power = (np.abs(np.fft.rfft(parts * np.hanning(steps), axis=1)) ** 2).mean(axis=0)

@@ -16,7 +16,7 @@ from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.scene import read_scene
 from tallgrass.systems.grow.record import Response
 from tallgrass.systems.wind.blast import Blast, Shape
-from tallgrass.systems.wind.blow import Blowing, blowing, hear, places_alone
+from tallgrass.systems.wind.blow import Blowing, blowing, hear, lone_receivers
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.quarantine import Quarantine
@@ -110,7 +110,7 @@ def both(
     ear: CardEar, grass: Grass, now: list[Blowing], place: Floats, *, time: float, mixing: Mixing
 ) -> tuple[Floats, Floats]:
     """What receivers hear on the card, and by numpy."""
-    receivers, quarantine = places_alone(place, mixed(place, grass)), Quarantine()
+    receivers, quarantine = lone_receivers(place, mixed(place, grass)), Quarantine()
     found = ear.hear(now, receivers, quarantine, time=time, seed=7, mixing=mixing)
     return found, hear(now, receivers, quarantine, time=time, seed=7, mixing=mixing)
 
@@ -202,7 +202,7 @@ def test_f7_equal_priorities_and_winds_that_set_in_are_mixed_alike(
 
 def test_w10_still_receivers_take_no_part_in_the_small_oscillations(ear: CardEar, grass: Grass) -> None:
     place = np.random.default_rng(4).uniform(-9.0, 9.0, (200, 2)).astype(np.float32)
-    alone = places_alone(place, mixed(place, grass))
+    alone = lone_receivers(place, mixed(place, grass))
     receivers = type(alone)(place, alone.grass, alone.patch, place, 0.0, still=120)
     now = at_once(Breeze(swing=0.5), time=3.0)
     found = ear.hear(now, receivers, Quarantine(), time=3.0, seed=7, mixing="priority")
