@@ -27,9 +27,9 @@ from tallgrass.systems.show.strips.sublevel import (
     SINKING,
     TIGHTER,
     axis_of,
-    left_of,
-    looked_down_on,
+    effective_slope,
     packed,
+    remaining,
     ring_of,
     shows_rows,
     strip_ring,
@@ -83,7 +83,7 @@ def test_g3_strips_have_sunk_before_they_show_as_rows(slope: float, distance: in
     def at(distance: int) -> tuple[bool, float]:
         where = np.array([slope], np.float32), np.array([distance], np.int32)
         rows = shows_rows(*where, np.array([False]), height=height, spacing=0.3, slack=0)
-        return bool(rows[0]), float(left_of(where[0], where[1].astype(np.float32), height=height, spacing=0.3)[0])
+        return bool(rows[0]), float(remaining(where[0], where[1].astype(np.float32), height=height, spacing=0.3)[0])
 
     shows, left = at(distance)
     assert left == 0.0 if shows else left > -1e-6
@@ -159,7 +159,7 @@ def test_f2_what_is_looked_down_on_counts_the_steeper_the_farther_it_is(
 
     def at(distance: int) -> float:
         one = np.array([slope], np.float32), np.array([drop], np.float32), np.array([distance], np.int32)
-        return float(looked_down_on(*one)[0])
+        return float(effective_slope(*one)[0])
 
     assert at(distance + 5) >= at(distance) >= np.float32(slope)
     if drop <= 0.0 or slope <= 0.0 or distance <= APART:

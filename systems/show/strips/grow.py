@@ -1,4 +1,4 @@
-"""Vertical strips: images of the blades between two planes, in both orientations (paper, section 2.2)."""
+"""Growing strips: images of the blades in vertical slices of a patch, in both orientations (paper, section 2.2)."""
 
 from dataclasses import dataclass
 
@@ -25,21 +25,21 @@ class Strips:
     """Distance of each strip's plane from the patch's edge [m], shape (strips,)."""
 
     texels: Bytes
-    """Coverage-premultiplied meaning of each texel, bottom row first, shape (2, strips, h, w, 4): place along
-    the blade, cosine c and sine s of twice the face normal's azimuth (0.5 + 0.5 c, 0.5 + 0.5 s), coverage. Of kinds
-    whose heads have eyes, in place of the sine, how much of the eye's colour it has."""
+    """Texels premultiplied by coverage, bottom row first, shape (2, strips, h, w, 4): tone, cosine c and sine s of
+    twice the face normal's azimuth (0.5 + 0.5 c, 0.5 + 0.5 s), coverage. The tone of a grass blade is the place along
+    it. For kinds whose heads have eyes, the fraction of the eye's colour replaces the sine."""
 
     ranks: Bytes
-    """Coverage-premultiplied rank of what each texel shows, shape (2, strips, h, w)."""
+    """Rank of the blades in each texel, premultiplied by coverage, shape (2, strips, h, w)."""
 
     height: float
     """Height of the texture [m]."""
 
     margin: float
-    """How far the texture reaches beyond the patch at either end [m]."""
+    """Distance that the texture reaches beyond the patch at either end [m]."""
 
     slice: NDArray[np.int32]
-    """Strip that each blade is painted on, shape (2, n)."""
+    """Index of the strip that each blade is painted on, shape (2, n)."""
 
     @property
     def patch(self) -> float:
@@ -50,22 +50,23 @@ class Strips:
 _SEGMENTS = 12
 
 SLANT = 0.16
-"""Tangent of the angle from which heads are painted: the same to both sides, as they are about round."""
+"""Tangent of the angle below which heads are seen as they are painted: from above, and alike from both sides, as they
+are about round."""
 
 
 _TEXELS_UP = 96, 140
-"""From how many texels on from the ground to the highest tip they get coarser, and how many there are at most: tall
-kinds have broad blades and do with coarser ones."""
+"""Number of texels from the ground to the highest tip above which texels get coarser, and the largest number: tall
+kinds have broad blades, which need fewer."""
 
 _COARSE = 0.011
-"""Width of a texel [m] that broad blades do with in all rings."""
+"""Width of a texel [m] that is fine enough for broad blades in all rings."""
 
 
 def texel_of(texel: float, finest: float, height: float, /, *, far: bool) -> float:
-    """Return how wide a kind's texels are [m] in a ring of `texel`, where the finest ring's are of `finest` [m].
+    """Return the width of a kind's texels [m] in a ring of width `texel` [m]; that of the finest ring is `finest` [m].
 
-    With the height of the kind all rings get coarser alike, until broad blades would blur: then none that is seen from
-    `far` is coarser than they need, or than there is room for.
+    The texels of all rings get coarser with the kind's `height` [m], until broad blades would blur. From there on, a
+    ring seen from `far` has texels as coarse as such blades allow, or as the largest number of texels demands.
     """
     least, most = _TEXELS_UP
     coarser = texel * max(height / least / finest, 1.0)
@@ -73,7 +74,7 @@ def texel_of(texel: float, finest: float, height: float, /, *, far: bool) -> flo
 
 
 def strips_of(model: PatchModel, /) -> tuple[Strips, ...]:
-    """Return the strips of a patch model, from the nearest ring to the farthest: fewer strips, coarser texels."""
+    """Return the strips of a patch model by ring, from the nearest to the farthest: fewer strips, coarser texels."""
     return model.pictures["strips"]
 
 
@@ -92,12 +93,12 @@ def grow_strips(
 ) -> Strips:
     """Return the strips of a patch model, drawn from its blades at rest.
 
-    A strip shows the blades whose roots lie in its slice, along the slice's normal. Where they cross, those of lower
-    rank lie in front: the strip is flat anyway, and a blade that stays where its kind grows thinly must not have been
-    hidden by one that goes. Of face normals the doubled azimuth is kept: both sides of a blade are lit alike, and light
-    is linear in its cosine and sine, so that the mean of many is right. The texture reaches from -`margin` to `patch` +
-    `margin`, and from the ground to `height` [m] (without it, over the highest tip); its texels are square but for
-    rounding, `texel` metres wide at most.
+    A strip shows the blades whose roots lie in its slice, seen along the slice's normal. Where blades cross, the lower
+    rank lies in front: depth in a flat strip means little, and a blade that stays where its kind grows thinly must not
+    be hidden by one that goes. Face normals are kept as their doubled azimuth: both sides of a blade are lit alike, and
+    light is linear in its cosine and sine, so that means over many blades are right. The texture spans -`margin` to
+    `patch` + `margin`, and the ground to `height` [m], by default the highest tip. Its texels are square but for
+    rounding, at most `texel` metres wide.
     """
     if height is None:
         height = highest_tip(spine(blades, postures, (0.0, 0.0), points=postures.shape.shape[2]), texel)
@@ -118,14 +119,14 @@ def grow_strips(
 
 
 def targets_on(strips: Strips, blades: Blades, postures: Postures, /) -> Floats:
-    """Return where on strips control points of their blades are painted: the morph's targets (paper, section 4.2).
+    """Return the texture coordinates (u, v) at which blades' control points are painted, shape (2, n, points, 2).
 
-    They are texture coordinates (u, v), shape (2, n, points, 2), the same on strips of all rings.
+    They are the targets of the morph (paper, section 4.2), and the same on strips of all rings.
     """
     centre = spine(blades, postures, (0.0, 0.0), points=postures.shape.shape[2])
-    ground = (centre[:, :, ::2].astype(np.float64) + strips.margin) / (strips.patch + 2.0 * strips.margin)
-    up = centre[:, :, 1].astype(np.float64) / strips.height
-    return np.stack([np.stack([ground[:, :, k], up], axis=2) for k in (0, 1)]).astype(np.float32)
+    u = (centre[:, :, ::2].astype(np.float64) + strips.margin) / (strips.patch + 2.0 * strips.margin)
+    v = centre[:, :, 1].astype(np.float64) / strips.height
+    return np.stack([np.stack([u[:, :, axis], v], axis=2) for axis in (0, 1)]).astype(np.float32)
 
 
 def _count(length: float, texel: float, /) -> int:
@@ -135,14 +136,14 @@ def _count(length: float, texel: float, /) -> int:
 def _triangles(
     blades: Blades, postures: Postures, taper: float, section: Section, side: tuple[float, float, float] | None, /
 ) -> Doubles:
-    """Return the triangles of blades at rest, shape (triangles, 3, 3); round ones are as wide as they are to `side`."""
+    """Return the triangles of blades at rest, shape (triangles, 3, 3); round blades extend along the vector `side`."""
     edges = ribbon(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper, section=section, side=side)
     left, right = (edge.astype(np.float64) for edge in edges)
     return ribbon_triangles(left, right)
 
 
 class _Sheet:
-    """One orientation's strips as one image, strip above strip, and the blades to draw on it."""
+    """The image that strips of one orientation are drawn on, one above another, and the blades to draw."""
 
     def __init__(
         self,
@@ -160,24 +161,25 @@ class _Sheet:
     ) -> None:
         self._blades, self._strips, self._size = blades, strips, size
         self._patch, self._margin, self._height = patch, margin, height
-        self._seen_along = [
+        self._triangles = [
             _triangles(blades, postures, taper, section, side)
             for side in (((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)) if section.is_round else (None,))
         ]
-        self._fine = int(np.clip(np.ceil(4.0 * height / size[0] / float(blades.width.mean())), 4, 10))
+        self._samples = int(np.clip(np.ceil(4.0 * height / size[0] / float(blades.width.mean())), 4, 10))
+        """Number of samples across a texel, in either direction."""
 
     def slice(self, orientation: int, /) -> NDArray[np.int32]:
-        """Return the strip that each blade is painted on, shape (n,)."""
+        """Return the index of the strip that each blade is painted on, shape (n,)."""
         depth = self._blades.root[:, 1 - orientation].astype(np.float64)
         return np.clip(depth / self._patch * self._strips, 0, self._strips - 1).astype(np.int32)
 
     def draw(self, orientation: int, /) -> Bytes:
         """Return the texels of one orientation and their ranks, shape (strips, h, w, 5)."""
         h, w = self._size
-        fine = self._fine
+        fine = self._samples
         span = 2 * _SEGMENTS
         along = 2 * orientation
-        ribbons = self._seen_along[min(orientation, len(self._seen_along) - 1)]
+        ribbons = self._triangles[min(orientation, len(self._triangles) - 1)]
         corners = np.empty((*ribbons.shape[:2], 2))
         corners[:, :, 0] = (ribbons[:, :, along] + self._margin) * (w * fine / (self._patch + 2.0 * self._margin))
         up = ribbons[:, :, 1] + self._lifted(ribbons, 1 - orientation)
@@ -188,7 +190,7 @@ class _Sheet:
         corners[:, :, 1] += np.repeat(self.slice(orientation), span)[:, None] * float(h * fine)
         shape = self._strips * h * fine, w * fine
         seen = rasterise(corners, front, shape=shape)
-        values = self._meaning(corners, seen)
+        values = self._values(corners, seen)
         if has_eyes(self._blades):
             toward = (0.0, SLANT, -1.0) if along == 0 else (-1.0, SLANT, 0.0)
             values[2] = interpolate(corners, eyed(self._blades, ribbons, points=_SEGMENTS + 1, toward=toward), seen)
@@ -198,28 +200,28 @@ class _Sheet:
         return texels.reshape(-1, h, w, 5)
 
     def _lifted(self, ribbons: Doubles, depth: int, /) -> Doubles | float:
-        """Return how much higher corners of heads are painted, as they are seen from a little above, (triangles, 3)."""
+        """Return the heights added to the corners of heads [m], which are seen from a little above, (triangles, 3)."""
         heads = np.repeat(np.isin(np.broadcast_to(self._blades.organ, self._blades.rank.shape), HEADS), 2 * _SEGMENTS)
         if not heads.any():
             return 0.0
-        away = ribbons[:, :, 2 * depth]
-        foot = away.reshape(-1, 2 * _SEGMENTS * 3)[:, :1].repeat(2 * _SEGMENTS, axis=0)
-        return np.asarray(np.where(heads[:, None], SLANT * (away - foot), 0.0))
+        position = ribbons[:, :, 2 * depth]
+        foot = position.reshape(-1, 2 * _SEGMENTS * 3)[:, :1].repeat(2 * _SEGMENTS, axis=0)
+        return np.asarray(np.where(heads[:, None], SLANT * (position - foot), 0.0))
 
     def _behind(self, ribbons: Doubles, depth: int, /) -> Doubles:
-        """Return how far corners are behind the root of their plant, in ranks: petals before an eye hide it.
+        """Return the depth of corners behind their plant's root, in ranks, so that petals hide the eye behind them.
 
-        None comes to stand behind what is of the next rank. Shape (triangles, 3).
+        It stays below half the step between two ranks. Shape (triangles, 3).
         """
         root, ranks = self._blades.root[:, depth].astype(np.float64), np.unique(self._blades.rank)
-        away = ribbons[:, :, 2 * depth] - np.repeat(root, 2 * _SEGMENTS)[:, None]
-        return np.asarray(away * (0.5 / len(ranks) / max(np.abs(away).max(), 1e-6)))
+        offset = ribbons[:, :, 2 * depth] - np.repeat(root, 2 * _SEGMENTS)[:, None]
+        return np.asarray(offset * (0.5 / len(ranks) / max(np.abs(offset).max(), 1e-6)))
 
-    def _meaning(self, corners: Doubles, seen: Fragments, /) -> list[Doubles]:
-        """Return at each sample: place along the blade, twice the normal's azimuth in two parts, 1, and the rank."""
+    def _values(self, corners: Doubles, seen: Fragments, /) -> list[Doubles]:
+        """Return each sample's tone, cosine and sine of twice the normal's azimuth, coverage of 1, and rank."""
         ends = tone(self._blades, np.linspace(0.0, 1.0, _SEGMENTS + 1))[:, :, None]
-        along = interpolate(corners, ribbon_triangles(ends, ends)[:, :, 0], seen)
+        tones = interpolate(corners, ribbon_triangles(ends, ends)[:, :, 0], seen)
         facing, rank = self._blades.facing.astype(np.float64), self._blades.rank.astype(np.float64)
         blade = seen.triangle // (2 * _SEGMENTS)
         twice = [(0.5 + 0.5 * part(2.0 * facing)).take(blade) for part in (np.cos, np.sin)]
-        return [along, *twice, np.ones_like(along), rank.take(blade)]
+        return [tones, *twice, np.ones_like(tones), rank.take(blade)]

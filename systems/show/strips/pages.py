@@ -1,4 +1,4 @@
-"""Packing pictures of many sizes into pages of one size: the layers of a texture."""
+"""Packing pictures of many sizes into pages of one size, the layers of a texture."""
 
 from dataclasses import dataclass
 
@@ -6,44 +6,45 @@ import numpy as np
 from numpy.typing import NDArray
 
 WHOLE = 16
-"""Pictures begin at multiples of so many texels, so that texels of the finest mip-maps are of one picture alone. Others
-show several, which are of one kind."""
+"""Grid that pictures begin on [texels], so that a texel of the finest mip levels belongs to one picture alone. Coarser
+texels mix several pictures, all of one kind."""
 
 SPARE = 4
-"""Texels around what is painted that are empty: there the edges of blades are seen, and no other picture's."""
+"""Width of the empty border around what is painted [texels]: it keeps the edges of blades free of other pictures."""
 
 GLSL = {"WHOLE": float(WHOLE), "SPARE": float(SPARE)}
 
 ROWS, MOST_PAGES = 512, 256
-"""Texels up, of a page: so much is sent to a graphics card at a time. And pages: OpenGL promises no more."""
+"""Height of a page [texels], as a page is uploaded at a time; and largest number of pages that OpenGL promises."""
 
 WIDTHS = range(512, 1025, 16)
-"""Texels across that a page may have: the least that OpenGL promises, at most."""
+"""Widths that a page may have [texels], at most what OpenGL promises."""
 
 LOWER = 0.75
-"""How high a picture is at least, of the shelf that it stands on."""
+"""Least height of a picture, as a fraction of the height of its shelf."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pages:
-    """Where pictures stand."""
+    """Places of pictures on pages."""
 
     places: NDArray[np.int64]
-    """Of each picture its page, its first row and its first column, (n, 3)."""
+    """Page, first row and first column of each picture, shape (n, 3)."""
 
     shape: tuple[int, int, int]
-    """How many pages there are; rows and columns of each."""
+    """Number of pages; rows and columns of a page."""
 
 
 def packed(sizes: NDArray[np.int64], kinds: NDArray[np.int64], /) -> Pages:
-    """Return pages for pictures of these sizes (n, 2), rows and columns, and kinds (n,): those that take least room."""
+    """Return the pages of least area for pictures of these kinds (n,) and sizes (n, 2): rows, columns."""
     whole = -(-sizes // WHOLE) * WHOLE
     widest = int(whole[:, 1].max())
-    each = (_packed(whole, kinds, max(width, widest)) for width in WIDTHS)
-    return min(each, key=lambda pages: np.prod(pages.shape))
+    candidates = (_packed(whole, kinds, max(width, widest)) for width in WIDTHS)
+    return min(candidates, key=lambda pages: np.prod(pages.shape))
 
 
 def _packed(sizes: NDArray[np.int64], kinds: NDArray[np.int64], width: int) -> Pages:
+    """Return pages of this width: pictures of a kind stand side by side on shelves, and shelves are stacked."""
     shelf, column, heights = _shelved(sizes, kinds, width)
     count = min(-(-sum(heights) // max(ROWS, *heights)), MOST_PAGES)
     rows = -(-sum(heights) // (count * WHOLE)) * WHOLE
@@ -56,28 +57,28 @@ def _packed(sizes: NDArray[np.int64], kinds: NDArray[np.int64], width: int) -> P
 def _shelved(
     sizes: NDArray[np.int64], kinds: NDArray[np.int64], width: int
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], list[int]]:
-    """Return the shelf that each picture stands on, its first column there, and how high each shelf is."""
+    """Return the shelf of each picture (n,), its first column there (n,), and the height of each shelf."""
     shelf, column, heights = np.zeros(len(sizes), np.int64), np.zeros(len(sizes), np.int64), list[int]()
     ends, owners = list[int](), list[int]()
     for number in np.lexsort((-sizes[:, 1], -sizes[:, 0])):
         (high, wide), kind = sizes[number].tolist(), int(kinds[number])
-        fits = (
-            at
-            for at, (end, owner) in enumerate(zip(ends, owners, strict=True))
-            if owner == kind and end + wide <= width and high >= LOWER * heights[at]
+        fitting = (
+            candidate
+            for candidate, (end, owner) in enumerate(zip(ends, owners, strict=True))
+            if owner == kind and end + wide <= width and high >= LOWER * heights[candidate]
         )
-        at = next(fits, len(ends))
-        if at == len(ends):
+        found = next(fitting, len(ends))
+        if found == len(ends):
             ends.append(0)
             heights.append(high)
             owners.append(kind)
-        shelf[number], column[number] = at, ends[at]
-        ends[at] += wide
+        shelf[number], column[number] = found, ends[found]
+        ends[found] += wide
     return shelf, column, heights
 
 
 def _stacked(heights: list[int], count: int, rows: int) -> list[tuple[int, int]] | None:
-    """Return the page of each shelf, from the highest on, and its first row; None where so many pages are too few."""
+    """Return the page and the first row of each shelf; None if `count` pages of this many rows do not hold them all."""
     filled, stacks = [0] * count, []
     for high in heights:
         page = next((page for page, end in enumerate(filled) if end + high <= rows), None)

@@ -1,4 +1,4 @@
-"""Planting strips: whose strips a slot of a pool holds, and how densely they grow there (paper, section 2.2)."""
+"""Planting strips: assigning slots of a pool to patches, with the density of grass there (paper, section 2.2)."""
 
 from math import ceil
 from typing import NamedTuple
@@ -12,79 +12,80 @@ from ....engine.terrain.sample import density_on_lines, left_on_lines
 from ...space.ground import EDGE_STEP, EDGE_WIDTH, PRESENT, Ground
 from .pool import StripPool
 
-MOST_PLACES = 13
-"""Places along a side of a patch that are asked how densely grass grows there at most."""
+MOST_SAMPLES = 13
+"""Largest number of density samples along a side of a patch."""
 
 SHADE = 1.5
-"""Places that are so near to one another are about as shaded by trees [m]."""
+"""Distance within which the shade of trees changes little [m]."""
 
 
 class Growing(NamedTuple):
-    """How densely grass grows on some patches."""
+    """Density of grass on some patches."""
 
     present: Mask
-    """Whether each kind grows there at all, shape (m, kinds)."""
+    """Whether each kind grows on a patch at all, shape (m, kinds)."""
 
     least: Floats
-    """Density where it is thinnest, of the kinds that grow there at all, shape (m,)."""
+    """Lowest density on a patch, of the kinds that grow there, shape (m,)."""
 
     edged: Mask
-    """Whether the density of any kind changes much there, shape (m,)."""
+    """Whether the density of any kind changes abruptly on a patch, shape (m,)."""
 
     def some(self, first: int, last: int, /) -> "Growing":
-        """Return it of the patches from `first` to before `last`."""
+        """Return the density on the patches from `first` to before `last`."""
         return Growing(self.present[first:last], self.least[first:last], self.edged[first:last])
 
 
 def plant_strips(
     pool: StripPool, slots: NDArray[np.int64], cell: Ints, model: Ints, turn: Ints, along: Ints, growing: Growing, /
 ) -> None:
-    """Stand the strips of each cell (m, 2), running along axis `along` (m,), in its slot of the pool."""
+    """Plant strips on cells (m, 2), in slots (m,) of a pool; they run along the axes `along` (m,)."""
     pool.stamp[slots, :2], pool.stamp[slots, 2] = cell, along
-    pool.stand[slots] = np.column_stack([model, turn])
+    pool.model_and_turn[slots] = np.column_stack([model, turn])
     pool.present[slots], pool.least[slots], pool.edged[slots] = growing.present, growing.least, growing.edged
 
 
 def growing_on(cell: Ints, ground: Ground, margin: float, /) -> Growing:
-    """Return how densely grass grows on each cell (m, 2), and as far beyond as strips reach [m]."""
-    line = _spread(ground, margin)
-    x, z = (cell.T[:, :, None] * np.float32(ground.patch) + line).astype(np.float32)
+    """Return the density of grass on each cell (m, 2), and up to `margin` [m] beyond it, where strips reach."""
+    samples = _samples(ground, margin)
+    x, z = (cell.T[:, :, None] * np.float32(ground.patch) + samples).astype(np.float32)
     dense = density_on_lines(ground.density, x, z)
-    least, most = _ends(dense)
-    edged = _steps(dense, (most - least).max(axis=1), float(line[1] - line[0]), ground.patch)
+    least, most = _range(dense)
+    edged = _edged(dense, (most - least).max(axis=1), float(samples[1] - samples[0]), ground.patch)
     left = left_on_lines(ground.density, x, z)
     if left is not None:  # trees make no edges
-        least, most = _ends(dense * left)
+        least, most = _range(dense * left)
     grows = most > PRESENT
     return Growing(grows, np.where(grows, least, np.float32(1.0)).min(axis=1), edged)
 
 
-def _ends(dense: Floats) -> tuple[Floats, Floats]:
-    """Return the least and the greatest density (kinds, m, n, n) of each kind on each patch, (m, kinds) each."""
-    all_over = dense.reshape(*dense.shape[:2], -1)
-    return all_over.min(axis=2).T, all_over.max(axis=2).T
+def _range(dense: Floats) -> tuple[Floats, Floats]:
+    """Return the lowest and the highest density (kinds, m, n, n) of each kind on each patch, (m, kinds) each."""
+    samples = dense.reshape(*dense.shape[:2], -1)
+    return samples.min(axis=2).T, samples.max(axis=2).T
 
 
-def _steps(dense: Floats, within: Floats, spacing: float, patch: float) -> Mask:
-    """Return on which patches the density (kinds, m, n, n) of any kind, so far apart [m], has an edge, shape (m,).
+def _edged(dense: Floats, contrast: Floats, spacing: float, patch: float) -> Mask:
+    """Return whether the density (kinds, m, n, n) of any kind changes abruptly on each patch, shape (m,).
 
-    Told is how much that of any changes `within` each, (m,).
+    `spacing` is the distance between samples [m]. `contrast` (m,) is the largest difference of density on each patch,
+    over all kinds; most patches are excluded by it.
     """
     apart = min(max(int(patch * EDGE_WIDTH / spacing), 1), dense.shape[-1] - 1)
     step = EDGE_STEP * max(spacing / (patch * EDGE_WIDTH), 1.0)
-    found, some = np.zeros(len(within), np.bool_), np.flatnonzero(within > step)
-    if len(some):
-        dense = dense[:, some]
-        both = dense[:, :, apart:] - dense[:, :, :-apart], dense[..., apart:] - dense[..., :-apart]
-        down, across = (np.abs(each, out=each).reshape(*each.shape[:2], -1).max(axis=2) for each in both)
-        found[some] = np.maximum(down, across).max(axis=0) > step
-    return found
+    edged, candidates = np.zeros(len(contrast), np.bool_), np.flatnonzero(contrast > step)
+    if len(candidates):
+        dense = dense[:, candidates]
+        differences = dense[:, :, apart:] - dense[:, :, :-apart], dense[..., apart:] - dense[..., :-apart]
+        down, across = (np.abs(each, out=each).reshape(*each.shape[:2], -1).max(axis=2) for each in differences)
+        edged[candidates] = np.maximum(down, across).max(axis=0) > step
+    return edged
 
 
-def _spread(ground: Ground, margin: float) -> Floats:
-    """Return places along a side of a patch, and as far beyond as strips reach, shape (n,) [m].
+def _samples(ground: Ground, margin: float) -> Floats:
+    """Return sample positions along a side of a patch, from `margin` before it to `margin` beyond it, shape (n,) [m].
 
-    They lie about as close as the samples of what is painted, or the cells of what is sown, so that no way across a
+    They lie about as close as the samples of painted maps and the cells of what is sown, so that no path across a
     patch is missed.
     """
     _, rows, columns = ground.density.maps.shape
@@ -95,5 +96,5 @@ def _spread(ground: Ground, margin: float) -> Floats:
         finest = min(finest, SHADE)
     if ground.terrain.holes is not None:
         finest = min(finest, ground.terrain.cell)
-    count = min(max(ceil((ground.patch + 2.0 * margin) / finest), 1), MOST_PLACES - 1) + 1
+    count = min(max(ceil((ground.patch + 2.0 * margin) / finest), 1), MOST_SAMPLES - 1) + 1
     return np.linspace(-margin, ground.patch + margin, count, dtype=np.float32)

@@ -1,4 +1,4 @@
-"""What is known of the 2.5D strips around a viewer, and where they stand; an edge of one is a receiver."""
+"""Pools of the 2.5D strips around a viewer. Every vertical edge of a strip is a receiver."""
 
 from dataclasses import dataclass, field
 
@@ -14,74 +14,75 @@ from .grow import Strips
 
 
 def strip_edges(strips: Strips, columns: int, along: Ints, turn: Ints, /, *, patch: float) -> tuple[Floats, Ints]:
-    """Return the feet of the strips' edges in patches turned by `turn` (m,) whose strips run along axis `along` (m,).
+    """Return the feet of strips' edges in a patch, and the plane of each strip; `lib/stack.glsl` is the twin.
 
-    The first array (m, strips, columns + 1, 2) holds positions in the patch, strips by rising place in their stack;
-    the second (m, strips) says which of the model's planes each strip is. `lib/stack.glsl` has the same.
+    `turn` (m,) are the patches' quarter turns, `along` (m,) the axes that their strips run along. The feet have shape
+    (m, strips, columns + 1, 2) [m]: strips by rising distance along the axis that they are stacked on. The planes
+    (m, strips) are indices into those of the model.
     """
-    count, own = len(strips.plane), (along + turn) % 2
+    count, orientation = len(strips.plane), (along + turn) % 2
     u = np.linspace(-strips.margin, patch + strips.margin, columns + 1, dtype=np.float32)
-    # The edges of a strip and the planes of a patch lie evenly about its middle: a turn only counts them backwards.
-    backwards = (turn == 2) | (turn == np.where(own == 0, 3, 1))
-    run = np.where(backwards[:, None], u[::-1], u)[:, None, :]
+    # The edges of a strip and the planes of a patch are symmetric about its middle: a turn only reverses their order.
+    is_reversed = (turn == 2) | (turn == np.where(orientation == 0, 3, 1))
+    run = np.where(is_reversed[:, None], u[::-1], u)[:, None, :]
     feet = np.empty((len(turn), count, columns + 1, 2), np.float32)
     for axis in (0, 1):
         feet[..., axis] = np.where((along == axis)[:, None, None], run, strips.plane[:, None])
     order = np.arange(count, dtype=np.int32)
-    return feet, np.where(falls(own, along, turn)[:, None], order[::-1], order)
+    return feet, np.where(falls(orientation, along, turn)[:, None], order[::-1], order)
 
 
-def falls(own: Ints, along: Ints, turn: Ints, /) -> NDArray[np.bool_]:
-    """Return whether a model's planes fall along the axis that they are stacked on, shape (m,).
+def falls(orientation: Ints, along: Ints, turn: Ints, /) -> NDArray[np.bool_]:
+    """Return whether the order of a model's planes is reversed along the axis that they are stacked on, shape (m,).
 
-    `own` is the orientation that the model has them in, `along` the axis that they run along once it is turned.
+    `orientation` is that of the strips in the model, `along` the axis that they run along on the turned patch.
     """
-    return np.asarray(turn == np.where(own == 0, np.where(along == 0, 2, 1), np.where(along == 0, 3, 2)))
+    return np.asarray(turn == np.where(orientation == 0, np.where(along == 0, 2, 1), np.where(along == 0, 3, 2)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StripPool:
-    """The strips of one ring of 2.5D patches, one slot per patch and orientation; an edge is a receiver.
+    """The strips of one ring of 2.5D patches, with a slot for each patch and orientation.
 
-    The slots of patches whose strips run along x come first, then those of strips along z; each form a window that
-    wraps round. Strips are counted by rising distance along their stacking axis (+z or +x). Where they stand is
-    reckoned when it is asked for.
+    The slots of patches whose strips run along x come first, then those with strips along z. Each half is a window of
+    `side` by `side` patches that wraps round. Strips are counted by rising distance along the axis that they are
+    stacked on (+z or +x). Their positions are computed on demand.
     """
 
     side: int
-    """Patches along the window's side."""
+    """Number of patches along the window's side."""
 
     strips: list[Strips]
-    """By kind, strips whose planes hold for all the kind's models."""
+    """Strips by kind, of the kind's first model; the planes are the same in all its models."""
 
     columns: int
-    """Polygon strips side by side in each strip."""
+    """Number of polygon strips side by side in each strip."""
 
     patch: float
     """Side of a patch [m]."""
 
     stamp: NDArray[np.int32] = field(init=False)
-    """Cell (i, j) and orientation that each slot is planted for, shape (slots, 3)."""
+    """Cell (i, j) of the patch planted in each slot, and the axis that its strips run along, shape (slots, 3)."""
 
-    stand: NDArray[np.int32] = field(init=False)
-    """Model and quarter turns of each slot's patch, shape (slots, 2)."""
+    model_and_turn: NDArray[np.int32] = field(init=False)
+    """Model and number of quarter turns of each slot's patch, shape (slots, 2)."""
 
     present: NDArray[np.bool_] = field(init=False)
-    """Whether the kind grows on the patch at all, shape (slots, kinds)."""
+    """Whether each kind grows on the patch, shape (slots, kinds)."""
 
     least: Floats = field(init=False)
-    """Density at each slot's thinnest edge, of the kinds that grow there at all, shape (slots,)."""
+    """Lowest density on each slot's patch, of the kinds that grow there, shape (slots,)."""
 
     edged: NDArray[np.bool_] = field(init=False)
-    """Whether the density of any kind changes much on the patch, shape (slots,)."""
+    """Whether the density of any kind changes abruptly on the patch, shape (slots,)."""
 
     def __post_init__(self) -> None:
         slots = 2 * self.side * self.side
         stamp = np.full((slots, 3), NOWHERE, np.int32)
-        stamp[:, 2] = 0  # so that it can be asked where anything is, planted or not
+        stamp[:, 2] = 0  # a valid axis, so that `places` works for empty slots too
         for name, value in (
             ("stamp", stamp),
-            ("stand", np.zeros((slots, 2), np.int32)),
+            ("model_and_turn", np.zeros((slots, 2), np.int32)),
             ("present", np.zeros((slots, len(self.strips)), np.bool_)),
             ("least", np.zeros(slots, np.float32)),
             ("edged", np.zeros(slots, np.bool_)),
@@ -90,44 +91,44 @@ class StripPool:
 
     @property
     def slots(self) -> int:
-        """How many slots there are."""
+        """Number of slots."""
         return len(self.stamp)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How the receivers of a slot are laid out: kinds, strips, edges."""
+        """Shape of a slot's receivers: (kinds, strips, edges)."""
         return len(self.strips), len(self.strips[0].plane), self.columns + 1
 
     def places(self, slots: NDArray[np.int64], /) -> Floats:
         """Return the feet (x, z) [m] of the edges of some slots, shape (m, kinds, strips, columns + 1, 2)."""
-        along, turn = self.stamp[slots, 2], self.stand[slots, 1]
+        along, turn = self.stamp[slots, 2], self.model_and_turn[slots, 1]
         corner = self.stamp[slots, :2].astype(np.float32) * np.float32(self.patch)
         local = [strip_edges(strips, self.columns, along, turn, patch=self.patch)[0] for strips in self.strips]
         return (np.stack(local, axis=1) + corner[:, None, None, None, :]).astype(np.float32)
 
     def kind(self, slots: NDArray[np.int64], /) -> NDArray[np.intp]:
-        """Return the kind that each receiver of some slots is of, one row after another."""
+        """Return the kind of each receiver of some slots, one slot after another, shape (n,)."""
         kinds, strips, edges = self.shape
         return np.tile(np.repeat(np.arange(kinds), strips * edges), len(slots))
 
     def grows(self, slots: NDArray[np.int64], cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
-        """Return which edges of some slots stand in grass that grows on these cells (m, 2), shape (n,)."""
+        """Return whether grass grows at each edge of some slots that are to hold these cells (m, 2), shape (n,)."""
         planted = (self.stamp[slots, :2] == cells).all(axis=1)
         kinds = (self.present[slots] & planted[:, None])[..., None, None]
         return np.broadcast_to(kinds, (len(slots), *self.shape)).reshape(-1)
 
 
 class StripsKept(Kept):
-    """The strips around one viewer, a pool for each ring."""
+    """The pools of strips around one viewer, one for each ring."""
 
     def __init__(self, pools: list[StripPool], name: str) -> None:
         super().__init__([Receiving(pool, name) for pool in pools])
         self.pools = pools
 
     def sow_on(self, cells: Ints, /) -> None:
-        """Plant strips anew of patches on these cells."""
+        """Mark the strips on these cells (n, 2) to be planted anew."""
         for pool in self.pools:
             rows = window_rows(cells, side=pool.side)
             stamp = pool.stamp.reshape(2, -1, 3)
-            along, which = np.nonzero((stamp[:, rows, :2] == cells).all(axis=2))
-            stamp[along, rows[which], :2] = NOWHERE
+            along, index = np.nonzero((stamp[:, rows, :2] == cells).all(axis=2))
+            stamp[along, rows[index], :2] = NOWHERE

@@ -27,9 +27,9 @@ from .shown import StripsOfRing, StripsShown, show_strips
 from .stock import StripStock, stock_strips
 from .sublevel import (
     axis_of,
-    left_of,
-    looked_down_on,
+    effective_slope,
     packed,
+    remaining,
     ring_of,
     shows_rows,
     strip_ring,
@@ -39,12 +39,12 @@ from .sublevel import (
 from .textures import Atlas, strip_atlas, strip_stocks
 
 USUAL = 0.4
-"""Posture index of a usual breeze: how fine strips have to be is measured in it."""
+"""Posture index of a usual breeze, in which the height of grass is taken for the choice of rings."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StripRepresentation(Representation):
-    """Strips between blades and carpet: their vertical edges are the receivers."""
+    """Strips, drawn between blades and carpet. Their vertical edges are the receivers."""
 
     name: ClassVar[str] = "strips"
     label: ClassVar[str] = "2.5D strips"
@@ -59,22 +59,22 @@ class StripRepresentation(Representation):
     growths: Sequence[Growth]
 
     ready: list[Atlas] = field(default_factory=list)
-    """What the next painter takes of what was made beforehand; empty where nothing was."""
+    """The atlas that `prepare` made for the next painter; empty if it was not called."""
 
     @staticmethod
     def reach(quality: Quality, /) -> int:
-        """Return where its last ring ends."""
+        """Return the distance at which the last ring ends."""
         return quality.strip_rings[-1].to
 
     @staticmethod
     def depends(kind: GrassKind, quality: Quality, /) -> object:
-        """Return how fine its rings are, and whether they are seen from far."""
+        """Return each ring's number of strips and width of texels, and whether it is seen from far."""
         del kind
         return [(ring.strips, ring.texel, _from_far(ring, quality)) for ring in quality.strip_rings]
 
     @staticmethod
     def grow(seedling: Seedling, /) -> tuple[Strips, ...]:
-        """Return a patch model's strips, a record for each ring."""
+        """Return the strips of a patch model, one object for each ring."""
         quality = seedling.quality
         finest = min(ring.texel for ring in quality.strip_rings)
         return tuple(
@@ -89,7 +89,7 @@ class StripRepresentation(Representation):
 
     @staticmethod
     def fits(pictures: tuple[Any, ...], quality: Quality, blades: int, /) -> bool:
-        """Return whether there is a record of the right shapes for each ring."""
+        """Return whether there are strips of the right shapes for each ring."""
         rings = quality.strip_rings
         return len(pictures) == len(rings) and all(
             strips.plane.shape == (ring.strips,)
@@ -102,14 +102,14 @@ class StripRepresentation(Representation):
 
     @staticmethod
     def layers(quality: Quality, /) -> int:
-        """Return how many strips there are in all rings, in both orientations."""
+        """Return the number of strips in all rings, in both orientations."""
         return 2 * sum(ring.strips for ring in quality.strip_rings)
 
     @classmethod
     def stocked(
         cls, growths: Sequence[Growth], quality: Quality, ground: Ground, coming: Mapping[int, Growth] = NOTHING, /
     ) -> Self:
-        """Return it with all kinds' strips, ready to be planted on a ground."""
+        """Return the strips of all kinds, ready to be planted on a ground."""
         return cls(quality, ground, stock_strips(growths, coming), growths)
 
     def prepare(self) -> None:
@@ -122,11 +122,11 @@ class StripRepresentation(Representation):
         ]
 
     def rings(self) -> int:
-        """Return how many rings it has."""
+        """Return the number of rings."""
         return len(self.quality.strip_rings)
 
     def ring(self, sublevel: Levels, /) -> Levels:
-        """Return the ring that each sub-level (n,) is of."""
+        """Return the ring of each sub-level (n,)."""
         return ring_of(sublevel).astype(np.int8)
 
     def keep(self, patches: PatchTable, side: int, /) -> StripsKept:
@@ -134,42 +134,45 @@ class StripRepresentation(Representation):
         del patches
         pools = [
             StripPool(side, strips, ring.columns, self.quality.patch)
-            for strips, ring in zip(self.stock.own, self.quality.strip_rings, strict=True)
+            for strips, ring in zip(self.stock.present, self.quality.strip_rings, strict=True)
         ]
         return StripsKept(pools, self.name)
 
     def margin(self) -> float:
-        """Return how far strips reach beyond their patch."""
+        """Return the largest distance that strips reach beyond their patch [m]."""
         return self.stock.margin
 
     def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:
-        """Return the ring and the axis that are due on patches (n,), as one number each."""
+        """Return the sub-levels that patches (n,) are to have: ring and axis as one number."""
         patches, viewer, quality = outlook.patches, outlook.viewer, self.quality
         limits = np.array([self._reach(outlook, ring) for ring in quality.strip_rings[:-1]], np.float32)
         spacing, height = self._spacing(), self._height(outlook)
         slope, _ = viewing_slope(patches, rows, eye=viewer.eye, patch=quality.patch)
-        # Halved, -1 for none is -1 again.
-        ring = strip_ring(patches.away[rows], slope, held >> 1, limits, spacing, height=height, slack=slack)
-        keeps = np.where(held < 0, held, held & 1) if slack else np.full_like(held, -1)
-        return packed(ring, strips_along(patches.cell.take(rows, axis=0), viewer.centre, keeps))
+        held_ring = held >> 1  # -1, for none, stays -1
+        ring = strip_ring(patches.away[rows], slope, held_ring, limits, spacing, height=height, slack=slack)
+        held_axis = np.where(held < 0, held, held & 1) if slack else np.full_like(held, -1)
+        return packed(ring, strips_along(patches.cell.take(rows, axis=0), viewer.centre, held_axis))
 
     def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:
-        """Return which patches (n,) are seen from so high that strips would show as rows, however fine."""
+        """Return on which patches (n,) even the finest strips would show as rows, as they are seen from above."""
         away = outlook.patches.away[rows].astype(np.float32) / np.float32(outlook.lens.factor)
-        slope, height, spacing = self._seen(outlook, rows, away)
+        slope, height, spacing = self._row_factors(outlook, rows, away)
         return shows_rows(slope, away, has, height=height, spacing=spacing, slack=slack)
 
     def remaining(self, outlook: Outlook, rows: Rows, away: Floats, /) -> Floats:
-        """Return how much of strips is left on patches (n,): they sink where they come near to being unfit."""
+        """Return the part of strips that shows on patches (n,): they sink before they become unfit."""
         away = away / np.float32(outlook.lens.factor)
-        slope, height, spacing = self._seen(outlook, rows, away)
-        return left_of(slope, away, height=height, spacing=spacing)
+        slope, height, spacing = self._row_factors(outlook, rows, away)
+        return remaining(slope, away, height=height, spacing=spacing)
 
-    def _seen(self, outlook: Outlook, rows: Rows, away: Floats | NDArray[np.int32], /) -> tuple[Floats, Floats, float]:
-        """Return as how steep patches (n,) count, how high strips stand there, and how far apart the finest do.
+    def _row_factors(
+        self, outlook: Outlook, rows: Rows, away: Floats | NDArray[np.int32], /
+    ) -> tuple[Floats, Floats, float]:
+        """Return what decides whether strips show as rows on patches (n,).
 
-        A patch is as far `away` as one that is seen as large without a long lens: rows show by how thin blades look.
-        Where all of a patch is mown short, the strips are as short.
+        That is the effective slope of sight (n,), the height of strips (n,) [m], and the spacing of the finest [m].
+        `away` is divided by the lens's factor, as rows show by how thin blades look. On a patch that is mown short all
+        over, strips are as short.
         """
         patches, side = outlook.patches, self.quality.patch
         height = np.full(len(rows), self._height(outlook), np.float32)
@@ -177,34 +180,34 @@ class StripRepresentation(Representation):
         if mown is not None and mown.strokes:
             height = np.minimum(height, mown.tops(patches.cell[rows], patch=side))
         slope, drop = viewing_slope(patches, rows, eye=outlook.viewer.eye, patch=side)
-        return looked_down_on(slope, drop, away), height, float(self._spacing().min())
+        return effective_slope(slope, drop, away), height, float(self._spacing().min())
 
     def _reach(self, outlook: Outlook, ring: StripRing) -> float:
-        """Return up to where a ring is due: nowhere beyond the blades, where it is for patches seen from above."""
+        """Return the distance at which a ring ends; one for patches seen from above stays within the blades' reach."""
         quality = self.quality
-        near = quality.blade_rings[-1].to
-        if ring.to > near:
+        blades_to = quality.blade_rings[-1].to
+        if ring.to > blades_to:
             return outlook.lens.rings_in((ring.to,))[0]
-        blades, *_ = outlook.lens.reach_in((near, self.reach(quality), quality.carpet_to))
-        return ring.to * blades / max(near, 1)
+        blades, *_ = outlook.lens.reach_in((blades_to, self.reach(quality), quality.carpet_to))
+        return ring.to * blades / max(blades_to, 1)
 
     def _spacing(self) -> NDArray[np.float32]:
-        """Return the distance between each ring's strips [m]."""
+        """Return the distance between the strips of each ring [m]."""
         return np.array([self.quality.patch / ring.strips for ring in self.quality.strip_rings], np.float32)
 
     def _height(self, outlook: Outlook) -> float:
-        """Return the height of the lowest kind's strips [m]; a wind that is stronger than usual bends them."""
+        """Return the height of the lowest kind's strips [m], lowered where a wind is stronger than usual."""
         index = (max(float(growth.postures.bent_by(outlook.mean_index)), USUAL) for growth in self.growths)
-        stand = (lodged(each) / lodged(USUAL) for each in index)
-        return min(strips.height * each for strips, each in zip(self.stock.own[0], stand, strict=True))
+        lowered = (lodged(each) / lodged(USUAL) for each in index)
+        return min(strips.height * factor for strips, factor in zip(self.stock.present[0], lowered, strict=True))
 
     def ring_and_axis(self, outlook: Outlook, rows: Rows, /) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
-        """Return the ring that patches (n,) are in, and the axis that their strips run along, shape (n,) each."""
+        """Return the ring of patches (n,), and the axis that their strips run along, shape (n,) each."""
         sublevel = outlook.patches.sublevel[outlook.patches.names.index(self.name), rows]
         return ring_of(sublevel), axis_of(sublevel)
 
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> StripsShown:
-        """Return the patches with strips, by ring."""
+        """Return the patches that show strips, by ring."""
         level = outlook.patches.names.index(self.name)
         kept = outlook.keeps(StripsKept)
         shown = show_strips(outlook, cover, level=level, side=kept.pools[0].side, rings=self.rings())
@@ -213,7 +216,7 @@ class StripRepresentation(Representation):
         return shown
 
     def plant(self, outlook: Outlook, /) -> None:
-        """Plant the strips of patches whose slot holds another's, or strips that run the other way."""
+        """Plant the strips of shown patches whose slot holds another patch, or strips along the other axis."""
         patches, kept = outlook.patches, outlook.keeps(StripsKept)
         stale = list[tuple[StripPool, StripsOfRing, NDArray[np.intp]]]()
         for pool, shown in zip(kept.pools, outlook.shows(StripsShown).rings, strict=True):
@@ -225,13 +228,13 @@ class StripRepresentation(Representation):
         if not stale:
             return
         kept.planted += 1
-        cells = patches.cell[np.concatenate([shown.rows[which] for _, shown, which in stale])]
-        growing, first = growing_on(cells, self.ground, self.margin()), 0  # of all rings at once, that is faster
-        for pool, shown, which in stale:
-            rows, last = shown.rows[which], first + len(which)
+        cells = patches.cell[np.concatenate([shown.rows[index] for _, shown, index in stale])]
+        growing, first = growing_on(cells, self.ground, self.margin()), 0  # faster for all rings at once
+        for pool, shown, index in stale:
+            rows, last = shown.rows[index], first + len(index)
             plant_strips(
-                pool, shown.slots[which], cells[first:last], patches.model[rows], patches.turn[rows],
-                shown.along[which], growing.some(first, last),
+                pool, shown.slots[index], cells[first:last], patches.model[rows], patches.turn[rows],
+                shown.along[index], growing.some(first, last),
             )  # fmt: skip
             first = last
 
@@ -240,19 +243,19 @@ class StripRepresentation(Representation):
         return StripsPainter(canvas, self.stock, self.quality, self.atlas())
 
     def atlas(self) -> Atlas:
-        """Return the atlas, as it was made beforehand if it was."""
+        """Return the atlas of all strips, which `prepare` may have made already."""
         if not self.ready:
             self.prepare()
         return self.ready.pop()
 
     def carry(self, before: Representation, kept: Kept, patches: PatchTable, /) -> None:
-        """Let these strips stand where the others did: it is the same kinds that grow there."""
+        """Replace the strips of the pools; the same kinds grow on all patches as before."""
         del before, patches
         assert isinstance(kept, StripsKept)
-        for pool, strips in zip(kept.pools, self.stock.own, strict=True):
+        for pool, strips in zip(kept.pools, self.stock.present, strict=True):
             pool.strips[:] = strips
 
 
 def _from_far(ring: StripRing, quality: Quality, /) -> bool:
-    """Return whether a ring is seen beyond the last blades: nearer strips stand only where they are seen from above."""
+    """Return whether a ring reaches beyond the blades; rings that do not are shown only to a viewer above."""
     return ring.to > quality.blade_rings[-1].to

@@ -33,7 +33,7 @@ class StripStock:
     same in all rings."""
 
     @property
-    def own(self) -> list[list[Strips]]:
+    def present(self) -> list[list[Strips]]:
         """Strips of the present forms, by ring and kind."""
         kinds = sum(form.number == form.kind for form in self.forms)
         return [ring[:kinds] for ring in self.strips]

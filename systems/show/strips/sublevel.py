@@ -1,4 +1,4 @@
-"""Sub-levels of strips: the ring that a patch is in, and which way its strips run."""
+"""Sub-levels of strips: the ring that a patch is in, and the axis that its strips run along."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,24 +8,24 @@ from ...around.patches import PatchTable
 from ...space.cone import cells_apart
 
 TIGHTER = 1.15
-"""How much steeper than needed a patch must be seen for a finer ring to be kept: the slack of slopes."""
+"""Factor on the slope of a line of sight while a finer ring is kept: the hysteresis of slopes."""
 
 ENOUGH = 3.6
-"""How many strips a line of sight crosses, at least, where finer ones are to be had; and more the steeper it is."""
+"""Number of strips that a level line of sight crosses at least, where finer rings are to be had."""
 
 STEEPER = 1.3
-"""How many times more of them that is for each unit of its slope: from above, blades hide less of the rows behind."""
+"""Relative increase of that number for each unit of slope: from above, blades hide less of the rows behind."""
 
 CROSSED = 0.85
-"""How many strips a line of sight must cross for them not to show as rows, where no finer ones are to be had."""
+"""Number of strips that a line of sight must cross, or the finest ring shows as rows."""
 
 GLSL = {"CROSSED": CROSSED}
 
 SINKING = 0.5
-"""Strips begin to sink into the carpet at this part of the slope at which they would show as rows."""
+"""Slope at which strips begin to sink into the carpet, as a fraction of the slope at which they would show as rows."""
 
 APART = 4.0
-"""Discrete distance from which on a line of sight must cross more strips, in proportion to the distance: there blades
+"""Discrete distance beyond which the number of strips to be crossed grows in proportion to the distance: there blades
 are thinner than pixels, and would not hide the rows."""
 
 
@@ -42,11 +42,11 @@ def strip_ring(
 ) -> Levels:
     """Return the ring of each 2.5D patch (n,): by discrete distance, but finer where it is seen from above.
 
-    A line of sight shall cross `ENOUGH` strips and more on its way through grass of this `height` [m], or they show as
-    rows on hillsides that face the viewer. `spacing` is the distance between each ring's strips [m]. A finer ring is
-    kept for `slack` patches longer.
+    Strips show as rows on hillsides that face the viewer, unless a line of sight crosses `ENOUGH` of them, and more the
+    steeper it is, on its way through grass of this `height` [m]. `limits` are the distances at which rings end, and
+    `spacing` the distances between each ring's strips [m]. A finer ring than is due is kept for `slack` patches.
     """
-    # Two lines: what is due on the way out, and what is due on the way back.
+    # The first row has the limits on the way out, the second those on the way back.
     away = np.stack([distance, distance - slack])
     steep = np.stack([slope, slope * np.float32(TIGHTER if slack else 1.0)])
     widest = height / (ENOUGH * np.maximum(steep, 1e-3) * (1.0 + STEEPER * np.maximum(steep, 0.0)))
@@ -60,43 +60,44 @@ def strip_ring(
 def shows_rows(
     slope: Floats, distance: Ints | Floats, has: Mask, /, *, height: Floats | float, spacing: float, slack: int
 ) -> Mask:
-    """Return on which patches (n,) the finest strips would show as rows, seen at these slopes and distances.
+    """Return whether the finest strips would show as rows on each patch (n,), at these slopes and distances.
 
-    A line of sight crosses fewer than `CROSSED` strips, `spacing` [m] apart, on its way through grass of this `height`
-    [m], one or that of each patch (n,). With `slack`, patches that have strips already, as `has` (n,) says, keep them
-    a little longer.
+    They do where a line of sight crosses fewer than `CROSSED` strips, `spacing` [m] apart, on its way through grass of
+    this `height` [m], one number or (n,). With `slack`, patches that `has` (n,) strips already keep them a little
+    longer.
     """
     steepest = _steepest(distance, height, spacing)
     return np.asarray(slope > np.where(has, steepest * TIGHTER, steepest) if slack else slope > steepest)
 
 
-def left_of(slope: Floats, distance: Floats, /, *, height: Floats | float, spacing: float) -> Floats:
-    """Return how much is left of strips on patches (n,) where they come near to showing as rows, from 1 to 0."""
+def remaining(slope: Floats, distance: Floats, /, *, height: Floats | float, spacing: float) -> Floats:
+    """Return the part of strips that shows on patches (n,): it falls from 1 to 0 before they would show as rows."""
     steepest = _steepest(distance, height, spacing)
     span = np.maximum((1.0 - SINKING) * steepest, 1e-6)
     return np.asarray(np.clip((steepest - slope) / span, 0.0, 1.0), np.float32)
 
 
 def _steepest(distance: Ints | Floats, height: Floats | float, spacing: float) -> Floats:
+    """Return the slopes of sight up to which strips do not show as rows, shape (n,)."""
     farther = np.maximum(distance.astype(np.float32), np.float32(APART))
     return np.asarray(height * np.float32(APART / (spacing * CROSSED)) / farther, np.float32)
 
 
-def looked_down_on(slope: Floats, drop: Floats, distance: Ints | Floats, /) -> Floats:
-    """Return as how steep patches (n,) count for the rows that strips show, seen at these slopes and distances.
+def effective_slope(slope: Floats, drop: Floats, distance: Ints | Floats, /) -> Floats:
+    """Return the slopes of sight to patches (n,), raised with distance where the eye looks down on a patch.
 
-    From above, rows lie in line all over a plain, and the last ones would be a line across it: the farther away a patch
-    is that the eye looks down on, the steeper it counts, so that strips sink before they end. `drop` is the tangent of
-    how far below the horizon it is seen: a hillside that faces an eye as high as itself counts as steep as it is.
+    From above, rows lie in line all over a plain, and the last ones would be a line across it. Raised slopes let strips
+    sink before they end. `drop` (n,) is the tangent of a patch's angle below the horizon: a hillside that faces an eye
+    at its own height keeps its slope.
     """
     farther = np.sqrt(np.maximum(distance.astype(np.float32), np.float32(APART)) / np.float32(APART))
     return np.asarray(np.maximum(slope, np.minimum(slope, drop) * farther), np.float32)
 
 
 def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> Levels:
-    """Return the axis that each cell's strips run along, so that none is edge-on (paper, section 2.1): 0 is x.
+    """Return the axis that each cell's strips run along, so that none is edge-on (paper, section 2.1): 0 is x, 1 is z.
 
-    Near the diagonals, where either axis will do, the `current` one stays; -1 is none.
+    Near the diagonals, where either axis will do, the `current` axis is kept; -1 is none.
     """
     across, ahead = cells_apart(cell, centre)
     due = across > ahead
@@ -108,7 +109,7 @@ def strips_along(cell: Ints, centre: Ints, current: NDArray[np.integer], /) -> L
 def viewing_slope(
     patches: PatchTable, rows: Rows, /, *, eye: tuple[float, float, float], patch: float
 ) -> tuple[Floats, Floats]:
-    """Return the tangents of the angles of sight to the ground on each patch, and to the horizon, shape (n,) each."""
+    """Return the tangents of two angles of the line of sight to each patch: to its ground, and to the horizon."""
     (x, z), (along_x, along_z) = patches.middle.T, patches.slope.T
     x, z = x[rows] - np.float32(eye[0]), z[rows] - np.float32(eye[2])
     rise = along_x[rows] * x + along_z[rows] * z
@@ -118,15 +119,15 @@ def viewing_slope(
 
 
 def packed(ring: Levels, axis: Levels, /) -> Levels:
-    """Return the sub-level that a ring and the axis that strips run along make together, shape (n,)."""
+    """Return sub-levels (n,), each made of a ring and of the axis that strips run along."""
     return 2 * ring + axis
 
 
 def ring_of(sublevel: Levels, /) -> NDArray[np.int64]:
-    """Return the ring that sub-levels (n,) are of; -1 for none."""
+    """Return the ring of each sub-level (n,); -1 for none."""
     return sublevel.astype(np.int64) >> 1
 
 
 def axis_of(sublevel: Levels, /) -> Ints:
-    """Return the axis that strips of sub-levels (n,) run along: 0 is x, 1 is z."""
+    """Return the axis that strips of each sub-level (n,) run along: 0 is x, 1 is z."""
     return (sublevel & 1).astype(np.int32)

@@ -16,22 +16,23 @@ from .pages import SPARE, WHOLE, Pages, packed
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Atlas:
-    """The pictures of all strips on pages, finest level first. They stand by ring, kind, model, orientation, strip."""
+    """The pictures of all strips on pages, ordered by ring, kind, model, orientation and strip."""
 
     texels: list[Bytes]
-    """What texels mean, each (pages, rows, columns, 4)."""
+    """Texels as in `Strips.texels`, an array (pages, rows, columns, 4) for each mip level, finest first."""
 
     ranks: list[Bytes]
-    """Their ranks, each (pages, rows, columns): asked for only where some blades do not show."""
+    """Ranks of the texels, an array (pages, rows, columns) for each mip level; used where blades are missing."""
 
     extents: NDArray[np.float32]
-    """Where each picture is painted, by column, (pictures, columns + 1, 4): from and to, across the column, and up to,
-    in [0, 1]; and its page. A texel more on every side is taken for painted. In the last column is where all of it
-    would begin on its page, across and up, and how far it would reach, in [0, 1]: what is empty is left out."""
+    """Painted part of each picture's columns, shape (pictures, columns + 1, 4): left and right end as fractions of the
+    column, top end as a fraction of the height, and the page. A texel on every side counts as painted. The last entry
+    is the whole picture's rectangle on its page: left, bottom, width, height, as fractions of the page. It includes
+    empty parts that the page leaves out."""
 
 
 def strip_stock(growths: Sequence[Growth], ring: int) -> list[list[Strips]]:
-    """Return a ring's strips by kind and model."""
+    """Return the strips of one ring, by kind and model."""
     return [[strips_of(model)[ring] for model in growth.models] for growth in growths]
 
 
@@ -41,8 +42,8 @@ def strip_stocks(growths: Sequence[Growth]) -> list[list[list[Strips]]]:
 
 
 def strip_atlas(stock: Sequence[list[list[Strips]]], columns: Sequence[int]) -> Atlas:
-    """Return the atlas of all strips; `columns` are those of each ring's strips."""
-    every = _each(stock)
+    """Return the atlas of all strips; `columns` gives the number of columns of a strip by ring."""
+    every = _flat(stock)
     boxes = np.concatenate([_painted_box(strips) for strips in every])
     kinds = [
         kind
@@ -60,9 +61,10 @@ def strip_atlas(stock: Sequence[list[list[Strips]]], columns: Sequence[int]) -> 
 
 
 def _painted_box(strips: Strips) -> NDArray[np.int64]:
-    """Return from where to where each picture is painted, and `SPARE` beyond: row and column, (pictures, 2, 2).
+    """Return the first and the last (row, column) of each picture's painted part, shape (pictures, 2, 2).
 
-    All begin at the ground, and at a multiple of `WHOLE` columns: mip-maps have the same texels in common as of all.
+    `SPARE` texels are added on all sides. Boxes begin at the ground, and at a multiple of `WHOLE` columns, so that the
+    texels of their mip levels are those of the whole picture's.
     """
     painted: Mask = np.asarray(strips.texels[..., 3].reshape(-1, *strips.texels.shape[2:4]) > 0)
     (_, top), (left, right) = (_ends(np.asarray(painted.any(axis=axis))) for axis in (2, 1))
@@ -72,18 +74,18 @@ def _painted_box(strips: Strips) -> NDArray[np.int64]:
 
 
 def _laid(pictures: Sequence[Bytes], boxes: NDArray[np.int64], pages: Pages) -> Bytes:
-    """Return pages with parts of pictures (orientations, strips, rows, columns, ...) on them, nothing between."""
+    """Return pages with the `boxes` of all pictures (orientations, strips, rows, columns, ...); the rest is 0."""
     laid = np.zeros((*pages.shape, *pictures[0].shape[4:]), np.uint8)
-    each = (picture for some in pictures for picture in some.reshape(-1, *some.shape[2:]))
-    for (page, row, column), (low, high), picture in zip(pages.places.tolist(), boxes.tolist(), each, strict=True):
-        shown = picture[low[0] : high[0], low[1] : high[1]]
-        laid[page, row : row + shown.shape[0], column : column + shown.shape[1]] = shown
+    flat = (picture for of_model in pictures for picture in of_model.reshape(-1, *of_model.shape[2:]))
+    for (page, row, column), (low, high), picture in zip(pages.places.tolist(), boxes.tolist(), flat, strict=True):
+        part = picture[low[0] : high[0], low[1] : high[1]]
+        laid[page, row : row + part.shape[0], column : column + part.shape[1]] = part
     return laid
 
 
-def sending_strips(ctx: moderngl.Context, made: list[Bytes]) -> Generator[None, None, moderngl.TextureArray]:
-    """Return the texels or the ranks of an atlas as a texture, a piece at a time."""
-    texture = yield from mipmapping(ctx, made)
+def sending_strips(ctx: moderngl.Context, mip_levels: list[Bytes]) -> Generator[None, None, moderngl.TextureArray]:
+    """Upload the mip levels of an atlas's texels or ranks a piece at a time; return the texture."""
+    texture = yield from mipmapping(ctx, mip_levels)
     texture.repeat_x = texture.repeat_y = False
     return texture
 
@@ -97,11 +99,11 @@ def _extents(
     extents[:, -1, :2] = (pages.places[:, 1:] - begins)[:, ::-1] / side
     first = 0
     for ring, count in zip(stock, columns, strict=True):
-        for strips in _each([ring]):
-            own = slice(first, first + _pictures(strips))
-            extents[own, :count, :3] = painted_extents(strips, count)
-            extents[own, -1, 2:] = np.array(strips.texels.shape[3:1:-1]) / side
-            first = own.stop
+        for strips in _flat([ring]):
+            rows = slice(first, first + _pictures(strips))
+            extents[rows, :count, :3] = painted_extents(strips, count)
+            extents[rows, -1, 2:] = np.array(strips.texels.shape[3:1:-1]) / side
+            first = rows.stop
     return extents
 
 
@@ -113,9 +115,10 @@ def extent_texture(ctx: moderngl.Context, extents: NDArray[np.float32]) -> moder
 
 
 def painted_extents(strips: Strips, columns: int, /) -> NDArray[np.float32]:
-    """Return from where to where across each column there is paint, and up to where: shape (pictures, columns, 3).
+    """Return the left, right and top end of the paint in each column, shape (pictures, columns, 3).
 
-    All are fractions of the column and of the strip's height, with a texel to spare; pictures as in the atlas.
+    They are fractions of the column's width and of the strip's height, a texel beyond the paint. Pictures are ordered
+    as in the atlas.
     """
     painted: Mask = np.asarray(strips.texels[..., 3].reshape(-1, *strips.texels.shape[2:4]) > 0)
     width = painted.shape[2]
@@ -123,23 +126,24 @@ def painted_extents(strips: Strips, columns: int, /) -> NDArray[np.float32]:
     for column in range(columns):
         low, high = column * width / columns, (column + 1) * width / columns
         first = int(low)
-        mine = painted[:, :, first : int(np.ceil(high))]
-        (start, end), (_, top) = _ends(np.asarray(mine.any(axis=1))), _ends(np.asarray(mine.any(axis=2)))
+        part = painted[:, :, first : int(np.ceil(high))]
+        (start, end), (_, top) = _ends(np.asarray(part.any(axis=1))), _ends(np.asarray(part.any(axis=2)))
         extents[:, column, 0] = (start - 1 + first - low) / (high - low)
         extents[:, column, 1] = (end + 1 + first - low) / (high - low)
         extents[:, column, 2] = (top + 1) / painted.shape[1]
-        extents[~mine.any(axis=(1, 2)), column] = 0.0
+        extents[~part.any(axis=(1, 2)), column] = 0.0
     return np.clip(extents, 0.0, 1.0)
 
 
 def _ends(painted: Mask) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the first painted place in each row (m, n), and the one after the last, shape (m,) each."""
+    """Return the index of the first painted element of each row (m, n), and that after the last, shape (m,) each."""
     return painted.argmax(axis=1), painted.shape[1] - painted[:, ::-1].argmax(axis=1)
 
 
-def _each(stock: Sequence[list[list[Strips]]]) -> list[Strips]:
+def _flat(stock: Sequence[list[list[Strips]]]) -> list[Strips]:
     return [strips for kinds in stock for models in kinds for strips in models]
 
 
 def _pictures(strips: Strips) -> int:
+    """Return the number of pictures of a patch model in a ring: one for each strip and orientation."""
     return 2 * len(strips.plane)

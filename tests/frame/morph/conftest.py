@@ -204,7 +204,7 @@ class Scene:
     def first_pictures(self) -> NDArray[np.int64]:
         """Where each kind's pictures begin in the atlas, by ring and kind."""
         pictures = np.array(self.strips.strips.array(0).program["pictures"].value)  # type: ignore[union-attr]
-        kinds = len(self.representation.stock.own[0])
+        kinds = len(self.representation.stock.present[0])
         rings = len(self.representation.quality.strip_rings)
         return np.asarray(pictures[: rings * 2 * kinds].reshape(rings, 2 * kinds)[:, :kinds].reshape(-1), np.int64)
 

@@ -38,7 +38,7 @@ def test_g3_edges_stand_in_the_same_places_on_the_card_and_in_numpy_whichever_wa
     ways = np.array(list(product((0, 1), range(4))), np.int32)
     pool = StripPool(3, strips, columns, site.quality.patch)
     slots = np.arange(len(ways))
-    pool.stamp[slots, :2], pool.stamp[slots, 2], pool.stand[slots, 1] = cell, ways[:, 0], ways[:, 1]
+    pool.stamp[slots, :2], pool.stamp[slots, 2], pool.model_and_turn[slots, 1] = cell, ways[:, 0], ways[:, 1]
     kinds, count, edges = pool.shape
     rows = [
         (turn + 4 * along, stack, edge, kind)
