@@ -1,7 +1,7 @@
-"""Quarantine: a wind that raises or returns rubbish is left out, and the frame goes on; so is one that is too slow.
+"""Quarantine: winds that fail, return invalid values or are too slow are left out, and the frame goes on.
 
-A wind's time is measured as processor time of this thread, never by the clock: what happens must not depend on how busy
-the machine is. The one exception is a game, which does without a wind that waits: it stands still meanwhile.
+A wind is timed in processor time of this thread, never by the clock: results must not depend on the machine's load. The
+one exception is a game, which leaves out a wind that waits, because the game stands still meanwhile.
 """
 
 import logging
@@ -24,72 +24,72 @@ from ...engine.schedule import PATIENCE, WINDOW, has_waited
 
 Answer = TypeVar("Answer")
 Called = tuple[str, type[WindPrimitive]]
-"""A wind's name and class, by which it is known as slow: a game may give it other values in every frame."""
+"""Name and class of a wind: the key of slow winds, as a game may change a wind's values in every frame."""
 
 SLOW, SLOW_EACH = 0.1, 2e-6
-"""How long a call may take, in processor time [s], and how much longer for each receiver."""
+"""Processor time from which on a call is slow [s], and the additional time allowed for each receiver [s]."""
 
 NOTICED = 0.02
-"""How long a call may take without being told of [s]: what `plugins check` allows for 10,000 receivers.
+"""Processor time from which on a call is warned of [s], as in `plugins check` for 10,000 receivers.
 
-For more of them it is `SLOW_EACH` for each.
+With more receivers it is `SLOW_EACH` for each.
 """
 
 STALLED = 3.0
-"""How long no single call may take [s]."""
+"""Processor time from which on a single call is slow [s]."""
 
 WAIT, LONGEST_WAIT = 5.0, 60.0
-"""How long a slow wind is left out, on the prairie's clock [s]: at first, and at most; the wait doubles every time."""
+"""First and longest time that a slow wind is left out, on the prairie's clock [s]; it doubles every time."""
 
 LARGEST = 1e6
-"""No number that a mask or an action returns may be this large; both are due to be 1 at most."""
+"""Bound of the numbers that a mask or an action returns; valid ones are 1 at most."""
 
 PLAIN = float, int
-"""What numbers are nearly always; all others are looked at twice."""
+"""Types of nearly all numbers; others take a slower check."""
 
 FARTHEST = 1e12
-"""No body may fly as far away as this [m]: well before numbers overflow."""
+"""Bound of a flying body's coordinates [m], well before numbers overflow."""
 
 log = logging.getLogger("tallgrass")
 
 
 class QuarantinedError(Exception):
-    """The wind has just been left out, or was before."""
+    """The wind is left out, from now on or since before."""
 
 
 @dataclass(slots=True)
 class Quarantine:
-    """The winds that are left out, and why. Those that come along with tallgrass are never too slow."""
+    """The winds that are left out, with reasons. The built-in winds are not timed."""
 
     reasons: MutableMapping[WindSource, str] = field(default_factory=WeakKeyDictionary)
-    """One sentence for each wind that is left out, for as long as there is the wind."""
+    """Reason for each wind that is left out, one sentence, kept as long as the wind exists."""
 
     count: int = 0
-    """How often a wind has been left out."""
+    """Number of times that a wind has been left out."""
 
     live: bool = True
-    """Whether a wind that takes too long is left out for a while; otherwise it stays, and is told of."""
+    """Whether a wind that takes too long is left out for a while; otherwise it is kept, with a warning."""
 
     _timed: dict[type[WindPrimitive], bool] = field(default_factory=dict)
-    """Of each class of winds, whether what it takes is measured: those of our own are not."""
+    """Whether each class of winds is timed; the built-in ones are not."""
 
     _now: float = 0.0
     """The prairie's clock [s]."""
 
     _back: dict[Called, tuple[float, str]] = field(default_factory=dict)
-    """When a slow wind is tried again, on the prairie's clock [s], and why it is left out."""
+    """Time when a slow wind is tried again, on the prairie's clock [s], and the reason why it is left out."""
 
     _wait: dict[Called, float] = field(default_factory=dict)
-    """How long a wind will be left out when it is slow the next time [s]."""
+    """Time that a wind will be left out when it is slow the next time [s]."""
 
     _slow: dict[tuple[Called, str, str], int] = field(default_factory=dict)
-    """Which of a method's latest calls took long, one bit for each, by what that means for the wind; none is 0."""
+    """Bit mask of a method's latest calls that took long, by wind, method and verdict; 0 is left out."""
 
-    _told: set[tuple[str, str]] = field(default_factory=set)
-    """What has been said: a name, and what about it."""
+    _warned: set[tuple[str, str]] = field(default_factory=set)
+    """Warnings logged so far: a name, and the sort of warning."""
 
     def ask(self, source: WindSource, what: str, ask: Callable[[], Answer], /, *, receivers: int = 0) -> Answer:
-        """Return what a wind answers; raises QuarantinedError where it fails to, or has failed before."""
+        """Return a wind's answer; raises QuarantinedError where the wind fails, or is left out already."""
         if self.count and source in self.reasons:
             raise QuarantinedError
         if self._back and (called := _called(source)) in self._back:
@@ -114,9 +114,9 @@ class Quarantine:
         return found
 
     def ask_for(self, source: WindSource, what: str, ask: Callable[[], Floats], /, *, shape: tuple[int, ...]) -> Floats:
-        """Return the array that a wind answers: of this shape, finite, float32.
+        """Return the array that a wind answers, as float32.
 
-        Raises QuarantinedError where it is anything else.
+        Raises QuarantinedError unless it has this shape and its numbers are finite.
         """
         answer = self.ask(source, what, ask, receivers=shape[0])
         if not isinstance(answer, np.ndarray) or answer.shape != shape:
@@ -124,24 +124,24 @@ class Quarantine:
             raise self.leave_out(source, f"{what} returned {found} where shape {shape} is due")
         if answer.dtype.kind not in "fiub":
             raise self.leave_out(source, f"{what} returned {answer.dtype}, which is no number")
-        if not (np.abs(answer) < LARGEST).all():  # what is not finite is no less than anything
+        if not (np.abs(answer) < LARGEST).all():  # also true of NaN
             which = "far beyond 1" if np.isfinite(answer).all() else "that are not finite"
             raise self.leave_out(source, f"{what} returned numbers {which}")
         return np.asarray(answer, np.float32)
 
     def ask_pose(self, source: WindSource, *, time: float) -> Pose:
-        """Return where a wind says that it is at `time` [s]; raises QuarantinedError where no body can fly."""
+        """Return a wind's pose at `time` [s]; raises QuarantinedError where it is invalid, or too far for a body."""
         pose = self.ask(source, "pose", partial(source.primitive.pose, time=time))
         self.must_be(source, "pose", pose, Pose)
-        self._must_count(source, "pose", (pose.x, pose.z, pose.yaw))
+        self._must_be_numbers(source, "pose", (pose.x, pose.z, pose.yaw))
         if max(abs(pose.x), abs(pose.z)) >= FARTHEST:
             raise self.leave_out(source, "pose returned numbers far beyond any prairie")
         return pose
 
     def ask_end(self, source: WindSource, ends: Callable[[], float]) -> float:
-        """Return when a wind is over for good [s], `inf` for never; raises QuarantinedError where that is no time."""
+        """Return the time when a wind is over for good [s], `inf` for never; raises QuarantinedError for no number."""
         end = self.ask(source, "ends", ends)
-        self._must_count(source, "ends", (end,))
+        self._must_be_numbers(source, "ends", (end,))
         return float(end)
 
     def must_be(self, source: WindSource, what: str, answer: object, /, *kinds: type) -> None:
@@ -150,24 +150,25 @@ class Quarantine:
             raise self.leave_out(source, f"{what} returned {type(answer).__name__}, not {kinds[0].__name__}")
 
     def must_stand(self, source: WindSource, part: WindPrimitive, pose: Pose, extent: Extent | None, /) -> None:
-        """Raise QuarantinedError unless what a part says of itself can be reckoned with."""
+        """Raise QuarantinedError unless a part's fields, pose and extent are valid numbers."""
         self.must_be(source, "parts, of the kind of one,", part.kind, str)
         declared = part.priority, part.weight, part.swing, part.start, part.ease
-        self._must_count(source, "parts, of what one declares,", declared)
-        self._must_count(source, "pose", (pose.x, pose.z, pose.yaw))
+        self._must_be_numbers(source, "parts, of what one declares,", declared)
+        self._must_be_numbers(source, "pose", (pose.x, pose.z, pose.yaw))
         if extent is not None:
-            self._must_count(source, "extent", (extent.left, extent.right, extent.ahead, extent.behind))
+            self._must_be_numbers(source, "extent", (extent.left, extent.right, extent.ahead, extent.behind))
         if extent is not None and (extent.left > extent.right or extent.ahead > extent.behind):
             raise self.leave_out(source, f"extent returned {extent}, which ends before it begins")
 
     def leave_out(self, source: WindSource, why: str, /) -> QuarantinedError:
-        """Leave a wind out from now on, say so once for its kind, and return what to raise."""
+        """Leave a wind out from now on, warn once for its kind, and return the error to raise."""
         self.reasons[source] = f"{source.name}: {why}"
         self.count += 1
         self._say_once((source.primitive.kind, "fails"), source, f"{why}; this wind is left out from now on")
         return QuarantinedError(why)
 
-    def _must_count(self, source: WindSource, what: str, numbers: Iterable[float]) -> None:
+    def _must_be_numbers(self, source: WindSource, what: str, numbers: Iterable[float]) -> None:
+        """Raise QuarantinedError unless all numbers are finite; an end and an extent may be infinite."""
         for number in numbers:
             if type(number) in PLAIN and -inf < number < inf:
                 continue
@@ -176,7 +177,7 @@ class Quarantine:
                 raise self.leave_out(source, f"{what} returned numbers that are not finite")
 
     def let_back(self, now: float, /) -> None:
-        """Let slow winds back in whose wait is over `now`, on the prairie's clock [s]; all where it has gone back."""
+        """Let slow winds back in whose wait is over `now` [s], on the prairie's clock; all if it has gone back."""
         since, self._now = self._now, now
         for called in [called for called, (back, _) in self._back.items() if back <= now or now < since]:
             _, why = self._back.pop(called)
@@ -186,20 +187,23 @@ class Quarantine:
             self._slow = {key: latest for key, latest in self._slow.items() if key[0] != called}
 
     def _judge(self, source: WindSource, what: str, took: float, receivers: int) -> None:
-        """Tell of a wind that often takes long; raises QuarantinedError where that is too long for a game."""
-        each = SLOW_EACH * receivers
-        is_noticed = self._is_often(source, what, "noticed", is_long=took > max(NOTICED, each))
-        is_slow = self._is_often(source, what, "slow", is_long=took > SLOW + each) or took > STALLED
-        told = f"{1000.0 * took:.0f} ms of processor time"
+        """Warn of a wind that often takes long; raises QuarantinedError where that is too long for a game."""
+        extra = SLOW_EACH * receivers
+        is_noticed = self._is_often(source, what, "noticed", is_long=took > max(NOTICED, extra))
+        is_slow = self._is_often(source, what, "slow", is_long=took > SLOW + extra) or took > STALLED
+        duration = f"{1000.0 * took:.0f} ms of processor time"
         if is_slow and self.live:
-            raise self._leave_out_for_now(source, f"{what} takes too long: {told}")
+            raise self._leave_out_for_now(source, f"{what} takes too long: {duration}")
         if is_slow:
-            self._say_once((source.name, "takes long"), source, f"{what} takes too long: {told}")
+            self._say_once((source.name, "takes long"), source, f"{what} takes too long: {duration}")
         elif is_noticed:
-            self._say_once((source.name, "takes long"), source, f"{what} takes {told}")
+            self._say_once((source.name, "takes long"), source, f"{what} takes {duration}")
 
     def _judge_waiting(self, source: WindSource, what: str, took: float, busy: float) -> None:
-        """Tell of a wind that waits for something; raises QuarantinedError where it does so often in a game."""
+        """Warn of a wind that waits; raises QuarantinedError where it often waits in a game.
+
+        `took` is the call's elapsed time and `busy` its processor time [s].
+        """
         waits, waited = has_waited(took, busy), took - busy
         is_often = self._is_often(source, what, "waits", is_long=waits)
         if waits:
@@ -207,15 +211,16 @@ class Quarantine:
         if is_often and self.live:
             raise self._leave_out_for_now(source, f"{what} waits for {waited:.1f} s at a time")
 
-    def _is_often(self, source: WindSource, what: str, meaning: str, *, is_long: bool) -> bool:
-        """Return whether this call takes long, and so did enough of the latest ones: one may import something."""
-        call = _called(source), what, meaning
+    def _is_often(self, source: WindSource, what: str, verdict: str, *, is_long: bool) -> bool:
+        """Return whether this call took long, and enough of the latest ones too: a single one may import something."""
+        call = _called(source), what, verdict
         latest = (self._slow.pop(call, 0) << 1 | is_long) & ((1 << WINDOW) - 1)
         if latest:
             self._slow[call] = latest
         return is_long and latest.bit_count() >= PATIENCE
 
     def _leave_out_for_now(self, source: WindSource, why: str) -> QuarantinedError:
+        """Leave a slow wind out for a while, warn once of it, and return the error to raise."""
         called, reason = _called(source), f"{source.name}: {why}"
         wait = self._wait.get(called, WAIT)
         self._wait[called] = min(2.0 * wait, LONGEST_WAIT)
@@ -226,8 +231,8 @@ class Quarantine:
         return QuarantinedError(why)
 
     def _say_once(self, about: tuple[str, str], source: WindSource, sentence: str) -> None:
-        if about not in self._told:
-            self._told.add(about)
+        if about not in self._warned:
+            self._warned.add(about)
             log.warning("%s of %s: %s", source.name, wind_kinds().origin(source.primitive), sentence)
 
 

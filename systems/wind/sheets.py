@@ -1,4 +1,4 @@
-"""Textures that the winds are heard from: tables that twins read, and what winds without a twin tell receivers."""
+"""Textures of the winds: tables that twins read, and the messages of winds without a twin."""
 
 from collections.abc import Sequence
 
@@ -11,44 +11,48 @@ from ...components.arrays import Floats
 Rows = NDArray[np.intp]
 
 WIDE = 1024
-"""Receivers in a row of the texture."""
+"""Number of receivers in a row of a `MessageTexture`."""
 
 
 class Sheets:
-    """A texture array with a layer for each table; a table that is the same array as before is not sent again."""
+    """A texture array with a layer for each table; a table is uploaded again only if it is another array."""
 
     def __init__(self, ctx: moderngl.Context, *, side: int = 128, layers: int = 4) -> None:
         self.ctx = ctx
         self._held: list[Floats | None] = [None] * layers
+        """Table in each layer."""
         self._layer: dict[int, int] = {}
+        """Layer of each table, by the array's `id`."""
         self._used: set[int] = set()
-        self.texture = self._room(side, side)
+        """Layers that this frame reads."""
+        self.texture = self._allocated(side, side)
         self.sent = 0
-        """How many tables have been sent so far."""
+        """Number of tables uploaded so far."""
 
     def reserve(self, rows: int, columns: int, layers: int) -> None:
-        """Make room for so many tables of so many rows and columns."""
+        """Make room for this number of tables, with this number of rows and columns."""
         rows, columns = max(rows, self.texture.height), max(columns, self.texture.width)
         self._held += [None] * (layers - len(self._held))
         if self.texture.size != (columns, rows, len(self._held)):
             self._grow(rows, columns)
 
     def begin(self) -> None:
-        """Begin a frame: layers whose tables are not asked for in it may be given to others."""
+        """Begin a frame: layers that it does not read may be overwritten."""
         self._used.clear()
 
     def layers(self, tables: Sequence[Floats], /) -> list[int]:
-        """Return where tables of shape (rows, columns, 1 to 4) are, sending those that are new."""
+        """Return the layers of tables of shape (rows, columns, 1 to 4), and upload those that are new."""
         return [self._layer_of(table) for table in tables]
 
     def _layer_of(self, table: Floats) -> int:
-        layer = self._layer.get(id(table))  # it is held, so that no other can have its identity
+        layer = self._layer.get(id(table))  # the table is held, so no other array can have its id
         if layer is None:
             layer = self._place(table)
         self._used.add(layer)
         return layer
 
     def _place(self, table: Floats) -> int:
+        """Upload a new table to a free layer, preferably an empty one; return the layer."""
         rows, columns = table.shape[:2]
         free = [layer for layer in range(len(self._held)) if layer not in self._used]
         if not free or rows > self.texture.height or columns > self.texture.width:
@@ -64,7 +68,7 @@ class Sheets:
 
     def _grow(self, rows: int, columns: int) -> None:
         self.texture.release()
-        self.texture = self._room(rows, columns)
+        self.texture = self._allocated(rows, columns)
         for layer, table in enumerate(self._held):
             if table is not None:
                 self._send(layer, table)
@@ -76,59 +80,59 @@ class Sheets:
         self.texture.write(texels, viewport=(0, 0, layer, columns, rows, 1))
         self.sent += 1
 
-    def _room(self, rows: int, columns: int) -> moderngl.TextureArray:
+    def _allocated(self, rows: int, columns: int) -> moderngl.TextureArray:
         texture = self.ctx.texture_array((columns, rows, len(self._held)), 4, dtype="f4")
         texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
         return texture
 
     def release(self) -> None:
-        """Give the texture back."""
+        """Release the texture."""
         self.texture.release()
 
 
-class Told:
-    """A texture of messages and weights, a block of rows for each wind; only rows that differ are sent."""
+class MessageTexture:
+    """A texture of messages and weights, a block of rows for each wind; only rows that differ are uploaded."""
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
         self._texels = np.zeros((1, WIDE, 4), np.float32)
-        self.texture = self._room()
+        self.texture = self._allocated()
         self.block = 1
-        """Rows of one wind."""
+        """Number of rows for one wind."""
 
     def reserve(self, winds: int, receivers: int) -> None:
-        """Make room for so many winds to tell so many receivers something."""
+        """Make room for messages of this number of winds to this number of receivers."""
         block = max(self.block, -(-receivers // WIDE))
         if block > self.block or winds * block > len(self._texels):
             self.block = block
             self._texels = np.zeros((max(1, winds) * block * 3 // 2 + 1, WIDE, 4), np.float32)
             self.texture.release()
-            self.texture = self._room()
+            self.texture = self._allocated()
 
     def write(self, wind: int, number: Rows, message: Floats, weight: Floats) -> int:
-        """Tell receivers of these numbers (n,) messages (n, 2) with weights (n,), and all others nothing.
+        """Write a wind's messages (n, 2) and weights (n,) to receivers of these numbers (n,), and 0 to all others.
 
-        `wind` counts the winds without a twin. Returns how many rows were sent.
+        `wind` counts the winds without a twin. Returns the number of rows uploaded.
         """
         first = wind * self.block
-        told = np.zeros((self.block, WIDE, 4), np.float32)
-        flat = told.reshape(-1, 4)
+        texels = np.zeros((self.block, WIDE, 4), np.float32)
+        flat = texels.reshape(-1, 4)
         flat[number, :2], flat[number, 2] = message, weight
         held = self._texels[first : first + self.block]
-        rows = np.flatnonzero((told != held).any(axis=(1, 2)))
+        rows = np.flatnonzero((texels != held).any(axis=(1, 2)))
         if not len(rows):
             return 0
         low, high = int(rows[0]), int(rows[-1]) + 1
-        held[low:high] = told[low:high]
+        held[low:high] = texels[low:high]
         self.texture.write(held[low:high], viewport=(0, first + low, WIDE, high - low))
         return high - low
 
-    def _room(self) -> moderngl.Texture:
+    def _allocated(self) -> moderngl.Texture:
         rows = len(self._texels)
         texture = self.ctx.texture((WIDE, rows), 4, np.zeros_like(self._texels), dtype="f4")
         texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
         return texture
 
     def release(self) -> None:
-        """Give the texture back."""
+        """Release the texture."""
         self.texture.release()

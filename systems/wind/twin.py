@@ -1,4 +1,4 @@
-"""Twins: the GLSL of winds, found beside their classes and put together for a program."""
+"""Twins: the GLSL of winds, found beside their classes and assembled into a program."""
 
 import re
 import sys
@@ -19,22 +19,22 @@ from ...components.wind import TwinValues, WindPrimitive
 from ...engine.gl.shaders import Line
 
 PLACE = "systems/wind/twins.glsl"
-"""The file that the twins of a program stand in for."""
+"""File that the assembled twins of a program replace."""
 
 MOST_NUMBERS, MOST_SHEETS, MOST_SIDE = 64, 4, 2048
-"""How many numbers and sheets a twin may read, and how many texels a side of a sheet may have."""
+"""Most numbers and sheets that a twin may read; most texels along a side of a sheet."""
 
-TOLD, ANY = -1, -2
-"""In place of a twin's number: a wind without one; a run of winds of any."""
+NO_TWIN, ANY = -1, -2
+"""In place of a twin's number: a wind that has none; a run of winds with any twins."""
 
 MOST_RUNS = 12
-"""How many runs a program may have: drivers take long over large ones."""
+"""Most runs in a program: drivers take long over large ones."""
 
 LARGEST = 1e30
-"""No number may be this large: single precision ends there."""
+"""Bound of all numbers: single precision ends near it."""
 
 PLAIN, SEVERAL = frozenset({float, int}), frozenset({tuple, list})
-"""The types of numbers, and of several of them, that nearly all winds have."""
+"""Types of numbers, and of vectors of them, that nearly all winds have."""
 
 _TYPE = r"(?:float|int|uint|bool|[biu]?vec[234]|mat[234]|void|struct)"
 _FUNCTION = re.compile(rf"^{_TYPE}\s+(\w+)\s*[({{]")
@@ -55,26 +55,26 @@ class TwinError(Exception):
 class Twin:
     """The GLSL of a wind: `float mask(vec2 place, Gust gust)` and `vec2 action(vec2 place, Gust gust)`.
 
-    `Gust` is the record of what it reads, whatever it calls that; a twin that writes `Wind` reads numbers instead.
+    `Gust` is the type of its record, which a twin may name freely; a twin that writes `Wind` reads numbers instead.
     """
 
     file: str
-    """What messages call it: the module that it stands beside, and its name."""
+    """Its name in messages: the module that it stands beside, and the file's name."""
 
     text: tuple[str, ...]
-    """Its lines."""
+    """Lines of the file."""
 
     numbers: int
-    """How many numbers it reads by `value`, as far as its text tells."""
+    """Number of numbers that it reads by `value`, by the literal arguments in its text."""
 
     sheets: int
-    """How many sheets it reads, as far as its text tells."""
+    """Number of sheets that it reads, by the literal arguments in its text."""
 
     record: str | None
-    """What it calls the type of its record."""
+    """Name of its record's type; None if it reads numbers."""
 
     reads: tuple[str, ...]
-    """The names that it reads of its record, each once."""
+    """Names of the record's members that it reads, each once."""
 
     @classmethod
     def of(cls, file: str, text: Sequence[str]) -> "Twin":
@@ -83,11 +83,11 @@ class Twin:
         found = _ACTION.search(bare)
         record = found[1] if found and found[1] != "Wind" else None
         reads = () if record is None else _read_of(record, bare)
-        return cls(file, tuple(text), _most(_NUMBER, text), _most(_SHEET, text), record, reads)
+        return cls(file, tuple(text), _count(_NUMBER, text), _count(_SHEET, text), record, reads)
 
     @property
     def names(self) -> list[str]:
-        """The functions, records and constants that it defines at its top level, each once."""
+        """Names of the functions, records and constants that it defines at its top level, each once."""
         found = [match[1] for line in self.text if (match := _FUNCTION.match(line))]
         constants = (_CONSTANT.findall(match[1]) for line in self.text if (match := _CONSTANTS.match(line)))
         return list(dict.fromkeys([*found, *chain.from_iterable(constants), *filter(None, [self.record])]))
@@ -97,13 +97,13 @@ class Twin:
 def twin_of(primitive: type[WindPrimitive], /) -> Twin | None:
     """Return the twin of a class of winds, None where it has none; raises TwinError where its file is missing.
 
-    A class that says `mask` or `action` anew has no part in the twin of those that it derives from.
+    A class that overrides `mask` or `action` does not use the twin of a base.
     """
     order = primitive.__mro__
     owner = next(each for each in order if "twin" in vars(each))
-    anew = [each for each in order[: order.index(owner)] if {"mask", "action"} & vars(each).keys()]
+    overriding = [each for each in order[: order.index(owner)] if {"mask", "action"} & vars(each).keys()]
     name = vars(owner)["twin"]
-    if name is None or anew:
+    if name is None or overriding:
         return None
     source = _beside(owner.__module__, name)
     if source is None or not source.is_file():
@@ -113,44 +113,44 @@ def twin_of(primitive: type[WindPrimitive], /) -> Twin | None:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """How a twin's record lies among the numbers of a wind: names and how many numbers each has, in that order."""
+    """Layout of a twin's record in the numbers of a wind: the members' names and sizes, in this order."""
 
     record: str | None = None
     sizes: tuple[tuple[str, int], ...] = ()
 
     @property
     def lines(self) -> list[str]:
-        """GLSL that defines the record, and reads it as `read_` and its name: whole texels, and each once."""
+        """GLSL that defines the record, and a function `read_` plus its name that fetches each texel once."""
         if self.record is None:
             return []
         members = [f"    {_VECTOR[size]} {name};" for name, size in self.sizes]
         ends = list(accumulate((size for _, size in self.sizes), initial=0))
         read = "    vec4 texel{k} = texelFetch(winds, ivec2(HEAD + {k}, wind.row), 0);"
         texels = [read.format(k=k) for k in range(-(-ends[-1] // 4))]
-        parts = [_VECTOR[size] + f"({_parts(end, size)})" for end, (_, size) in zip(ends, self.sizes, strict=False)]
+        vectors = [f"{_VECTOR[size]}({_texels(end, size)})" for end, (_, size) in zip(ends, self.sizes, strict=False)]
         return [
             f"struct {self.record} {{", "    Wind wind;", *members, "};",
             f"{self.record} read_{self.record}(Wind wind) {{", *texels,
-            f"    return {self.record}({', '.join(['wind', *parts])});", "}",
+            f"    return {self.record}({', '.join(['wind', *vectors])});", "}",
         ]  # fmt: skip
 
     def packed(self, wind: WindPrimitive, values: TwinValues, /) -> TwinValues:
-        """Return the numbers of a wind's record as it lies; raises TwinError where they are others than before."""
+        """Return the numbers of a wind's record in this layout; raises TwinError where a size has changed."""
         if self.record is None:
             numbers = values.numbers
-            named = [_listed(number) for number in numbers.values()] if isinstance(numbers, Mapping) else [numbers]
+            named = [_as_list(number) for number in numbers.values()] if isinstance(numbers, Mapping) else [numbers]
             return TwinValues([*chain.from_iterable(named)], values.sheets)
         plain = self._plain(wind, values)
         if plain is not None:
             return TwinValues(plain, values.sheets)
-        found = [_named(name, wind, values) for name, _ in self.sizes]
+        found = [_member(name, wind, values) for name, _ in self.sizes]
         for (name, size), each in zip(self.sizes, found, strict=True):
             if len(each) != size:
                 raise TwinError(f"'{name}' has {len(each)} numbers where it had {size} before")
         return TwinValues([*chain.from_iterable(found)], values.sheets)
 
     def _plain(self, wind: WindPrimitive, values: TwinValues) -> list[float] | None:
-        """Return the numbers as they lie where all are plain ones, and as many as before: in nearly every frame."""
+        """Return the numbers in this layout, or None unless all types and sizes are the usual ones: a fast path."""
         found: list[float] = []
         named = values.numbers if isinstance(values.numbers, dict) else {}
         for name, size in self.sizes:
@@ -165,23 +165,23 @@ class Layout:
 
 
 def layout_of(twin: Twin, wind: WindPrimitive, values: TwinValues, /) -> Layout:
-    """Return how the record of a twin lies, from what a wind has by its names; raises TwinError for unknown ones."""
+    """Return the layout of a twin's record, with the sizes of a wind's values; raises TwinError for unknown names."""
     if twin.record is None:
         return Layout()
     if twin.numbers:
         raise TwinError(f"it calls value(...) and reads a {twin.record}: write a name after a point, as gust.strength")
-    sizes = {name: len(_named(name, wind, values)) for name in twin.reads}
+    sizes = {name: len(_member(name, wind, values)) for name in twin.reads}
     return Layout(twin.record, tuple(sorted(sizes.items(), key=lambda row: -row[1])))
 
 
 def check_values(twin: Twin, values: TwinValues, /) -> None:
-    """Raise TwinError unless these are what a twin can read, packed as they lie."""
+    """Raise TwinError unless a twin can read these values, which are packed by its layout."""
     numbers, sheets = [*values.numbers], values.sheets
     if not twin.numbers <= len(numbers) <= MOST_NUMBERS:
         due = f"{twin.numbers} are read" if len(numbers) < twin.numbers else f"{MOST_NUMBERS} is the most"
         raise TwinError(f"twin_values returned {len(numbers)} numbers where {due}")
-    counts = PLAIN.issuperset(map(type, numbers)) or all(isinstance(each, float | int | np.number) for each in numbers)
-    if not (counts and all(map(LARGEST.__gt__, map(float, map(abs, numbers))))):
+    are_numbers = PLAIN.issuperset(map(type, numbers)) or all(isinstance(n, float | int | np.number) for n in numbers)
+    if not (are_numbers and all(map(LARGEST.__gt__, map(float, map(abs, numbers))))):
         raise TwinError("twin_values returned numbers that are not finite")
     if not twin.sheets <= len(sheets) <= MOST_SHEETS:
         due = f"{twin.sheets} are read" if len(sheets) < twin.sheets else f"{MOST_SHEETS} is the most"
@@ -197,28 +197,28 @@ def check_values(twin: Twin, values: TwinValues, /) -> None:
 def joined_twins(
     twins: Sequence[Twin], order: Sequence[int], /, layouts: Sequence[Layout] = ()
 ) -> dict[str, list[Line]]:
-    """Return the lines that stand in for `PLACE`: winds go by runs, each of one twin's number.
+    """Return the lines that replace `PLACE`: a loop for each run of winds, where `order` has each run's twin number.
 
-    `TOLD` stands for those without one, `ANY` for all. Runs of one twin are loops without a choice, because a software
-    rasteriser goes through every branch of it. What a twin defines has a name of its own here: no two can clash, nor
-    one with what the program defines. `layouts` says how the record of each lies.
+    `NO_TWIN` stands for winds without one, `ANY` for all. Runs of one twin are loops without a branch, because a
+    software rasteriser executes every branch. Names that a twin defines get its number as a suffix, so that they clash
+    with no others. `layouts` has the layout of each twin's record.
     """
     layouts = layouts or [Layout()] * len(twins)
     lines: list[Line] = []
-    for number in range(len(twins)) if ANY in order else sorted(set(order) - {TOLD}):
+    for number in range(len(twins)) if ANY in order else sorted(set(order) - {NO_TWIN}):
         twin = twins[number]
-        own = re.compile(rf"(?<![\w.])(?:{'|'.join(_own(twin))})\b")
-        lines += _head(own.sub(rf"\g<0>_{number}", text) for text in layouts[number].lines)
+        own = re.compile(rf"(?<![\w.])(?:{'|'.join(_own_names(twin))})\b")
+        lines += _generated(own.sub(rf"\g<0>_{number}", text) for text in layouts[number].lines)
         lines += [(twin.file, at, own.sub(rf"\g<0>_{number}", text)) for at, text in enumerate(twin.text, 1)]
     runs = chain.from_iterable(_run(run, number, twins) for run, number in enumerate(order))
-    lines += _head([_HEAD, "    int row = 1;", *runs, "}"])
+    lines += _generated([_BLOW, "    int row = 1;", *runs, "}"])
     return {PLACE: lines}
 
 
-def fitted(order: Sequence[int], numbers: Sequence[int], /) -> tuple[list[int], list[int]]:
-    """Return the order of runs that winds of these twins fit into, and in which row each run ends, from row 1 on.
+def fit_runs(order: Sequence[int], numbers: Sequence[int], /) -> tuple[list[int], list[int]]:
+    """Fit winds of these twins into `order`; return the order with the runs it lacked, and the row after each run.
 
-    It is `order` with as many runs more as it lacks; runs may be empty.
+    The first wind has row 1. Runs may be empty.
     """
     found, counts, run = list(order), [0] * len(order), -1
     for number in numbers:
@@ -233,31 +233,33 @@ def fitted(order: Sequence[int], numbers: Sequence[int], /) -> tuple[list[int], 
     return found, list(accumulate(counts, initial=1))[1:]
 
 
-def fitted_few(order: Sequence[int], numbers: Sequence[int], /) -> tuple[list[int], list[int]]:
-    """Return what `fitted` does, with no more than `MOST_RUNS` runs: those needed alone, or one for all winds."""
+def fit_few_runs(order: Sequence[int], numbers: Sequence[int], /) -> tuple[list[int], list[int]]:
+    """Return `fit_runs`, but with `MOST_RUNS` runs at most: else of the needed runs alone, or of one for all winds."""
     for before in (order, ()):
-        found, ends = fitted(before, numbers)
+        found, ends = fit_runs(before, numbers)
         if len(found) <= MOST_RUNS:
             return found, ends
     return [ANY], [len(numbers) + 1]
 
 
-_HEAD = "void blow(inout Claims claims, vec2 place, int kind, int receiver) {"
+_BLOW = "void blow(inout Claims claims, vec2 place, int kind, int receiver) {"
 
 
 def _run(run: int, number: int, twins: Sequence[Twin]) -> list[str]:
+    """Return the GLSL of a run: a loop over its winds."""
     loop = f"    for (int end = end_of({run}); row < end && claims.left > 0.0; ++row) {{"
-    told = "        lay_told(claims, row, receiver);"
-    if number == TOLD:
-        return [loop, told, "    }"]
+    untwinned = "        lay_told(claims, row, receiver);"
+    if number == NO_TWIN:
+        return [loop, untwinned, "    }"]
     if number != ANY:
-        return [loop, *_sent(number, twins[number]), "    }"]
-    cases = ((f"        case {each}: {{", *_sent(each, twin), "        } break;") for each, twin in enumerate(twins))
-    choice = "        switch (twin_of(row)) {"
-    return [loop, choice, *chain.from_iterable(cases), f"        default: {told.strip()}", "        }", "    }"]
+        return [loop, *_call(number, twins[number]), "    }"]
+    cases = ((f"        case {each}: {{", *_call(each, twin), "        } break;") for each, twin in enumerate(twins))
+    switch = "        switch (twin_of(row)) {"
+    return [loop, switch, *chain.from_iterable(cases), f"        default: {untwinned.strip()}", "        }", "    }"]
 
 
-def _sent(number: int, twin: Twin) -> list[str]:
+def _call(number: int, twin: Twin) -> list[str]:
+    """Return GLSL that calls a twin for a wind and lays its message."""
     record = "Wind" if twin.record is None else f"{twin.record}_{number}"
     read = "one.wind" if twin.record is None else f"read_{record}(one.wind)"
     return [
@@ -275,53 +277,55 @@ def _sent(number: int, twin: Twin) -> list[str]:
     ]
 
 
-def _own(twin: Twin) -> list[str]:
-    """Return the names that are a twin's alone, without those of its record's members."""
+def _own_names(twin: Twin) -> list[str]:
+    """Return the names that a twin defines, without those of its record's members."""
     macros = [match[1] for text in twin.text if (match := _MACRO.match(text))]
     return [*twin.names, *macros] if twin.record is None else [*twin.names, *macros, f"read_{twin.record}"]
 
 
-def _parts(first: int, size: int) -> str:
-    """Return the numbers from the `first` on, of texels that have been read."""
+def _texels(first: int, size: int) -> str:
+    """Return the GLSL of `size` numbers from the `first` on, as components of fetched texels."""
     return ", ".join(f"texel{k // 4}.{'xyzw'[k % 4]}" for k in range(first, first + size))
 
 
 def _read_of(record: str, text: str) -> tuple[str, ...]:
-    """Return the names that a text reads of its record, each once."""
-    called = "|".join(dict.fromkeys(re.findall(rf"\b{record}\s+(\w+)", text)))
-    read = re.findall(rf"\b(?:{called})\s*\.\s*(\w+)", text)
-    return tuple(name for name in dict.fromkeys(read) if name != "wind")
+    """Return the names of the record's members that a text reads, each once."""
+    variables = "|".join(dict.fromkeys(re.findall(rf"\b{record}\s+(\w+)", text)))
+    members = re.findall(rf"\b(?:{variables})\s*\.\s*(\w+)", text)
+    return tuple(name for name in dict.fromkeys(members) if name != "wind")
 
 
-def _named(name: str, wind: WindPrimitive, values: TwinValues) -> Sequence[float]:
-    """Return what a wind's record has by a name: of `twin_values`, or else a field; raises TwinError for none."""
+def _member(name: str, wind: WindPrimitive, values: TwinValues) -> Sequence[float]:
+    """Return the numbers of a member, from `twin_values` or else a field of the wind; raises TwinError for neither."""
     named: Mapping[str, object] = values.numbers if isinstance(values.numbers, Mapping) else {}
     fields = type(wind).model_fields
     if name not in named and name not in fields:
         near = get_close_matches(name, [*named, *fields], n=1, cutoff=0.7)
         guess = f"; did you mean '{near[0]}'?" if near else f", as in TwinValues({{'{name}': 0.5}})"
         raise TwinError(f"it reads '{name}', which is no field and no name that twin_values returned{guess}")
-    found = _listed(named[name] if name in named else getattr(wind, name))
+    found = _as_list(named[name] if name in named else getattr(wind, name))
     if not 1 <= len(found) <= 4 or not all(isinstance(number, float | int | np.number) for number in found):
         what = shortened(found[0] if len(found) == 1 else found)
         raise TwinError(f"it reads '{name}', which is {what} and not one to four numbers")
     return found
 
 
-def _listed(number: Any) -> Sequence[Any]:
+def _as_list(number: Any) -> Sequence[Any]:
     return list(number) if isinstance(number, list | tuple | np.ndarray) else [number]
 
 
-def _head(texts: Iterable[str]) -> list[Line]:
+def _generated(texts: Iterable[str]) -> list[Line]:
+    """Return lines that come from no twin's file."""
     return [(PLACE, 0, text) for text in texts]
 
 
-def _most(reads: re.Pattern[str], text: Sequence[str]) -> int:
+def _count(reads: re.Pattern[str], text: Sequence[str]) -> int:
+    """Return one more than the largest index that a pattern finds in a text, 0 for none."""
     return max((int(number) + 1 for line in text for number in reads.findall(line)), default=0)
 
 
 def _beside(module: str, name: str) -> Traversable | None:
-    """Return the file of a name in the folder that a module is in; None where it is in none, as typed code is."""
+    """Return a file in the folder of a module; None for a module without one, such as an interactive session."""
     found = sys.modules.get(module)
     spec = getattr(found, "__spec__", None)
     if spec is not None and spec.parent:

@@ -19,8 +19,8 @@ from tallgrass.systems.wind.blow import Blowing, ReceiverArrays, blowing, hear, 
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.quarantine import Quarantine
-from tallgrass.systems.wind.sheets import Sheets, Told
-from tallgrass.systems.wind.twin import TOLD, Twin, TwinError, check_values, fitted, joined_twins, twin_of
+from tallgrass.systems.wind.sheets import MessageTexture, Sheets
+from tallgrass.systems.wind.twin import NO_TWIN, Twin, TwinError, check_values, fit_runs, joined_twins, twin_of
 from tallgrass.systems.wind.whirlwind import Whirlwind
 from tallgrass.testing.trial import grass_at
 from tallgrass.testing.twins import CLOSE_TWIN, CardEar
@@ -324,8 +324,8 @@ def test_a_program_stays_until_a_kind_comes_that_it_has_no_room_for(ear: CardEar
 
 @given(st.lists(st.integers(-1, 4), max_size=12), st.lists(st.integers(-1, 4), max_size=12))
 def test_every_wind_falls_into_a_run_of_its_own_twin(before: list[int], numbers: list[int]) -> None:
-    order, ends = fitted(fitted((), before)[0], numbers)
-    assert fitted(order, before)[0] == order, "what there was room for has room"
+    order, ends = fit_runs(fit_runs((), before)[0], numbers)
+    assert fit_runs(order, before)[0] == order, "what there was room for has room"
     starts = [1, *ends][:-1]
     runs = [order[k] for k, (start, end) in enumerate(zip(starts, ends, strict=True)) for _ in range(start, end)]
     assert runs == numbers
@@ -353,7 +353,7 @@ def test_a_table_is_sent_once_for_as_long_as_it_is_the_same_array(ctx: moderngl.
 
 
 def test_only_rows_of_told_messages_that_differ_are_sent(ctx: moderngl.Context) -> None:
-    told = Told(ctx)
+    told = MessageTexture(ctx)
     told.reserve(2, 5000)
     number, message = np.array([10, 3000]), np.array([[0.1, 0.2], [0.3, 0.4]], np.float32)
     assert told.write(1, number, message, np.ones(2, np.float32)) == 3
@@ -366,7 +366,7 @@ def test_only_rows_of_told_messages_that_differ_are_sent(ctx: moderngl.Context) 
 
 def test_the_lines_of_twins_lead_back_to_their_files() -> None:
     twin = Twin.of("mine.glsl", DRAUGHT.splitlines())
-    (lines,) = joined_twins([twin], [0, TOLD]).values()
+    (lines,) = joined_twins([twin], [0, NO_TWIN]).values()
     assert ("mine.glsl", 2, "float mask_0(vec2 place, Wind wind) {") in lines
 
 
