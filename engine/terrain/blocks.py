@@ -1,4 +1,4 @@
-"""Ground without an edge: a function's heights, asked for in blocks when anybody needs them, and forgotten again."""
+"""Ground without an edge: heights of a function, computed in blocks on demand, and cached."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -12,84 +12,84 @@ from ...components.arrays import Doubles, Floats, Ints, Mask
 from .errors import MapError
 
 BLOCK = 64
-"""Cells along a side of what is asked for at a time."""
+"""Number of cells along a side of a block, which the function is called for as a whole."""
 
 SQUARE = 16
-"""Samples along a side of the squares that changes are kept by."""
+"""Number of samples along a side of the squares in which changes are stored."""
 
 REACH = 16384.0
-"""How far from the origin ground can be [m]: single precision parts a millimetre there."""
+"""Greatest distance of ground from the origin along x and z [m]: single precision resolves a millimetre there."""
 
 PARTS = 8
-"""A window is that many times as wide as the steps that it moves by."""
+"""Ratio of a window's width to the steps in which it moves."""
 
 SPARE = 512
-"""Blocks that are remembered besides those of a window."""
+"""Number of cached blocks beyond those of a window."""
 
 Numbers = tuple[int, int]
-"""Row and column, of samples, blocks or squares: counted from the origin, to -z and -x below 0."""
+"""Row and column of a sample, block or square, counted from the origin: negative towards -z and -x."""
 
 Piece = tuple[Floats, Mask | None]
-"""Heights [m], and where there are holes if there are any."""
+"""Heights [m], and a mask of holes if there are any."""
 
 Ask = Callable[[Doubles, Doubles], Piece]
-"""Gives the heights where columns at x and rows at z [m] meet; raises `MapError` where it cannot."""
+"""Returns the heights on a grid of columns at x and rows at z [m]; raises `MapError` where it cannot."""
 
 _log = getLogger(__name__)
 
 
 @dataclass(eq=False)
 class Blocks:
-    """The blocks of an endless ground, as they were asked for, and what a game has changed of it."""
+    """The blocks of an endless ground: the function's heights, cached, and the squares that a game has changed."""
 
     ask: Ask
     cell: float
     """Metres per cell."""
 
     cells: int
-    """Cells along a side of a window, `PARTS` times a multiple of `BLOCK`."""
+    """Number of cells along a side of a window, `PARTS` times a multiple of `BLOCK`."""
 
     changed: dict[Numbers, tuple[Floats, Mask]] = field(default_factory=dict)
-    """Heights and holes of each square that a game has changed, by its numbers."""
+    """Heights and holes of each square that a game has changed."""
 
     known: dict[Numbers, Piece] = field(default_factory=dict)
-    """What is remembered of what was asked for."""
+    """Cache of blocks as the function returned them."""
 
     tiles: dict[Numbers, Any] = field(default_factory=dict)
-    """The ground of single blocks, with all that has been changed of it, as it was asked for since."""
+    """Cache of terrains of single blocks, with the game's changes; emptied by each change."""
 
     lock: RLock = field(default_factory=RLock)
     loads: bool = True
-    """Whether it is being loaded: then what the function does wrong is raised."""
+    """Whether the scene is still being loaded; only then are errors of the function raised."""
 
     _failed: bool = False
 
     @property
     def step(self) -> int:
-        """Cells by which a window moves."""
+        """Number of cells by which a window moves."""
         return self.cells // PARTS
 
     @property
     def most(self) -> int:
-        """The number of the last sample to each side."""
+        """Number of the last sample to each side of the origin."""
         return int(REACH / self.cell)
 
     def first_about(self, x: float, z: float, /) -> Numbers:
-        """Return the first sample of the window about a place [m]."""
+        """Return the first sample of the window around a place [m]."""
         row, column = (round(min(max(at, -REACH), REACH) / self.cell / self.step) * self.step for at in (z, x))
         return row - self.cells // 2, column - self.cells // 2
 
     def block(self, row: int, column: int, /) -> Piece:
-        """Return a block as the function gives it, with the first samples of the next ones: (BLOCK + 1, BLOCK + 1)."""
-        with self.lock:  # nor is the function asked twice at a time
+        """Return a block by the function, up to the first samples of the next blocks: (BLOCK + 1, BLOCK + 1)."""
+        with self.lock:  # also keeps the function from being called by two threads at once
             if (row, column) not in self.known:
                 z, x = (np.arange(BLOCK * at, BLOCK * (at + 1) + 1) * self.cell for at in (row, column))
                 if len(self.known) > (self.cells // BLOCK) ** 2 + 2 * SPARE:
                     del self.known[next(iter(self.known))]
-                self.known[row, column] = self._asked(np.asarray(x, np.float64), np.asarray(z, np.float64))
+                self.known[row, column] = self._computed(np.asarray(x, np.float64), np.asarray(z, np.float64))
             return self.known[row, column]
 
-    def _asked(self, x: Doubles, z: Doubles) -> Piece:
+    def _computed(self, x: Doubles, z: Doubles) -> Piece:
         try:
             return self.ask(x, z)
         except MapError as error:
@@ -101,27 +101,27 @@ class Blocks:
             return np.zeros((len(z), len(x)), np.float32), None
 
     def forget(self, first: Numbers) -> None:
-        """Forget blocks, but for those of a window and some others."""
+        """Drop cached blocks outside of the window that begins at `first`, but for the newest `SPARE`."""
         low, high = (np.floor_divide(first, BLOCK) + more for more in (0, self.cells // BLOCK))
         with self.lock:
-            away = [at for at in self.known if not all(a <= own < b for own, a, b in zip(at, low, high, strict=True))]
-            for at in away[: max(len(away) - SPARE, 0)]:
+            outside = [at for at in self.known if not all(a <= n < b for n, a, b in zip(at, low, high, strict=True))]
+            for at in outside[: max(len(outside) - SPARE, 0)]:
                 del self.known[at]
 
     def square(self, square: Numbers, /) -> tuple[Floats, Mask]:
-        """Return heights and holes of a square as they are by now, copies."""
-        found = self.changed.get(square) or self.as_asked(square)
+        """Return copies of a square's present heights and holes."""
+        found = self.changed.get(square) or self.original_square(square)
         return found[0].copy(), found[1].copy()
 
-    def as_asked(self, square: Numbers, /) -> tuple[Floats, Mask]:
-        """Return heights and holes of a square as the function gives them."""
-        each = BLOCK // SQUARE
-        heights, holes = self.block(square[0] // each, square[1] // each)
-        own = tuple(slice(SQUARE * (at % each), SQUARE * (at % each + 1)) for at in square)
-        return heights[own], np.zeros((SQUARE, SQUARE), np.bool_) if holes is None else holes[own]
+    def original_square(self, square: Numbers, /) -> tuple[Floats, Mask]:
+        """Return heights and holes of a square by the function, without changes."""
+        per_block = BLOCK // SQUARE
+        heights, holes = self.block(square[0] // per_block, square[1] // per_block)
+        inner = tuple(slice(SQUARE * (at % per_block), SQUARE * (at % per_block + 1)) for at in square)
+        return heights[inner], np.zeros((SQUARE, SQUARE), np.bool_) if holes is None else holes[inner]
 
     def put(self, square: Numbers, now: tuple[Floats, Mask] | None, /) -> None:
-        """Let a square be that from now on; None is as the function gives it."""
+        """Set a square's heights and holes; None restores those of the function."""
         with self.lock:
             self.tiles.clear()
             if now is None:
@@ -130,6 +130,6 @@ class Blocks:
                 self.changed[square] = now
 
     def at(self, place: Floats, /) -> Ints:
-        """Return the block that each place (n, 2) [m] lies on, row and column, (n, 2)."""
+        """Return row and column of the block that each place (n, 2) [m] lies on, (n, 2)."""
         side = BLOCK * self.cell
         return np.floor(place[:, ::-1].astype(np.float64).clip(-REACH, REACH) / side).astype(np.int32)

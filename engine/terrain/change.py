@@ -1,4 +1,4 @@
-"""Changing a terrain's heights while a prairie lives, and bringing them back as they were loaded."""
+"""Changing a terrain's heights at run time, and saving and restoring the changes."""
 
 from collections.abc import Iterator
 from reprlib import repr as shortened
@@ -15,18 +15,17 @@ from .record import Terrain
 from .stream import paste
 
 _ON = 0.01
-"""How far off its sample a corner may be [cells]: coordinates are rounded."""
+"""Greatest distance of a corner from its sample [cells]: coordinates are rounded."""
 
 Squares = tuple[Ints, Floats, Mask]
-"""Rows and columns of squares of samples, shape (n, 2); their heights, one square after another, shape (m,); and where
-there are holes, likewise."""
+"""Row and column of each square of samples, shape (n, 2); heights [m] and holes of all squares in turn, each (m,)."""
 
 
 def set_heights(terrain: Terrain, corner: ArrayLike, heights: ArrayLike, /) -> None:
-    """Put other heights (rows, columns) [m] into a terrain, the first of them at the sample at `corner` (x, z) [m].
+    """Replace heights (rows, columns) [m] of a terrain, the first of them at the sample at `corner` (x, z) [m].
 
-    Where they are NaN there is a hole from now on, and the ground around it stays as it was. Raises ValueError for
-    heights that are none, and for what does not lie on the terrain's samples.
+    NaN makes a hole, under which the old height stays. Raises ValueError for invalid heights, and for a corner that is
+    not at a sample of the terrain.
     """
     new = _checked(heights)
     part = _part(terrain, corner, new.shape)
@@ -39,14 +38,14 @@ def set_heights(terrain: Terrain, corner: ArrayLike, heights: ArrayLike, /) -> N
 
 
 def _put(blocks: Blocks, terrain: Terrain, part: Part, new: Floats) -> None:
-    """Put heights into a ground that streams; a part's samples are counted from the origin."""
+    """Replace heights of a ground that streams; samples of `part` are counted from the origin."""
     for square in _squares_of(part):
         (top, left), (heights, holes) = (SQUARE * at for at in square), blocks.square(square)
         within = part.moved(-top, -left).within(SQUARE, SQUARE)
         assert within is not None
-        given = new[within.moved(top - part.row, left - part.column).slices]
-        holes[within.slices] = np.isnan(given)
-        heights[within.slices] = np.where(np.isnan(given), heights[within.slices], given)
+        replacing = new[within.moved(top - part.row, left - part.column).slices]
+        holes[within.slices] = np.isnan(replacing)
+        heights[within.slices] = np.where(np.isnan(replacing), heights[within.slices], replacing)
         blocks.put(square, (heights, holes))
         paste(blocks, terrain, square)
 
@@ -68,7 +67,7 @@ def _checked(heights: ArrayLike) -> Floats:
 
 
 def _part(terrain: Terrain, corner: ArrayLike, shape: tuple[int, ...]) -> Part:
-    """Return the part of a terrain that begins at `corner` (x, z) [m]."""
+    """Return the part of a terrain that begins at `corner` (x, z) [m] and has this shape; raises ValueError."""
     place = as_floats(corner, "the corner of heights is a place (x, z)").astype(np.float64)
     if place.shape != (2,):
         raise ValueError(f"the corner of heights is a place (x, z), not {shortened(corner)}")
@@ -96,7 +95,7 @@ def _part(terrain: Terrain, corner: ArrayLike, shape: tuple[int, ...]) -> Part:
 
 
 def _keep(terrain: Terrain, part: Part) -> None:
-    """Keep heights and holes as they were loaded of the squares that a part reaches."""
+    """Store the loaded heights and holes of all squares that overlap a part, unless they are stored already."""
     for square in _squares_of(part):
         if square not in terrain.changes.loaded:
             within = _within(terrain, square)
@@ -104,17 +103,17 @@ def _keep(terrain: Terrain, part: Part) -> None:
 
 
 def _within(terrain: Terrain, square: tuple[int, int]) -> Part:
-    """Return the part that a square covers: those at the edge are narrower."""
+    """Return the part of a terrain that a square covers; squares at the edge are cut off."""
     row, column = (SQUARE * number for number in square)
     rows, columns = (min(SQUARE, count - at) for at, count in zip((row, column), terrain.heights.shape, strict=True))
     return Part(row, column, rows, columns)
 
 
 def as_loaded(terrain: Terrain, /) -> Iterator[tuple[Floats, Mask]]:
-    """Yield heights and holes as they were loaded, some rows at a time; of a ground that streams, some squares."""
+    """Yield heights and holes as loaded, in strips of `SQUARE` rows; of a ground that streams, three squares alone."""
     if terrain.blocks is not None:
         for square in ((0, 0), (-60, 40), (50, -70)):
-            yield terrain.blocks.as_asked(square)
+            yield terrain.blocks.original_square(square)
         return
     touched: dict[int, list[tuple[int, tuple[Floats, Mask]]]] = {}
     for (number, column), before in terrain.changes.loaded.items():
@@ -130,7 +129,7 @@ def as_loaded(terrain: Terrain, /) -> Iterator[tuple[Floats, Mask]]:
 
 
 def changed_squares(terrain: Terrain, /) -> Squares:
-    """Return the squares that have been changed, as they are now."""
+    """Return the present heights and holes of the squares that have been changed."""
     squares = sorted(terrain.changes.loaded if terrain.blocks is None else terrain.blocks.changed)
     if terrain.blocks is None:
         parts = [_within(terrain, each) for each in squares]
@@ -171,7 +170,7 @@ def _restore_blocks(blocks: Blocks, terrain: Terrain, squares: Squares) -> None:
 
 
 def restore_squares(terrain: Terrain, squares: Squares, /) -> None:
-    """Let these squares be as they are given, and all else as it was loaded."""
+    """Set these squares, and all other squares as they were loaded."""
     where, heights, holes = squares
     kept, at = {(row, column) for row, column in where.tolist()}, 0
     if terrain.blocks is not None:

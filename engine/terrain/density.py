@@ -1,4 +1,4 @@
-"""Density maps: where each kind of grass grows, and how densely."""
+"""Loading density maps, which say where each kind of grass grows and how densely."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -25,13 +25,13 @@ Picture = NDArray[np.uint8]
 NONE: Mapping[str, Picture] = {}
 
 MOST_SIDE = 4097
-"""Most pixels along a side of a density map."""
+"""Greatest number of pixels along a side of a density map."""
 
 _WHOLE = {"b1": 1.0, "u1": 255.0, "u2": 65535.0}
-"""What stands for full density in arrays of these kinds and sizes."""
+"""Value of full density in integer arrays, by numpy kind and item size."""
 
 ROUNDED = 1e-5
-"""By how much densities may pass 0 and 1: what sums and filters in single precision leave."""
+"""Tolerance of densities below 0 and above 1, for rounding errors of sums and filters in single precision."""
 
 CHANNELS = ("red", "green", "blue", "alpha")
 
@@ -39,14 +39,13 @@ CHANNELS = ("red", "green", "blue", "alpha")
 def load_density(
     kinds: Mapping[str, GrassKind], terrain: Terrain, folder: Path, given: Mapping[str, Picture] = NONE, /
 ) -> Density:
-    """Return how densely each kind grows on the terrain, in the order of `kinds`; map files lie in `folder`.
+    """Return the density of each kind on the terrain, in the order of `kinds`; map files lie in `folder`.
 
-    Of the files that are `given`, the pictures are taken instead; an array is the map itself.
+    Pictures that are `given` replace the files of their names; an array in a scene is the map itself.
 
-    Kinds with a place have what is painted; where their sum passes 1 it is brought down to 1. Kinds without one
-    share equally what the others leave, so that with such a kind the prairie is full everywhere. Flowers stand among
-    the others and take no ground from them. Maps of different sizes are brought to the longest sides among them. Raises
-    `MapError` where one cannot be used.
+    Kinds with a place have their painted density, scaled down where the sum would pass 1. Kinds without a place share
+    the rest equally, so that with such a kind the prairie is full everywhere. Flowers stand among other kinds and take
+    no ground from them. All maps are enlarged to the longest sides among them. Raises `MapError` for an unusable map.
     """
     maps = dict.fromkeys(kind.place.map for kind in kinds.values() if kind.place is not None)
     pictures = {each: _channels_in(each, folder, given) for each in maps}
@@ -67,12 +66,15 @@ def load_density(
 
 
 def load_holes(source: TerrainSource, folder: Path, /) -> Floats | None:
-    """Return the map (rows, columns) of where a scene says that there is no ground, if it does; raises `MapError`."""
+    """Return a scene's map (rows, columns) of holes in the ground, None if it has none; raises `MapError`."""
     return None if source.holes is None else _channels_in(source.holes, folder, NONE)[CHANNELS[0]]
 
 
 def stretched(values: Floats, rows: int, columns: int, /) -> Floats:
-    """Return a map (rows, columns) over the samples of a terrain, the outermost of which stand on its edges."""
+    """Return a map with the nearest of its values at each sample of a terrain, (rows, columns).
+
+    The outermost samples stand on the map's edges.
+    """
     for axis, count in enumerate((rows, columns)):
         own = values.shape[axis]
         place = np.linspace(0.0, own, count) - 0.5
@@ -95,7 +97,7 @@ def _channels_in(each: str | MapArray, folder: Path, given: Mapping[str, Picture
 
 
 def _channels_of(values: NDArray[Any]) -> Channels:
-    """Return the densities of an array (rows, columns), or (rows, columns, 1 to 4); raises `MapError` for another."""
+    """Return densities by channel of an array (rows, columns) or (rows, columns, 1 to 4); raises `MapError`."""
     shape = values.shape
     if not (len(shape) == 2 or (len(shape) == 3 and 1 <= shape[2] <= len(CHANNELS))):
         raise MapError(None, f"it must be an array of rows and columns, with 1 to 4 channels at most, not {shape}")
@@ -135,7 +137,7 @@ def _channels(picture: Picture) -> Channels:
 
 
 def _stretch(values: Floats, rows: int, columns: int) -> Floats:
-    """Return a map with more pixels, as a texture is magnified."""
+    """Return a map enlarged to (rows, columns) by bilinear interpolation, like a magnified texture."""
     for axis, count in enumerate((rows, columns)):
         own = values.shape[axis]
         place = np.clip((np.arange(count) + 0.5) * (own / count) - 0.5, 0.0, own - 1.0)

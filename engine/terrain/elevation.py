@@ -1,4 +1,4 @@
-"""An elevation map as its file holds it, and what is refused of any."""
+"""An elevation map as its file holds it, and the checks that all maps share."""
 
 import struct
 import zlib
@@ -16,10 +16,10 @@ from PIL import Image, UnidentifiedImageError
 from .errors import MapError
 
 MOST_CELLS = 8193
-"""Most cells along a side of a map."""
+"""Greatest number of cells along a side of a map."""
 
 _BROKEN = ".*(Truncated|[Cc]orrupt)"
-"""What Pillow only warns of, although what it then returns may lack the length of a cell."""
+"""Pillow's warnings that are treated as errors: the tags it then returns may lack the length of a cell."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,21 +27,21 @@ class Elevation:
     """An elevation map as its file holds it."""
 
     values: NDArray[Any]
-    """Numbers of any real kind, row 0 first in the file, shape (rows, columns)."""
+    """Integers or floats, row 0 first in the file, shape (rows, columns)."""
 
     whole: float | None
-    """Number that stands for the whole vertical scale; None where the numbers are metres already."""
+    """Value that stands for the whole vertical scale; None where values are metres."""
 
     cell: tuple[float, float] | None = None
-    """Metres per cell in x and z, where the file says so."""
+    """Metres per cell in x and z; None where the file does not say."""
 
     void: NDArray[np.bool_] | None = None
-    """Where the file holds no height, shape (rows, columns)."""
+    """Mask of cells without a height, shape (rows, columns)."""
 
 
 @contextmanager
 def reading(path: Path, kind: str) -> Iterator[None]:
-    """Turn what a reader raises on a broken file into a `MapError`."""
+    """Turn errors that a reader raises for a broken file into a `MapError`."""
     try:
         with catch_warnings():
             simplefilter("error", Image.DecompressionBombWarning)
@@ -61,7 +61,7 @@ def reading(path: Path, kind: str) -> Iterator[None]:
 
 
 def check_size(path: Path | None, shape: tuple[int, ...]) -> None:
-    """Raise `MapError` where a map is no map of 2 to `MOST_CELLS` cells a side."""
+    """Raise `MapError` for a map that does not have 2 to `MOST_CELLS` cells a side."""
     if len(shape) != 2:
         raise MapError(path, f"it must be an array of rows and columns, not of {len(shape)} dimensions")
     rows, columns = shape
@@ -72,7 +72,7 @@ def check_size(path: Path | None, shape: tuple[int, ...]) -> None:
 def check_finite(
     path: Path | None, values: NDArray[Any], one: str, several: str, void: NDArray[np.bool_] | None = None
 ) -> None:
-    """Raise `MapError` where numbers are none, other than where there is a `void`; the names are what they are."""
+    """Raise `MapError` for values that are not finite outside of the `void`; `one` and `several` name the values."""
     if values.dtype.kind != "f":
         return
     wrong = ~np.isfinite(values)
@@ -86,6 +86,6 @@ def check_finite(
 
 
 def eight_bit(path: Path | None) -> MapError:
-    """Return why 8-bit heights are refused."""
+    """Return the error for 8-bit heights."""
     instead = "export 16-bit grey" if path else "hand in metres as float32"
     return MapError(path, f"8 bits hold only 256 heights, which would make terraces; {instead}")

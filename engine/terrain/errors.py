@@ -1,4 +1,4 @@
-"""What is wrong with a map."""
+"""The error of unusable maps."""
 
 from pathlib import Path
 

@@ -22,7 +22,7 @@ from .resample import fill_voids, resample
 from .stream import window_of
 
 WIDEST = 10240.0
-"""Longest side of a terrain [m]; farther out, 32-bit places are too coarse for blades of grass."""
+"""Longest side of a terrain [m]; farther out, positions in single precision are too coarse for blades of grass."""
 
 NARROWEST = 5.0
 """Shortest side of a terrain [m]."""
@@ -31,19 +31,19 @@ SMOOTH = 2.5
 """Longest side of a terrain's cell [m], so that its bilinear surface does not look faceted."""
 
 SIDE = 4097
-"""Most samples along a side of a terrain; only a wider terrain than `SMOOTH` allows for has longer cells."""
+"""Greatest number of samples along a side of a terrain; cells get longer than `SMOOTH` only for this limit."""
 
 HIGHEST = 50_000.0
-"""Height beyond which a map is taken to be wrong, to either side of 0 [m]."""
+"""Greatest distance of a height from 0 [m]; a map beyond it is taken to be wrong."""
 
-UNLESS_TOLD = [200.0, 200.0]
-"""Width and depth of a terrain that nothing says of how large it is [m]."""
+DEFAULT_SIZE = [200.0, 200.0]
+"""Width and depth of a terrain, where the scene gives none [m]."""
 
 RANGE = 100.0
-"""Height of a whole 16-bit range, where a scene gives none [m]."""
+"""Vertical scale of 16-bit heights, where the scene gives none [m]."""
 
 SQUARE = 256
-"""Samples along a side of what a function is asked for at a time."""
+"""Number of samples along a side of the squares for which a function is called."""
 
 _log = getLogger(__name__)
 
@@ -52,8 +52,8 @@ def load_terrain(source: TerrainSource, folder: Path, /, *, about: Sequence[floa
     """Return the terrain that a scene declares; its files lie in `folder`.
 
     Cells longer than 2.5 m are divided by a smooth surface through their corners, and a map wider than the scene's
-    size, or than 10240 m, is cut to its middle. Voids that an elevation model marks are filled from around them. Of a
-    ground that streams, it is the window `about` a place (x, z) [m]. Raises `MapError` where the map cannot be used.
+    size, or than 10240 m, is cut to its middle. Voids that an elevation model marks are filled from around them. For a
+    ground that streams, the terrain is the window `about` a place (x, z) [m]. Raises `MapError` for an unusable map.
     """
     if isinstance(source.heights, HeightFunction) and source.window is not None:
         return _streamed(source.heights, source, source.window, about)
@@ -62,7 +62,7 @@ def load_terrain(source: TerrainSource, folder: Path, /, *, about: Sequence[floa
 
 
 def _streamed(asked: HeightFunction, source: TerrainSource, window: float, about: Sequence[float]) -> Terrain:
-    """Return the window about a place (x, z) [m], at least so wide [m], of the ground that a function describes."""
+    """Return the window around a place (x, z) [m] of a function's ground; the window is at least `window` wide [m]."""
     cell = min(source.cell, SMOOTH)
     steps = max(ceil(window / cell / (PARTS * BLOCK) - 1e-6), 1)
     if steps * PARTS * BLOCK >= SIDE:
@@ -99,8 +99,8 @@ def _loaded(source: TerrainSource, folder: Path) -> Terrain:
 
 
 def _of_function(asked: HeightFunction, source: TerrainSource) -> Terrain:
-    """Return the terrain that a program's function describes, over the scene's size."""
-    size = source.size or UNLESS_TOLD
+    """Return the terrain of the scene's size that a program's function describes."""
+    size = source.size or DEFAULT_SIZE
     cell = max(min(source.cell, SMOOTH), max(size) / (SIDE - 1))
     x, z = (_places(side, cell) for side in size)
     given = _ask_heights(asked, x, z)
@@ -110,7 +110,7 @@ def _of_function(asked: HeightFunction, source: TerrainSource) -> Terrain:
 
 
 def _holes_in(path: Path | None, elevation: Elevation) -> Mask | None:
-    """Return where heights are NaN without being marked as voids, if any are."""
+    """Return a mask of heights that are NaN, in a map that marks no voids; None if none are."""
     if elevation.void is not None or elevation.values.dtype.kind != "f":
         return None
     found: Mask = np.isnan(elevation.values)
@@ -120,7 +120,7 @@ def _holes_in(path: Path | None, elevation: Elevation) -> Mask | None:
 
 
 def _with_holes(terrain: Terrain, source: TerrainSource, folder: Path) -> Terrain:
-    """Return a terrain with the holes that its scene declares besides those that it has."""
+    """Return a terrain with the holes that its scene declares, in addition to its own."""
     declared = load_holes(source, folder)
     if declared is None:
         return terrain
@@ -131,7 +131,7 @@ def _with_holes(terrain: Terrain, source: TerrainSource, folder: Path) -> Terrai
 
 
 def _metres(path: Path | None, elevation: Elevation, source: TerrainSource, open_: Mask | None) -> Floats:
-    """Return an elevation map's heights [m], with its voids and its holes filled."""
+    """Return an elevation map's heights [m], with voids and holes (`open_`) filled from their surroundings."""
     values, void = elevation.values, elevation.void if open_ is None else open_
     check_finite(path, values, "height", "heights", void)
     if elevation.whole is None:
@@ -155,7 +155,7 @@ def _metres(path: Path | None, elevation: Elevation, source: TerrainSource, open
 def _spread(
     path: Path | None, heights: Floats, cells: tuple[float, float], wanted: list[float] | None, holes: Mask | None
 ) -> Terrain:
-    """Return the terrain of `heights` whose cells are `cells` long in x and z [m], or its middle of a `wanted` size."""
+    """Return the terrain of `heights` with `cells` in x and z [m], cut to its middle of the `wanted` size [m]."""
     counts = heights.shape[::-1]
     size = [(count - 1) * cell for count, cell in zip(counts, cells, strict=True)]
     if min(size) < NARROWEST:
@@ -178,7 +178,7 @@ def _spread(
 
 
 def _resample_part(heights: Floats, rows: Doubles, columns: Doubles) -> Floats:
-    """Return `heights` at `rows` and `columns`, reading only what lies around them."""
+    """Return `heights` interpolated at fractional `rows` and `columns`, reading only the cells around them."""
     margin = 8
     top, left = (max(0, int(axis[0]) - margin) for axis in (rows, columns))
     part = heights[top : int(rows[-1]) + margin, left : int(columns[-1]) + margin]
@@ -192,7 +192,7 @@ def _places(side: float, cell: float) -> Doubles:
 
 
 def _noise(source: TerrainSource) -> Terrain:
-    size = source.size or UNLESS_TOLD
+    size = source.size or DEFAULT_SIZE
     kind = LANDSCAPES.get(source.noise or "flat")
     feature = source.feature or (kind.feature if kind else WIDEST)
     cell = min(source.cell, SMOOTH, feature / 8) if kind else max(source.cell, max(size) / 1024)
@@ -206,13 +206,13 @@ def _noise(source: TerrainSource) -> Terrain:
 
 
 def _ask_heights(asked: HeightFunction, x: Doubles, z: Doubles, /) -> Floats:
-    """Return the heights [m] that a function gives where columns at `x` and rows at `z` [m] meet, (rows, columns).
+    """Return a function's heights [m] on the grid of columns at `x` and rows at `z` [m], (rows, columns).
 
-    NaN is a hole. Raises `MapError` where it raises something itself, or returns what are no heights of these places.
+    NaN is a hole. Raises `MapError` where the function raises anything, or returns invalid heights.
     """
     heights = np.empty((len(z), len(x)), np.float32)
     for rows, columns in _squares(*heights.shape):
-        heights[rows, columns] = _asked(asked, *np.meshgrid(x[columns], z[rows]))
+        heights[rows, columns] = _call(asked, *np.meshgrid(x[columns], z[rows]))
     return heights
 
 
@@ -222,7 +222,7 @@ def _squares(rows: int, columns: int) -> Iterator[tuple[slice, slice]]:
             yield slice(row, row + SQUARE), slice(column, column + SQUARE)
 
 
-def _asked(asked: HeightFunction, x: Doubles, z: Doubles) -> Floats:
+def _call(asked: HeightFunction, x: Doubles, z: Doubles) -> Floats:
     where = f"{asked.name}, asked for x from {x[0, 0]:g} to {x[0, -1]:g} and z from {z[0, 0]:g} to {z[-1, 0]:g} m"
     try:
         with np.errstate(all="ignore"):
@@ -234,7 +234,7 @@ def _asked(asked: HeightFunction, x: Doubles, z: Doubles) -> Floats:
             None, f"{where}, must return {x.shape[0]} by {x.shape[1]} numbers, and returned an array of "
             f"{given.dtype} of shape {given.shape}"
         )  # fmt: skip
-    with np.errstate(over="ignore"):  # what is too large for single precision is refused as infinity
+    with np.errstate(over="ignore"):  # a height too large for single precision is refused as infinite
         heights = given.astype(np.float32)
     if np.isinf(heights).any():
         raise MapError(None, f"{where}, returned a height that is infinite")

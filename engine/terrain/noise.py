@@ -1,4 +1,4 @@
-"""Landscapes made from noise."""
+"""Procedural landscapes from noise."""
 
 from dataclasses import dataclass
 
@@ -11,16 +11,16 @@ from .resample import b_spline, resample
 
 @dataclass(frozen=True, slots=True)
 class Landscape:
-    """How a named landscape is made: octaves of noise, each finer than the one before."""
+    """Parameters of a named landscape: a sum of octaves of noise, each finer than the one before."""
 
     octaves: tuple[float, ...]
-    """Strength of each octave; wavelengths fall by `LACUNARITY` from one to the next."""
+    """Amplitude of each octave; wavelengths fall by `LACUNARITY` from one to the next."""
 
     ridged: bool
     """Whether the first octave is folded along its zero line, which becomes a crest."""
 
     contrast: float
-    """How soon heights level off towards the lowest and the highest."""
+    """Factor of the sum before `tanh`: a larger one levels off hills and valleys sooner."""
 
     scale: float
     """Height between the lowest and the highest ground, where a scene gives none [m]."""
@@ -37,7 +37,7 @@ LANDSCAPES = {
 """The landscapes by name; a flat one needs no noise."""
 
 LACUNARITY = 2.17
-"""Ratio of the wavelengths of successive octaves; no whole number, so that their lattices never line up."""
+"""Ratio of the wavelengths of successive octaves; not an integer, so that their lattices never line up."""
 
 SPACING = 2.62
 """Mean distance between neighbouring hilltops of `spline_noise`, in lattice units (measured)."""
@@ -46,14 +46,14 @@ DEVIATION = np.float32(0.348)
 """Standard deviation of `spline_noise` (measured)."""
 
 MIDDLE, ROUNDING = np.float32(0.8), np.float32(0.06)
-"""What folded noise is measured from, and how far its crests are rounded, in standard deviations."""
+"""Height of folded noise at its crests before rounding, and squared radius of the rounding, in standard deviations."""
 
 
 def landscape(name: str, x: Doubles, z: Doubles, /, *, seed: int, feature: float) -> Floats:
     """Return a landscape on the grid of places `x` (columns,) and `z` (rows,) [m], in [0, 1], shape (rows, columns).
 
-    It is a function of place, `seed` and `feature` alone: a wider grid shows more of the same land, and a coarser one
-    leaves out the octaves that it cannot show. Slope and curvature are continuous.
+    It depends on place, `seed` and `feature` alone: a wider grid shows more of the same land, and a coarser one leaves
+    out the octaves that it cannot resolve. Slope and curvature are continuous.
     """
     kind = LANDSCAPES[name]
     total = np.zeros((len(z), len(x)), np.float32)
@@ -78,9 +78,9 @@ def landscape(name: str, x: Doubles, z: Doubles, /, *, seed: int, feature: float
 def spline_noise(x: Doubles, z: Doubles, /, *, seed: int) -> Floats:
     """Return noise on the grid of `x` (columns,) by `z` (rows,), in lattice units, shape (rows, columns).
 
-    Random numbers of the lattice points, less half of their surroundings' mean so that no hill outgrows the others,
-    are the coefficients of a bicubic B-spline: no direction stands out as it does in gradient noise, and slope and
-    curvature are continuous. Values lie in [-1.5, 1.5] about 0.
+    A bicubic B-spline, whose coefficients are random numbers at the lattice points, less half of their neighbourhood's
+    mean, so that no hill outgrows the others. Unlike in gradient noise no direction stands out. Slope and curvature are
+    continuous. Values lie in [-1.5, 1.5] about 0.
     """
     i, j = (np.arange(np.floor(axis.min()) - 2, np.floor(axis.max()) + 4, dtype=np.int64) for axis in (x, z))
     drawn = unit(hash3(seed, i[None, :], j[:, None])) * np.float32(12**0.5) - np.float32(3**0.5)

@@ -1,4 +1,4 @@
-"""Where rays meet the ground, exactly: from cell to cell of the terrain, each a bilinear surface."""
+"""Exact intersection of rays with the ground, cell by cell of the terrain, each a bilinear surface."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,19 +7,18 @@ from ...components.arrays import Doubles, Floats
 from .record import Terrain
 
 _SAME = 1e-12
-"""What is taken for nothing, of a unit vector's parts and of how a surface bends along a ray."""
+"""Value below which components of unit vectors, and a surface's curvature along a ray, are taken as 0."""
 
 
 _MARGIN = 1.0
-"""How far above the highest ground rays are followed, and how far below the lowest [m]: roundings do not count."""
+"""Margin above the highest and below the lowest ground in which rays are followed [m], against rounding errors."""
 
 
 def pick(terrain: Terrain, origin: Doubles, direction: Doubles, /, *, farthest: float = np.inf) -> Floats:
-    """Return where rays first meet the ground (x, y, z) [m], NaN where they do not within `farthest` [m], shape (n, 3).
+    """Return each ray's first intersection with the ground (x, y, z) [m], (n, 3), NaN if not within `farthest` [m].
 
-    They begin at `origin` (n, 3) [m] and go along `direction` (n, 3), of any length but 0. One that begins below the
-    ground meets it where it begins. Beyond the terrain ground is where `height_at` has it; of ground that is mirrored
-    they meet what is drawn.
+    Rays begin at `origin` (n, 3) [m] and go along `direction` (n, 3), of any length but 0. A ray that begins below the
+    ground meets it at its origin. Beyond the terrain, ground is at `height_at`; mirrored ground ends where drawn.
     """
     found = np.full((len(origin), 3), np.nan, np.float32)
     lowest, highest = terrain.span[0] - _MARGIN, terrain.span[1] + _MARGIN
@@ -36,7 +35,7 @@ def pick(terrain: Terrain, origin: Doubles, direction: Doubles, /, *, farthest: 
 
 
 def _between(y: float, rise: float, lowest: float, highest: float) -> tuple[float, float]:
-    """Return from where to where along a ray [m] it may meet ground between two heights; below both it has met it."""
+    """Return begin and end of a ray's stretch [m] between two heights, both 0 if it starts below them."""
     if rise == 0.0:
         return 0.0, np.inf if y <= highest else -1.0
     ends = (highest - y) / rise, (lowest - y) / rise
@@ -46,7 +45,7 @@ def _between(y: float, rise: float, lowest: float, highest: float) -> tuple[floa
 
 
 def _over_mirrored(terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: float) -> tuple[float, float]:
-    """Return the part of a stretch of a ray [m] that lies over what is drawn of a mirrored terrain."""
+    """Return a ray's stretch [m] clipped to the drawn part of a mirrored terrain."""
     for place, way, side in zip(start[::2], along[::2], terrain.size, strict=True):
         reach = side / 2.0 + terrain.beyond
         if way == 0.0:
@@ -58,7 +57,7 @@ def _over_mirrored(terrain: Terrain, start: Doubles, along: Doubles, begin: floa
 
 
 def _met(terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: float) -> float | None:
-    """Return how far along a ray the ground is met first between two distances [m]; None where it is not."""
+    """Return the distance along a ray of its first intersection between `begin` and `end` [m], None without one."""
     if end < begin:
         return None
     rows, columns = terrain.heights.shape
@@ -78,7 +77,7 @@ def _met(terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: fl
     du, dv = way[:, None] * inside.T
     twist = a - b - c + d
     right, down = b - a, c - a
-    # Height above the ground along the ray, from the beginning of each cell: low + slope * t + bend * t * t.
+    # Height above the ground along the ray, t from the entry into each cell: low + slope * t + bend * t * t.
     low = start[1] + before * along[1] - (a + right * u + down * v + twist * u * v)
     slope = along[1] - (right * du + down * dv + twist * (u * dv + v * du))
     roots = _first_root(low, slope, -twist * du * dv, after - before)
@@ -87,9 +86,9 @@ def _met(terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: fl
 
 
 def _crossings(at: float, way: float, begin: float, end: float, count: float) -> Doubles:
-    """Return how far along a ray it crosses the lines 0 to count - 1 of an axis, between two distances [m].
+    """Return distances between `begin` and `end` [m] at which a ray crosses the lines 0 to count - 1 of an axis.
 
-    Of a count without end all lines are meant, those below 0 too.
+    An infinite count means all lines, also those below 0.
     """
     if way == 0.0:
         return np.zeros(0)
@@ -121,10 +120,10 @@ def _in_mirror(sample: NDArray[np.intp], count: int) -> NDArray[np.intp]:
 
 
 def _first_root(low: Doubles, slope: Doubles, bend: Doubles, length: Doubles) -> Doubles:
-    """Return where low + slope * t + bend * t * t first comes to 0 or below, t from 0 to `length`; infinity if not."""
+    """Return the first t in [0, `length`] at which low + slope * t + bend * t * t is 0 or less; infinity if none is."""
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         root = np.sqrt(slope * slope - 4.0 * bend * low)
-        half = -0.5 * (slope + np.where(slope < 0.0, -root, root))  # of two ways, the one that loses no digits
+        half = -0.5 * (slope + np.where(slope < 0.0, -root, root))  # this sign avoids cancellation
         one = np.where(np.abs(bend) > _SAME, half / bend, np.inf)
         other = np.where(half != 0.0, low / half, np.inf)
     slack = 1e-9 * (1.0 + length)

@@ -1,4 +1,4 @@
-"""Maps that are 0.2 m fine on a terrain of any size: only those plots of the ground are there that were changed."""
+"""Sparse maps with cells of 0.2 m on a terrain of any size: only changed plots of the ground are stored."""
 
 from collections import deque
 from collections.abc import Callable
@@ -16,7 +16,7 @@ CELL = 0.2
 """Side of a cell of the ground [m]."""
 
 CELLS = 64
-"""Cells along a plot's side: a power of two, so that its mip-maps end with the plot."""
+"""Number of cells along a plot's side: a power of two, so that no mip texel covers two plots."""
 
 SIDE = CELL * CELLS
 """Side of a plot [m]."""
@@ -24,50 +24,51 @@ SIDE = CELL * CELLS
 GLSL = {"PLOT_CELLS": CELLS, "PLOT_SIDE": SIDE}
 
 Values = NDArray[Any]
-"""What a map has in some cells, shape (rows, columns, ...)."""
+"""Values of a map's cells, shape (rows, columns, ...)."""
 
 Untouched = Callable[[Part], Values]
-"""Gives what is in the cells of a part where nobody has changed anything."""
+"""Returns the values of cells of a part that have never been changed."""
 
 
 class On(NamedTuple):
-    """Which of some places lie on plots that are there, and where."""
+    """Those of given places that lie on stored plots."""
 
     which: NDArray[np.intp]
-    """Their numbers among all places, shape (m,)."""
+    """Indices among the given places, shape (m,)."""
 
     page: Ints
-    """The page of each, shape (m,)."""
+    """Page of each place, shape (m,)."""
 
     cell: Floats
-    """Where on the plot, (x, z) [cells], shape (m, 2)."""
+    """Position of each place on its plot, (x, z) [cells], shape (m, 2)."""
 
 
 class Plots:
-    """A map of cells, kept by plots: a page for each plot that was changed, and one page for all that are all alike.
+    """A map of cells, stored by plots: a page for each changed plot, shared by plots of the same uniform value.
 
-    Cells are counted along x (columns) and z (rows) from the world's origin, so that they stay where they are under
-    another terrain. Whoever has made anything of a map looks at `count` and asks `since`.
+    Cells are counted along x (columns) and z (rows) from the world's origin, so that they keep their places when the
+    terrain changes. A cache made from the map compares `count`, and asks `since` for changes.
     """
 
     def __init__(self, size: tuple[float, float], kind: np.dtype[Any], channels: tuple[int, ...] = ()) -> None:
         self.half = half_of(size)
-        """Plots from the middle of the terrain to its edges, along x and z."""
+        """Number of plots from the middle of the terrain to its edges, along x and z."""
         self.pages: Values = np.empty((0, CELLS, CELLS, *channels), kind)
         self.written: NDArray[np.int64] = np.zeros(0, np.int64)
-        """At which change each page was written last, shape (pages,)."""
+        """Value of `count` at each page's last change, shape (pages,)."""
         self.count = 0
-        """How often anything was changed."""
+        """Number of changes so far."""
         self._index: Ints | None = None
         self._uses: NDArray[np.int64] = np.zeros(0, np.int64)
         self._free: list[int] = []
         self._alike: dict[bytes, int] = {}
+        """Page of all plots whose cells all have one value, by that value's bytes."""
         self._last: deque[Part] = deque(maxlen=MOST)
         self._ends = self._no_ends
 
     @property
     def ends(self) -> tuple[int, int, int, int]:
-        """The first row and column of `index` that have a page, and the last."""
+        """First row and column of `index` that may have a page, and the last ones."""
         top, left, bottom, right = self._ends
         return top + self.half[1], left + self.half[0], bottom + self.half[1], right + self.half[0]
 
@@ -77,23 +78,23 @@ class Plots:
 
     @property
     def index(self) -> Ints:
-        """The page of each plot, -1 where there is none, row 0 at the far edge (-z), shape (rows, columns)."""
+        """Page of each plot, -1 where it is not stored, row 0 at the far edge (-z), shape (rows, columns)."""
         if self._index is None:
             self._index = np.full((2 * self.half[1], 2 * self.half[0]), -1, np.int32)
         return self._index
 
     @property
     def any(self) -> bool:
-        """Whether there is any plot."""
+        """Whether any plot is stored."""
         return self._index is not None
 
     def since(self, count: int, /) -> list[Part] | None:
-        """Return the cells, no part beyond one plot, that changed since there were `count` changes; None: any may."""
+        """Return the parts changed since change number `count`, each within a plot; None if any may have changed."""
         missed = self.count - count
         return None if missed > len(self._last) else list(self._last)[len(self._last) - missed :]
 
     def on(self, place: Floats, /) -> On:
-        """Return which ground positions (n, 2) [m] lie on plots that are there."""
+        """Return those of ground positions (n, 2) [m] that lie on stored plots."""
         if self._index is None:
             return On(np.zeros(0, np.intp), np.zeros(0, np.int32), np.zeros((0, 2), np.float32))
         at = place.astype(np.float64) / SIDE + self.half
@@ -107,9 +108,9 @@ class Plots:
         return On(which, page[which], ((at - plot)[which] * CELLS).astype(np.float32))
 
     def on_lines(self, x: Floats, z: Floats, /) -> tuple[Ints, Ints, Ints]:
-        """Return the page that each cell of squares is on, -1 for none, its row and its column, for (m, n, n).
+        """Return page (-1 for none), row and column on the page of the cell at each crossing of lines, (m, n, n).
 
-        The squares are where lines of `x` (m, n) and of `z` (m, n) meet [m], all of them on the map.
+        The lines of `x` (m, n) and of `z` (m, n) [m] cross on the map.
         """
         column, row = (np.floor(each / np.float32(CELL)).astype(np.int32) for each in (x, z))
         which = row // CELLS + self.half[1], column // CELLS + self.half[0]
@@ -117,20 +118,20 @@ class Plots:
         return page, (row % CELLS)[:, :, None], (column % CELLS)[:, None, :]
 
     def nearest(self, on: On, /) -> Values:
-        """Return what the cells have that places lie in, shape (m, ...)."""
+        """Return the value of each place's cell, shape (m, ...)."""
         column, row = np.minimum(on.cell.astype(np.intp), CELLS - 1).T
         found: Values = self.pages[on.page, row, column]
         return found
 
     def between(self, on: On, channel: NDArray[np.intp] | None = None, /) -> Floats:
-        """Return what places have between the middles of cells, bilinear: all channels (m, channels), or one each (m,).
+        """Return values interpolated bilinearly between cell centres: all channels (m, channels), or one each (m,).
 
-        A plot's outermost cells go on to its edge.
+        Within half a cell of a plot's edge, the outermost value holds.
         """
         at = np.clip(on.cell - np.float32(0.5), np.float32(0.0), np.float32(CELLS - 1))
         low = np.minimum(at.astype(np.intp), CELLS - 2)
-        part = np.subtract(at, low, dtype=np.float32)
-        (column, row), (right, down) = low.T, part.T
+        fraction = np.subtract(at, low, dtype=np.float32)
+        (column, row), (right, down) = low.T, fraction.T
         number, flat, each = (on.page * CELLS + row) * CELLS + column, self.pages.reshape(-1), 1
         if channel is None:
             right, down, flat = right[:, None], down[:, None], self.pages.reshape(-1, *self.pages.shape[3:])
@@ -142,7 +143,7 @@ class Plots:
         return np.asarray(far + down * (near - far), np.float32)
 
     def parts(self, low: Floats, high: Floats, /) -> list[Part]:
-        """Return the cells between two corners (x, z) [m], plot by plot, of those that the map has at all."""
+        """Return the map's cells between two corners (x, z) [m], a part for each plot."""
         first = np.maximum(np.floor(np.asarray(low, np.float64) / CELL), np.multiply(self.half, -CELLS))
         last = np.minimum(np.ceil(np.asarray(high, np.float64) / CELL), np.multiply(self.half, CELLS))
         if not (first < last).all():
@@ -152,17 +153,17 @@ class Plots:
         return [Part(row, column, down - row, over - column) for row, down in rows for column, over in columns]
 
     def within(self, low: Floats, high: Floats, /) -> list[Values | None]:
-        """Return what the cells between two corners (x, z) [m] have, plot by plot; None of plots that are not there."""
+        """Return the values of cells between two corners (x, z) [m], plot by plot; None for plots not stored."""
         return [self.held(part) for part in self.parts(low, high)]
 
     def held(self, part: Part, /) -> Values | None:
-        """Return what the cells of a part have, which lies on one plot; None where that is not there."""
+        """Return the values of a part that lies on one plot; None where that plot is not stored."""
         page = int(self.index[part.row // CELLS + self.half[1], part.column // CELLS + self.half[0]])
         inner = Part(part.row % CELLS, part.column % CELLS, part.rows, part.columns)
         return self.pages[page][inner.slices] if page >= 0 else None
 
     def put(self, part: Part, change: Callable[[Values], Values], untouched: Untouched, /) -> None:
-        """Change the cells of a part, which lies on one plot; `change` returns what is there then."""
+        """Change the cells of a part that lies on one plot; `change` maps their values to the new ones."""
         row, column = part.row // CELLS, part.column // CELLS
         inner = Part(part.row % CELLS, part.column % CELLS, part.rows, part.columns)
         plot = row + self.half[1], column + self.half[0]
@@ -186,7 +187,7 @@ class Plots:
         self.written[own] = self.count
 
     def put_alike(self, part: Part, values: Values, /) -> None:
-        """Let all cells of a whole plot be like these, of shape (1, 1, ...)."""
+        """Set all cells of a plot to one value, of shape (1, 1, ...); `part` covers the plot."""
         plot = part.row // CELLS + self.half[1], part.column // CELLS + self.half[0]
         if int(self.index[plot]) == self._alike.get(values.tobytes(), -2):
             return
@@ -198,7 +199,7 @@ class Plots:
         return self._alike.get(self.pages[page, :1, :1].tobytes(), -1) == page
 
     def _share(self, plot: tuple[int, int], values: Values) -> None:
-        """Let a plot have the page of all whose cells are all like these."""
+        """Give a plot, whose cells all have one value, the page that such plots share."""
         mark = values[:1, :1].tobytes()
         if mark not in self._alike:
             page = self._claim()
@@ -225,7 +226,7 @@ class Plots:
         ends[2:] = max(ends[2], bottom - rows), max(ends[3], right - columns)
 
     def _claim(self) -> int:
-        """Return the number of a page that nothing is on."""
+        """Return the number of an unused page."""
         if self._free:
             return self._free.pop()
         page = len(self._uses)
@@ -237,7 +238,7 @@ class Plots:
         return page
 
     def touch(self, ends: Doubles, /) -> None:
-        """Count as changed what lies between corners (x, z) [m], (n, 2, 2), for who asks; all, where they are many."""
+        """Log a change of all cells between corners (x, z) [m], (n, 2, 2); of the whole map, where these are many."""
         parts = [part for low, high in ends[: MOST + 1] for part in self.parts(low, high)]
         self.count += max(len(parts), 1)
         if len(parts) > MOST:
@@ -246,7 +247,7 @@ class Plots:
             self._last.extend(parts)
 
     def saved(self) -> tuple[Ints, Values]:
-        """Return row, column and page of each plot that is there, (n, 3), and those pages, numbered from 0 on."""
+        """Return row, column and page of each stored plot, (n, 3), and the pages, renumbered from 0."""
         if self._index is None:
             return np.zeros((0, 3), np.int32), self.pages[:0]
         row, column = (self._index >= 0).nonzero()
@@ -255,9 +256,9 @@ class Plots:
         return where, self.pages[used]
 
     def resume(self, where: Ints, pages: Values, /) -> None:
-        """Be what `saved` returned of a map of as many channels; plots off the terrain are left out.
+        """Restore what `saved` returned for a map of as many channels; plots off the terrain are left out.
 
-        There are as many pages as before at least: who has made anything of those looks at each of them again.
+        The number of pages does not shrink, and all of them count as written, so that caches read each page again.
         """
         if not (self.any or len(where)):
             return
@@ -279,13 +280,13 @@ class Plots:
 
 
 def half_of(size: tuple[float, float], /) -> tuple[int, int]:
-    """Return how many plots there are from the middle of a terrain of a size [m] to its edges, along x and z."""
+    """Return the number of plots from the middle of a terrain of this size [m] to its edges, along x and z."""
     across, along = (max(ceil(side / 2.0 / SIDE - 1e-6), 1) for side in size)
     return across, along
 
 
 def middles(part: Part, /) -> Floats:
-    """Return where the middles of a part's cells are, (x, z) [m], shape (rows, columns, 2)."""
+    """Return the middles of a part's cells (x, z) [m], shape (rows, columns, 2)."""
     place = np.empty((part.rows, part.columns, 2), np.float32)
     place[..., 0] = (part.column + 0.5 + np.arange(part.columns)) * CELL
     place[..., 1] = ((part.row + 0.5 + np.arange(part.rows)) * CELL)[:, None]
@@ -293,12 +294,12 @@ def middles(part: Part, /) -> Floats:
 
 
 def ends_of(part: Part, /) -> tuple[Floats, Floats]:
-    """Return the corners (x, z) [m] that a part's cells lie between."""
+    """Return the lower and the upper corner (x, z) of a part [m]."""
     low = np.array([part.column, part.row], np.float32) * np.float32(CELL)
     return low, low + np.array([part.columns, part.rows], np.float32) * np.float32(CELL)
 
 
 def _cut(first: int, last: int) -> list[tuple[int, int]]:
-    """Return from which to before which cell an axis goes on each plot."""
+    """Split a range of cells along an axis at plot borders; return the first and end of each piece."""
     stops = [first, *range((first // CELLS + 1) * CELLS, last, CELLS), last]
     return list(pairwise(stops))

@@ -1,4 +1,4 @@
-"""Elevation maps read from files and arrays."""
+"""Reading elevation maps from files and arrays."""
 
 from collections.abc import Callable
 from contextlib import suppress
@@ -26,11 +26,11 @@ _DEGREE = 111_195.0
 """Metres per degree of latitude."""
 
 _VOIDS = (-9999.0, -32767.0, -32768.0)
-"""Numbers that elevation models mark voids with, often without saying so; no ground lies there."""
+"""Values by which elevation models mark voids, often without declaring it; no ground is as low."""
 
 
 def read_elevation(path: Path, source: TerrainSource, /) -> Elevation:
-    """Return what an elevation map file holds; raises `MapError` where it is no such file or cannot be right."""
+    """Return the elevation map of a file; raises `MapError` where it cannot be read or is invalid."""
     reader = _readers().get(path.suffix.lower())
     if reader is None:
         raise MapError(path, "elevation maps are 16-bit grey .png, .r16 or .raw, .npy, or .tif files")
@@ -43,7 +43,7 @@ def read_elevation(path: Path, source: TerrainSource, /) -> Elevation:
 
 
 def elevation_of(values: NDArray[Any], /) -> Elevation:
-    """Return what an array of heights says, which is what a .npy file of it does; raises `MapError` as one would."""
+    """Return the elevation map of an array, as of a .npy file that holds it; raises `MapError`."""
     check_size(None, values.shape)
     return _elevation_in(None, values)
 
@@ -107,8 +107,8 @@ def _read_raw(path: Path, source: TerrainSource) -> Elevation:
 def _read_tiff(path: Path, source: TerrainSource, /) -> Elevation:
     """Return the elevation model of a TIFF file: one band of 32-bit floats, or of 16- or 32-bit integers.
 
-    Floats and signed integers are metres. So are unsigned integers where the file says how wide a cell is, as
-    elevation models do; others are a whole range. Raises `MapError`.
+    Floats and signed integers are metres, and so are unsigned integers where the file gives a cell size, as elevation
+    models do. Other unsigned integers span the vertical scale. Raises `MapError`.
     """
     with reading(path, "a TIFF of one band of 32-bit floats or 16-bit integers"):
         with Image.open(path, formats=["TIFF"]) as image:

@@ -1,4 +1,4 @@
-"""Smooth reading of maps between their samples, one axis after the other, and of elevation models over their voids."""
+"""Smooth interpolation of maps, one axis after the other, and filling of voids in elevation models."""
 
 from collections.abc import Callable
 from math import ceil
@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles, Floats
 
 Kernel = Callable[[Doubles], Doubles]
-"""Weights of samples by their distance, in samples; nothing from 2 on."""
+"""Weight of a sample as a function of its distance, in samples; 0 from 2 on."""
 
 _BLOCK = 64
 
 
 def catmull_rom(distance: Doubles, /) -> Doubles:
-    """Return the weights of Catmull and Rom's cubic, which passes through the samples."""
+    """Return the weights of the Catmull-Rom cubic, which passes through the samples."""
     d = np.abs(distance)
     near = (1.5 * d - 2.5) * d * d + 1.0
     far = ((-0.5 * d + 2.5) * d - 4.0) * d + 2.0
@@ -23,7 +23,7 @@ def catmull_rom(distance: Doubles, /) -> Doubles:
 
 
 def b_spline(distance: Doubles, /) -> Doubles:
-    """Return the weights of the cubic B-spline, which passes beside the samples and has a continuous curvature."""
+    """Return the weights of the cubic B-spline, which smooths the samples and has a continuous curvature."""
     d = np.abs(distance)
     near = (0.5 * d - 1.0) * d * d + 2.0 / 3.0
     far = np.maximum(2.0 - d, 0.0) ** 3 / 6.0
@@ -31,11 +31,10 @@ def b_spline(distance: Doubles, /) -> Doubles:
 
 
 def resample(values: Floats, rows: Doubles, columns: Doubles, /, *, kernel: Kernel = catmull_rom) -> Floats:
-    """Return the map `values` read at fractional `rows` (r,) and `columns` (c,), in samples, shape (r, c).
+    """Return the map `values` interpolated at fractional `rows` (r,) and `columns` (c,), in samples, shape (r, c).
 
     Planes are kept exactly and slopes are continuous; outside, the map goes on by point reflection. Where the places
-    lie farther apart than the samples, the kernel widens as much, so that what is too fine to show does not turn
-    into noise.
+    lie farther apart than the samples, the kernel widens by the same factor, against aliasing.
     """
     across = _along_rows(np.ascontiguousarray(values.T), columns, kernel)
     return _along_rows(np.ascontiguousarray(across.T), rows, kernel)
@@ -54,23 +53,23 @@ def _along_rows(values: Floats, places: Doubles, kernel: Kernel) -> Floats:
 
 
 def _taps(places: Doubles, kernel: Kernel) -> tuple[NDArray[np.int64], Floats]:
-    """Return the samples that each place is read from and their weights, both of shape (places, taps)."""
+    """Return the samples around each place and their weights, both of shape (places, taps)."""
     stretch = max(1.0, float(np.diff(places).max(initial=0.0)))
     reach = ceil(2.0 * stretch)
     taps = np.floor(places).astype(np.int64)[:, None] + np.arange(1 - reach, reach + 1)
     apart = taps - places[:, None]
     weights = kernel(apart / stretch)
     weights /= weights.sum(axis=1, keepdims=True)
-    tilt = (weights * apart).sum(axis=1)  # a widened kernel would make ripples of an even slope
+    tilt = (weights * apart).sum(axis=1)  # without this, a widened kernel would make ripples on an even slope
     weights[:, reach - 1] += tilt
     weights[:, reach] -= tilt
     return taps, weights.astype(np.float32)
 
 
 def fill_voids(heights: Floats, void: NDArray[np.bool_], /) -> Floats:
-    """Return `heights` (rows, columns) with smooth ground where `void` (rows, columns), from what surrounds it.
+    """Return `heights` (rows, columns) with each `void` (rows, columns) filled smoothly from around it.
 
-    A void takes the mean of known heights from the finest of a pyramid of ever coarser maps that knows any nearby.
+    Void cells take mean heights from the finest level of a pyramid that has known heights near by.
     """
     if not void.any():
         return heights
@@ -81,7 +80,7 @@ def fill_voids(heights: Floats, void: NDArray[np.bool_], /) -> Floats:
 
 
 def _fill(heights: Floats, known: Floats) -> Floats:
-    """Return `heights`, with sense where `known` is 1 and zero where it is 0, filled."""
+    """Return `heights` with the cells filled where `known` is 0 (and the height is 0), not 1."""
     if known.all():
         return heights
     weight = _halve(known)

@@ -1,4 +1,4 @@
-"""Heights, slopes and densities at any place, bilinear between the samples of a map."""
+"""Heights, slopes and densities at any place, interpolated bilinearly between the samples of a map."""
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
@@ -13,25 +13,25 @@ from .record import Density, Terrain
 from .stream import tile_of
 
 _THINS = 8.0
-"""Over how many degrees before its steepest slope a kind thins out."""
+"""Range below its steepest slope in which a kind thins out [degrees]."""
 
 _WHOLE = np.float32(1.0 / 255.0)
-"""What a byte of full density is multiplied by."""
+"""Density of one step of a byte."""
 
 _FIRST = np.float32(0.0)
 
 _BLOCK = 12288
-"""Places worked on at a time: few enough that allocators keep the memory at hand, which makes it twice as fast."""
+"""Number of places computed at a time: so few that allocators reuse the memory, which is twice as fast."""
 
 
 def height_at(terrain: Terrain, place: Floats, /) -> Floats:
     """Return the ground's height [m] at ground positions (x, z) [m] of shape (n, 2), shape (n,).
 
-    Beyond the terrain the height of its nearest edge holds, or if that is a mirror, that of what is seen in it.
+    Beyond the terrain the height of its nearest edge holds, or that of its mirror image if it is mirrored.
     """
-    far_off = _far_off(terrain, place)
-    if far_off is not None:
-        return _by_block(height_at, terrain, place, far_off)
+    outside = _outside(terrain, place)
+    if outside is not None:
+        return _by_block(height_at, terrain, place, outside)
     place, _ = mirrored(terrain, place)
     flat = terrain.heights.reshape(-1)
     result = np.empty(len(place), np.float32)
@@ -43,23 +43,23 @@ def height_at(terrain: Terrain, place: Floats, /) -> Floats:
 
 
 def mirrored(terrain: Terrain, place: Floats, /) -> tuple[Floats, Floats | None]:
-    """Return which places of a terrain are seen at ground positions (x, z) [m] beyond it, and which way round, (n, 2).
+    """Return ground positions (x, z) [m] folded back onto a mirrored terrain, and the sign of x and z there, (n, 2).
 
-    That is 1 along x and z, and -1 where they are turned round; None where no place lies in the mirror of its edges.
+    A sign is -1 where the image is flipped along that axis. Instead of signs it returns None where no place is folded.
     """
     low, size = np.array(terrain.origin), np.array(terrain.size)
     off = np.zeros(len(place), np.bool_) if not terrain.mirrored else ((place < low) | (place > low + size)).any(axis=1)
     if not off.any():
         return place, None
-    seen, turned = place.copy(), np.ones(place.shape, np.float32)
+    folded, signs = place.copy(), np.ones(place.shape, np.float32)
     across = np.mod(place[off] - low, 2.0 * size)
-    seen[off] = low + size - np.abs(size - across)
-    turned[off] = np.where(across > size, -1.0, 1.0)
-    return seen, turned
+    folded[off] = low + size - np.abs(size - across)
+    signs[off] = np.where(across > size, -1.0, 1.0)
+    return folded, signs
 
 
-def _far_off(terrain: Terrain, place: Floats) -> Mask | None:
-    """Return which places (n, 2) lie beyond the window of a ground that streams, if any do."""
+def _outside(terrain: Terrain, place: Floats) -> Mask | None:
+    """Return a mask of places (n, 2) outside of the window of a ground that streams; None if no place is."""
     if terrain.blocks is None or not len(place):
         return None
     low = np.array(terrain.origin)
@@ -67,29 +67,29 @@ def _far_off(terrain: Terrain, place: Floats) -> Mask | None:
     return far if far.any() else None
 
 
-def _by_block(ask: Callable[[Terrain, Floats], Any], terrain: Terrain, place: Floats, far: Mask) -> NDArray[Any]:
-    """Return what `ask` returns for each place; where that is `far` off, its own block is asked."""
+def _by_block(sample: Callable[[Terrain, Floats], Any], terrain: Terrain, place: Floats, outside: Mask) -> NDArray[Any]:
+    """Return what `sample` returns for each place; places `outside` of the window are sampled on their own blocks."""
     assert terrain.blocks is not None
-    near = ask(terrain, place[~far])
-    result = np.empty((len(place), *near.shape[1:]), near.dtype)
-    result[~far] = near
+    inside = sample(terrain, place[~outside])
+    result = np.empty((len(place), *inside.shape[1:]), inside.dtype)
+    result[~outside] = inside
     block = terrain.blocks.at(place)
-    for row, column in np.unique(block[far], axis=0).tolist():
-        here = far & (block == (row, column)).all(axis=1)
-        result[here] = ask(tile_of(terrain.blocks, row, column), place[here])
+    for row, column in np.unique(block[outside], axis=0).tolist():
+        here = outside & (block == (row, column)).all(axis=1)
+        result[here] = sample(tile_of(terrain.blocks, row, column), place[here])
     return result
 
 
 def slope_at(terrain: Terrain, place: Floats, /) -> Floats:
     """Return the ground's slope (dh/dx, dh/dz) at ground positions (x, z) [m], both of shape (n, 2).
 
-    It is the exact slope of `height_at`, so it changes by a little step from cell to cell. Beyond the terrain the
-    slope of its nearest edge holds, or that of what is seen in it as in a mirror.
+    It is the exact slope of `height_at`, so it has small steps from cell to cell. Beyond the terrain the slope of its
+    nearest edge holds, or that of its mirror image if it is mirrored.
     """
-    far = _far_off(terrain, place)
-    if far is not None:
-        return _by_block(slope_at, terrain, place, far)
-    place, turned = mirrored(terrain, place)
+    outside = _outside(terrain, place)
+    if outside is not None:
+        return _by_block(slope_at, terrain, place, outside)
+    place, signs = mirrored(terrain, place)
     flat = terrain.heights.reshape(-1)
     slope = np.empty((len(place), 2), np.float32)
     for block in _blocks(len(place)):
@@ -99,13 +99,13 @@ def slope_at(terrain: Terrain, place: Floats, /) -> Floats:
         slope[block, 0] = (b - a) + at.down * ((d - c) - (b - a))
         slope[block, 1] = (c - a) + at.right * ((d - b) - (c - a))
     slope *= np.float32(1.0 / terrain.cell)
-    return slope if turned is None else slope * turned
+    return slope if signs is None else slope * signs
 
 
 def normal_at(terrain: Terrain, place: Floats, /) -> Floats:
     """Return the ground's normal, unit vectors (x, y, z) of shape (n, 3), at ground positions (x, z) [m], shape (n, 2).
 
-    It goes with `slope_at`.
+    It is perpendicular to the slope of `slope_at`.
     """
     slope = slope_at(terrain, place)
     normal = np.stack([-slope[:, 0], np.ones(len(place), np.float32), -slope[:, 1]], axis=1)
@@ -116,20 +116,19 @@ def normal_at(terrain: Terrain, place: Floats, /) -> Floats:
 def density_at(density: Density, place: Floats, /) -> Floats:
     """Return each kind's density in [0, 1] at ground positions (x, z) [m] of shape (n, 2), shape (kinds, n).
 
-    It is what a game has sown or cleared there, and else what is painted; so it is beyond the terrain. Below trees less
-    of it grows.
+    Sown or cleared density replaces that of the maps, beyond the terrain too. It is lower below trees.
     """
     return _below_crowns(density, _on_open_ground(density, place), place)
 
 
 def _below_crowns(density: Density, result: Floats, place: Floats) -> Floats:
-    """Return densities (kinds, n), or (n,), with as much of them as trees leave."""
+    """Return densities (kinds, n), or (n,), reduced by the shade of trees."""
     left = density.crowns.left_at(place)
     return result if left is None else result * left
 
 
 def _on_open_ground(density: Density, place: Floats, kind: NDArray[np.intp] | None = None) -> Floats:
-    """Return the densities of all kinds (kinds, n), or of a kind each (n,), wherever trees stand."""
+    """Return densities of all kinds (kinds, n), or of a kind each (n,), without the shade of trees."""
     if not density.sown.any:
         return _limited(density, _painted(density, place, kind), place, kind)
     on, rest = _sown_on(density, place), np.ones(len(place), np.bool_)
@@ -146,9 +145,9 @@ def _painted(density: Density, place: Floats, kind: NDArray[np.intp] | None) -> 
 
 
 def density_on_lines(density: Density, x: Floats, z: Floats, /) -> Floats:
-    """Return each kind's density in the open where lines of `x` (m, n) and `z` meet [m], (kinds, m, n, n), z first.
+    """Return each kind's density without trees at crossings of lines of `x` (m, n) and `z` [m], (kinds, m, n, n).
 
-    Of what is sown it is that of the cells which places lie in: that takes less time than `density_at`.
+    The second last axis is along z. Sown density is that of the nearest cell, which is faster than in `density_at`.
     """
     shape = *x.shape, x.shape[1]
     if not density.sown.any:
@@ -171,19 +170,19 @@ def density_on_lines(density: Density, x: Floats, z: Floats, /) -> Floats:
 
 
 def left_on_lines(density: Density, x: Floats, z: Floats, /) -> Floats | None:
-    """Return how much of that trees leave, (m, n, n), as `density_on_lines` has them; None: all of it."""
+    """Return the fraction of density in the shade of trees at crossings of lines, (m, n, n); None if all are 1."""
     left = density.crowns.left_at(_met(x, z)) if len(density.crowns.discs) else None
     return None if left is None else left.reshape(*x.shape, x.shape[1])
 
 
 def _met(x: Floats, z: Floats) -> Floats:
-    """Return the places where lines meet, (m * n * n, 2)."""
+    """Return the crossings of lines (x, z) [m], (m * n * n, 2)."""
     shape = *x.shape, x.shape[1]
     return np.stack([np.broadcast_to(x[:, None, :], shape), np.broadcast_to(z[:, :, None], shape)], -1).reshape(-1, 2)
 
 
 def natural_at(density: Density, place: Floats, /) -> Floats:
-    """Return each kind's density had a game neither sown nor cleared anything and were there no trees, (kinds, n)."""
+    """Return each kind's density by maps, slopes and holes alone, without sowing and trees, (kinds, n)."""
     return _limited(density, painted_at(density, place), place)
 
 
@@ -192,9 +191,9 @@ def hole_at(terrain: Terrain, place: Floats, /) -> Mask:
 
     Holes begin half-way between samples with ground and without.
     """
-    far_off = _far_off(terrain, place)
-    if far_off is not None:
-        return _by_block(hole_at, terrain, place, far_off)
+    outside = _outside(terrain, place)
+    if outside is not None:
+        return _by_block(hole_at, terrain, place, outside)
     if terrain.holes is None:
         return np.zeros(len(place), np.bool_)
     at = _within_terrain(terrain, place)
@@ -205,7 +204,7 @@ def hole_at(terrain: Terrain, place: Floats, /) -> Mask:
 
 
 def bareness(slopes: Sequence[float | None], /) -> Floats:
-    """Return how fast the ground rises where each kind ends, and how much it thins out by such a rise, (kinds, 2)."""
+    """Return each kind's steepest rise (height over distance) and its loss of density per rise below, (kinds, 2)."""
     ends = np.array([89.9 if slope is None else min(slope, 89.9) for slope in slopes])
     rise, whole = (np.tan(np.radians(np.maximum(ends - before, 0.0))) for before in (0.0, _THINS))
     thins = np.where([slope is None for slope in slopes], 1e9, 1.0 / np.maximum(rise - whole, 1e-6))
@@ -213,7 +212,7 @@ def bareness(slopes: Sequence[float | None], /) -> Floats:
 
 
 def _limited(density: Density, result: Floats, place: Floats, kind: NDArray[np.intp] | None = None) -> Floats:
-    """Return densities (kinds, n), or of a kind each (n,), where the ground is not too steep and there is any."""
+    """Return densities (kinds, n), or of a kind each (n,), limited by the ground's slope and 0 in holes."""
     if density.land is None:
         return result
     if density.slopes:
@@ -229,7 +228,7 @@ def _limited(density: Density, result: Floats, place: Floats, kind: NDArray[np.i
 def own_density_at(density: Density, kind: NDArray[np.intp], place: Floats, /) -> Floats:
     """Return the density in [0, 1] of the kind `kind` (n,) at each ground position (x, z) [m] (n, 2), shape (n,).
 
-    It is what `density_at` says of that kind, and takes no longer where kinds are many.
+    It is the same as in `density_at`, at a cost that does not depend on the number of kinds.
     """
     return _below_crowns(density, _on_open_ground(density, place, kind), place)
 
@@ -247,10 +246,10 @@ def _own_painted_at(density: Density, place: Floats, kind: NDArray[np.intp]) -> 
 
 
 def painted_at(density: Density, place: Floats, /) -> Floats:
-    """Return each kind's density as the scene has it, whatever has been sown, as `density_at` does.
+    """Return each kind's density in the scene's maps at ground positions (x, z) [m] (n, 2), shape (kinds, n).
 
-    It is what a texture laid over the terrain gives: pixels have their value in their middle, and beyond the middle
-    of the outermost pixels that value holds.
+    Maps are read like a texture laid over the terrain: a pixel's value holds at its centre, and beyond the outermost
+    centres it stays the same.
     """
     result = np.empty((len(density.maps), len(place)), np.float32)
     if density.even is not None:
@@ -265,7 +264,7 @@ def painted_at(density: Density, place: Floats, /) -> Floats:
 
 
 def _sown_on(density: Density, place: Floats) -> On:
-    """Return which of some places (n, 2) lie on plots of the terrain: at its edge they are those of the last cells."""
+    """Return those of places (n, 2) that lie on stored plots of the terrain; at its edge the last cells hold."""
     most = (np.array(density.size) - CELL) / 2.0
     on = density.sown.on(place.clip(-most, most).astype(np.float32))
     x, z = np.abs(place.T)
@@ -278,19 +277,19 @@ def _blocks(count: int) -> Iterator[slice]:
 
 
 class _Within(NamedTuple):
-    """Where places lie in a map."""
+    """Positions of places in a map."""
 
     corner: NDArray[np.intp]
     """Flat index of the sample at the cell's far left, shape (n,)."""
 
     right: Floats
-    """How far towards the next column, in [0, 1], shape (n,)."""
+    """Fraction of the way to the next column, in [0, 1], shape (n,)."""
 
     down: Floats
-    """How far towards the next row, in [0, 1], shape (n,)."""
+    """Fraction of the way to the next row, in [0, 1], shape (n,)."""
 
     stride: int
-    """From a row to the next in the flat map."""
+    """Step from a row to the next in the flat map."""
 
 
 def _within_terrain(terrain: Terrain, place: Floats) -> _Within:
@@ -305,22 +304,22 @@ def _within_maps(density: Density, place: Floats) -> _Within:
 
 
 class _Laid(NamedTuple):
-    """How a map is laid over the ground: its columns along x and its rows along z, arrays of shape (2, 1)."""
+    """A map's transformation from ground to samples: columns along x and rows along z, arrays of shape (2, 1)."""
 
     scale: Floats
-    """Samples a metre."""
+    """Number of samples per metre."""
 
     origin: Floats
-    """Where the ground's middle is among the samples."""
+    """Fractional sample at the ground's origin."""
 
     last: Floats
-    """The last sample."""
+    """Number of the last sample."""
 
     before: Floats
-    """The last but one, where there are two."""
+    """Number of the last sample but one, 0 where there is one alone."""
 
     stride: int
-    """From a row to the next in the flat map."""
+    """Step from a row to the next in the flat map."""
 
 
 @lru_cache(maxsize=64)
@@ -332,21 +331,21 @@ def _laid(low: tuple[float, float], scale: tuple[float, float], count: tuple[int
 
 
 def _within(place: Floats, laid: _Laid) -> _Within:
-    part = np.multiply(place.T, laid.scale, order="C")
-    part += laid.origin
-    np.maximum(part, _FIRST, out=part)  # quicker than `clip` where places are few
-    np.minimum(part, laid.last, out=part)
-    cell = np.floor(part)
+    at = np.multiply(place.T, laid.scale, order="C")
+    at += laid.origin
+    np.maximum(at, _FIRST, out=at)  # quicker than `clip` where places are few
+    np.minimum(at, laid.last, out=at)
+    cell = np.floor(at)
     np.minimum(cell, laid.before, out=cell)
-    part -= cell
+    at -= cell
     column, corner = cell.astype(np.intp)
     corner *= laid.stride
     corner += column
-    return _Within(corner, part[0], part[1], laid.stride)
+    return _Within(corner, at[0], at[1], laid.stride)
 
 
 def _rows(flat: Floats, at: _Within) -> tuple[Floats, Floats]:
-    """Return the values between the two columns around each place, in the row above it and in the row below."""
+    """Return values interpolated along x at each place, in the row above it and in the row below."""
     low = at.corner + at.stride
     far, near = flat.take(at.corner), flat.take(low)
     far += at.right * (flat.take(at.corner + 1) - far)

@@ -1,4 +1,4 @@
-"""Ground that streams: windows of it, and single blocks, made of what a function gives and a game has changed."""
+"""Terrains of ground that streams: windows and single blocks, of a function's heights and a game's changes."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from .record import Terrain
 
 
 def window_of(blocks: Blocks, first: Numbers, /) -> Terrain:
-    """Return the ground of a window whose first sample is that, with all that has been changed of it.
+    """Return the terrain of the window that begins at the sample `first`, with a game's changes.
 
     It may be called on another thread.
     """
@@ -18,7 +18,7 @@ def window_of(blocks: Blocks, first: Numbers, /) -> Terrain:
 
 
 def tile_of(blocks: Blocks, row: int, column: int, /) -> Terrain:
-    """Return the ground of one block, with all that has been changed of it."""
+    """Return the terrain of one block, with a game's changes."""
     with blocks.lock:
         found: Terrain | None = blocks.tiles.get((row, column))
         if found is None:
@@ -46,7 +46,7 @@ def _joined(blocks: Blocks, first: Numbers, count: int, own: Blocks | None) -> T
 
 
 def paste(blocks: Blocks, onto: Terrain, square: Numbers, /) -> None:
-    """Bring what there is of a square into a terrain, as far as it lies there."""
+    """Copy a square's present heights and holes into a terrain, where they overlap."""
     assert onto.first is not None
     row, column = (SQUARE * at - low for at, low in zip(square, onto.first, strict=True))
     part = Part(row, column, SQUARE, SQUARE).within(*onto.heights.shape)

@@ -21,7 +21,7 @@ class Found:
 
         Any thread may call this.
         """
-        return terrain.found if isinstance(terrain.found, cls) else cls(Rims(terrain), Holes(terrain))
+        return terrain.derived if isinstance(terrain.derived, cls) else cls(Rims(terrain), Holes(terrain))
 
     def attach(self, terrain: Terrain, /) -> None:
         """Follow the changes of a terrain that has just taken over the heights these were computed from."""
