@@ -1,4 +1,4 @@
-"""What one GL context holds of a site, and how it comes to another site piece by piece."""
+"""The GL objects of a site in one context, and their exchange for another site's piece by piece."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
@@ -16,27 +16,27 @@ from .frame.feature import Feature, Part, doing
 from .receive.received import ROW, Received
 from .show.representation import Canvas, RepresentationPainter
 from .site import Site
-from .staged import Staged, are_alike, are_other_kinds, is_other_grass, special_of
+from .staged import Staged, grass_changed, kind_defines, kinds_changed, same_settings
 from .wind.card import CardWinds
 from .winds import Winds
 
-Sort = TypeVar("Sort", bound=Part)
+OnePart = TypeVar("OnePart", bound=Part)
 
 READY_ROWS = 512
-"""Rows of receivers that there is room for once a game has prepared: half a million, in 8 MiB."""
+"""Rows of receivers that are allocated when a game prepares: half a million receivers, in 8 MiB."""
 
 AHEAD = True
-"""Whether a live prairie has all programs before they are needed, so that none keeps a player waiting later."""
+"""Whether a live prairie makes all programs before they are needed, so that no later frame waits for one."""
 
 IN_A_FRAME = (
     "settle", "defines", "send", "use", "prepare", "breathe", "draw_solid", "look_up", "draw_behind", "draw_soft",
     "soft_left",
 )  # fmt: skip
-"""Methods of parts that a frame calls."""
+"""Methods of parts that frames call."""
 
 
 class Holding:
-    """Everything that one GL context holds of a site."""
+    """All GL objects of a site in one context."""
 
     def __init__(
         self, ctx: moderngl.Context, features: Sequence[Feature], winds: Winds, *, linear: bool = False
@@ -46,120 +46,122 @@ class Holding:
         self.record = self.block.record
         self.record["writes_raw"] = linear
         self.parts = [each.part(ctx, self.block, UNITS) for each in features]
-        self._doing = {name: doing(Part, name, self.parts) for name in IN_A_FRAME}
+        self._parts_with = {name: doing(Part, name, self.parts) for name in IN_A_FRAME}
         self.painters: dict[str, RepresentationPainter] = {}
-        """Those of the representations by their names, from the finest."""
+        """Painters by the names of their representations, from the finest."""
         self.air: CardWinds
         self.site: Site | None = None
         self._staged: Staged | None = None
-        self._beside = BackgroundCompiler(ctx)
-        self._later: Iterator[None] = iter(())
+        self._compiler = BackgroundCompiler(ctx)
+        self._deferred: Iterator[None] = iter(())
         """Makes programs that no frame has drawn with yet, a piece a frame."""
-        self._special: dict[str, str | int] = {}
-        """What shaders are told of what is special about any kind of grass."""
-        self._winds: Sequence[WindPrimitive] | None = None
-        """One of each kind that it is ready for; None where no game has prepared."""
+        self._kind_defines: dict[str, str | int] = {}
+        """Macros that depend on the kinds of grass."""
+        self._prepared_winds: Sequence[WindPrimitive] | None = None
+        """A wind of each kind that programs are made for; None if no game has prepared."""
 
     @property
     def coarsest(self) -> RepresentationPainter:
         """The painter of the coarsest representation, which lies on the land."""
         return list(self.painters.values())[-1]
 
-    def part(self, kind: type[Sort], /) -> Sort:
-        """Return what is held of the feature whose parts are of a class."""
-        return next(each for each in self.parts if isinstance(each, kind))
+    def part(self, kind: type[OnePart], /) -> OnePart:
+        """Return the part of a class."""
+        return next(part for part in self.parts if isinstance(part, kind))
 
     def settle(self, site: Site) -> None:
-        """Take over a site, and what has changed since the frame before; what has not stays in GL as it is."""
+        """Take over a site and all its changes since the frame before; unchanged GL objects are kept."""
         for _ in self._settling(site):
             pass
-        next(self._later, None)
+        next(self._deferred, None)
 
     def steps(self, site: Site) -> int:
-        """Return how many steps `preparing` takes at most."""
+        """Return the maximum number of steps that `preparing` takes."""
         times = 2 if compiles_in_background(self.ctx) else 1
         return 2 * len(self.parts) + 11 + sum(6 + times * each.programs for each in site.representations)
 
     def _making_ready(
         self, site: Site, air: CardWinds | None = None, painters: Mapping[str, RepresentationPainter] | None = None
     ) -> Iterator[None]:
-        """Make room and programs for whatever winds will blow."""
-        assert self._winds is not None
+        """Make the programs and allocate the buffers for all winds that may blow."""
+        assert self._prepared_winds is not None
         painters = self.painters if painters is None else painters
-        yield from self._beside.compile_together(chain.from_iterable(painter.texts() for painter in painters.values()))
+        texts = chain.from_iterable(painter.texts() for painter in painters.values())
+        yield from self._compiler.compile_together(texts)
         for painter in painters.values():
             yield from painter.making()
             painter.make_ready(site)
             yield
-        air, winds = air or self.air, [*site.scene.wind, *self._winds]
+        air, winds = air or self.air, [*site.scene.wind, *self._prepared_winds]
         yield from self._making_for_winds(winds, air, painters)
         air.make_room(winds, receivers=READY_ROWS * ROW)
 
     def _making_for_winds(
         self, winds: Sequence[WindPrimitive], air: CardWinds, painters: Mapping[str, RepresentationPainter]
     ) -> Iterator[None]:
-        """Make programs for winds of the kinds of these, and yield after each."""
+        """Make the programs for winds of the same kinds as `winds`, and yield after each."""
         yield from air.expecting(winds)
         for painter in painters.values():
             yield from painter.making_for_winds()
         air.stand_ready()
 
     def _settling(self, site: Site) -> Iterator[None]:
-        """Do what `settle` does, bit by bit; where that is left off, it begins anew the next time."""
+        """Do what `settle` does step by step; if it is left unfinished, the next call starts again."""
         before = self.site
-        for part in self._doing["settle"]:
+        for part in self._parts_with["settle"]:
             part.settle(site, self.record)
-        if before is None or are_other_kinds(site, before):
-            self._special = special_of(site)
-        defines = dict(self._special)
-        for part in self._doing["defines"]:
+        if before is None or kinds_changed(site, before):
+            self._kind_defines = kind_defines(site)
+        defines = dict(self._kind_defines)
+        for part in self._parts_with["defines"]:
             defines |= part.defines()
-        is_other = before is None or defines != self.block.defines or is_other_grass(site, before)
-        if not is_other and site is before:
+        has_changed = before is None or defines != self.block.defines or grass_changed(site, before)
+        if not has_changed and site is before:
             return
-        is_made = before is not None and is_other and self._stands_ready(site, before, defines)
-        if is_made:
+        is_staged = before is not None and has_changed and self._can_stage(site, before, defines)
+        if is_staged:
             while not self.stage(site):
                 yield
-            self._take(site)
-        elif is_other:
+            self._take_staged(site)
+        elif has_changed:
             self.site = None
-            yield from self._growing(site, defines)
+            yield from self._uploading(site, defines)
         self.site = site
         for painter in self.painters.values():
             painter.settle(site, self.record)
         self.air.meet(site.scene.wind)
-        if is_other and not is_made:
-            yield from self._making_what_comes(site)
+        if has_changed and not is_staged:
+            yield from self._making_for_later(site)
 
-    def _making_what_comes(self, site: Site) -> Iterator[None]:
-        """Make what later frames will need: all that a game has asked for, or what no card makes beside frames."""
-        if self._winds is not None:
+    def _making_for_later(self, site: Site) -> Iterator[None]:
+        """Make the programs of later frames now, if a game has prepared or the driver cannot compile in the background."""
+        if self._prepared_winds is not None:
             yield from self._making_ready(site)
         elif not compiles_in_background(self.ctx):
-            yield from self._later  # at once, as each program would hold a frame up
+            yield from self._deferred  # at once, as each program would hold a frame up
 
     def _fits(self, site: Site, before: Site) -> bool:
-        """Return whether the programs that there are draw the grass of another site too."""
-        return are_alike(site, before) and self._defines_of(site) == self.block.defines and all(
+        """Return whether the present programs can also draw the grass of another site."""
+        return same_settings(site, before) and self._defines_of(site) == self.block.defines and all(
             each.name in self.painters and self.painters[each.name].fits(each) for each in site.representations
         )  # fmt: skip
 
     def _defines_of(self, site: Site) -> dict[str, str | int]:
-        """Return what the programs of another site's grass are told."""
-        return {name: told for name, told in self.block.defines.items() if name not in self._special} | special_of(site)
+        """Return the macros of programs for another site's grass."""
+        others = {name: value for name, value in self.block.defines.items() if name not in self._kind_defines}
+        return others | kind_defines(site)
 
-    def _stands_ready(self, site: Site, before: Site, defines: dict[str, str | int]) -> bool:
-        """Return whether a site's grass is being brought into GL already, or can be beside what there is."""
+    def _can_stage(self, site: Site, before: Site, defines: dict[str, str | int]) -> bool:
+        """Return whether a site's grass is being staged already, or the present programs can draw it."""
         staged = self._staged
         if staged is not None and staged.representations is site.representations and staged.defines == defines:
             return True
         return defines == self.block.defines and self._fits(site, before)
 
     def stage(self, site: Site, /) -> bool:
-        """Bring a piece of another site's grass into GL beside what is drawn; return whether all of it is there."""
+        """Upload a piece of another site's grass, which is not drawn yet; return whether all of it is there."""
         if self.site is None:
-            return True  # it is brought there when it is drawn
+            return True  # it is uploaded when it is drawn
         if self._staged is None or self._staged.representations is not site.representations:
             self._staged = staged = Staged(site.representations, self._defines_of(site))
             if self._fits(site, self.site):
@@ -167,19 +169,19 @@ class Holding:
             else:
                 staged.air = air = CardWinds(self.ctx, UNITS, site.growths)
                 ready: Callable[[], Iterator[None]] | None = None
-                if self._winds is not None:
+                if self._prepared_winds is not None:
                     ready = partial(self._making_ready, site, air, staged.painters)
                 elif AHEAD and self.quarantine.live:
-                    ready = partial(self._making_for_winds, self._kinds(site), air, staged.painters)
-                staged.steps = staged.making(self._canvas(site, air), self._beside, site.scene.wind, ready)
+                    ready = partial(self._making_for_winds, self._winds_of_all_kinds(site), air, staged.painters)
+                staged.steps = staged.making(self._canvas(site, air), self._compiler, site.scene.wind, ready)
         return next(self._staged.steps, "over") == "over"
 
     def _staging(self, site: Site) -> Iterator[None]:
         for each in site.representations:
             yield from self.painters[each.name].staging(site.representations)
 
-    def _take(self, site: Site) -> None:
-        """Draw from now on what was staged of a site."""
+    def _take_staged(self, site: Site) -> None:
+        """Draw the staged grass of a site from now on."""
         staged, self._staged = self._staged, None
         assert staged is not None
         if staged.air is None:
@@ -187,50 +189,50 @@ class Holding:
                 painter.restock()
             self.air.regrow(site.growths)
             return
-        self._let_go()
+        self._release_grass()
         self.block.defines, self.painters, self.air = staged.defines, staged.painters, staged.air
 
-    def _growing(self, site: Site, defines: dict[str, str | int]) -> Iterator[None]:
-        """Bring the grass into GL, a representation at a time."""
-        self._let_go()
+    def _uploading(self, site: Site, defines: dict[str, str | int]) -> Iterator[None]:
+        """Upload the grass, a representation at a time."""
+        self._release_grass()
         self.block.defines = defines
         self.air = CardWinds(self.ctx, UNITS, site.growths)
         canvas = self._canvas(site, self.air)
-        is_ahead, is_beside = AHEAD and self.quarantine.live, compiles_in_background(self.ctx)
+        is_ahead = AHEAD and self.quarantine.live
         for each in site.representations:
             self.painters[each.name] = made = each.painter(canvas)
             yield
-            if is_ahead and not is_beside:
+            if is_ahead and not compiles_in_background(self.ctx):
                 yield from made.making()
         if is_ahead:
-            self._later = self._making_later(site)
+            self._deferred = self._making_deferred(site)
 
-    def _give_up(self) -> None:
-        """Make no more of what no frame has drawn with."""
-        self._beside.release()
-        self._later = iter(())
+    def _cancel_deferred(self) -> None:
+        """Stop making programs that no frame has drawn with yet."""
+        self._compiler.release()
+        self._deferred = iter(())
 
-    def _let_go(self) -> None:
-        """Give back all that draws grass: there is none before the first frame, nor where that failed."""
-        self._give_up()
+    def _release_grass(self) -> None:
+        """Release everything that draws grass; some of it is missing before the first frame, and where that failed."""
+        self._cancel_deferred()
         grass, self.painters = [*self.painters.values()], {}
         release_all(*grass, *([vars(self).pop("air")] if "air" in vars(self) else []))
 
-    def _making_later(self, site: Site) -> Iterator[None]:
-        """Have the driver make what no frame has drawn with yet, and then make it, which takes a moment by then.
+    def _making_deferred(self, site: Site) -> Iterator[None]:
+        """Make the programs that no frame has drawn with yet, once the driver has compiled them.
 
-        In the end make what receivers hear other winds with than there are now.
+        Last come the programs by which receivers hear kinds of wind that do not blow now.
         """
         makers: list[RepresentationPainter | Part] = [*self.painters.values(), *self.parts]
-        yield  # what the first frame draws with is made for it
-        yield from self._beside.compile_in_turn(chain.from_iterable(each.texts() for each in makers))
-        for each in makers:
-            yield from each.making()
-        if self._winds is None:
-            yield from self._making_for_winds(self._kinds(site), self.air, self.painters)
+        yield  # the first frame makes the programs that it draws with
+        yield from self._compiler.compile_in_turn(chain.from_iterable(maker.texts() for maker in makers))
+        for maker in makers:
+            yield from maker.making()
+        if self._prepared_winds is None:
+            yield from self._making_for_winds(self._winds_of_all_kinds(site), self.air, self.painters)
 
-    def _kinds(self, site: Site) -> list[WindPrimitive]:
-        """Return winds of all kinds that there are."""
+    def _winds_of_all_kinds(self, site: Site) -> list[WindPrimitive]:
+        """Return the scene's winds, and one of each kind."""
         return [*site.scene.wind, *self.winds.samples()]
 
     def _canvas(self, site: Site, air: CardWinds) -> Canvas:
@@ -240,6 +242,6 @@ class Holding:
         )  # fmt: skip
 
     def release(self) -> None:
-        """Give everything back to the context."""
-        self._let_go()
+        """Release all GL objects."""
+        self._release_grass()
         release_all(*self.parts, self.received, self.block, self._staged)

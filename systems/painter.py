@@ -29,12 +29,12 @@ from .winds import Winds
 
 WHOLE = Asked()
 
-REHEARSED = 0.75
-"""Part of the pixels, across and up, with which a frame that is held to its time is rehearsed: any below 1 will do."""
+REHEARSED_SCALE = 0.75
+"""Fraction of the pixels, across and up, in the rehearsal of a frame whose time is held; any below 1 will do."""
 
 
 class Painter(Holding):
-    """Draws what one GL context holds of a site."""
+    """Draws a site in one GL context."""
 
     def __init__(
         self, ctx: moderngl.Context, features: Sequence[Feature], winds: Winds, *, linear: bool = False
@@ -43,20 +43,22 @@ class Painter(Holding):
         self.smaller, self.stopwatch = Smaller(ctx, floats=linear), Stopwatch(ctx)
         self._hand_over = early_flush(ctx)
         self.draw_calls = self.blades = 0
-        """Of the last frame; and the blades that were sent as geometry."""
+        """Numbers of draw calls, and of blades drawn as geometry, in the last frame."""
         self._outlook: Outlook | None = None
+        """Outlook that was uploaded last."""
         self._first: dict[str, list[int]] = {}
+        """Indices of the first receivers of each representation's pools, by its name."""
 
     def preparing(self, site: Site, look: Callable[[], None], /) -> Iterator[None]:
-        """Make all that a game may come to need, `steps` of them, with winds of all kinds that there are.
+        """Make everything that a game may need, with winds of all kinds, in up to `steps` steps; then rehearse a frame.
 
-        `look` lets somebody look where nobody has looked yet: what is drawn then is rehearsed.
+        `look` uploads a frame to rehearse, and is called if no viewer has looked yet.
         """
         for part in self.parts:
             part.settle(site, self.record)
             part.make_ready(site)
             yield
-        self._winds = self.winds.samples()
+        self._prepared_winds = self.winds.samples()
         self.smaller.make_ready()
         self.received.reserve(READY_ROWS)
         yield
@@ -70,32 +72,34 @@ class Painter(Holding):
         yield from self._rehearsing()
 
     def _rehearsing(self) -> Iterator[None]:
-        """Draw the last frame where no pixel is, part by part, as if there were more in it, and as `hold` draws it."""
-        every = [*self.parts, *self.painters.values()]
-        alone = [[each] for each in doing(Part, "rehearse", every)]
-        whole = Asked(is_deep=True)
-        plain = [replace(whole, parts=frozenset({part})) for part in ("sky", "ground", "grass")]
-        more = [*((some, whole, 1.0) for some in (*alone, every)), *((some, whole, REHEARSED) for some in ([], every))]
+        """Draw the last frame without pixels, a step each: parts of it, with more content than it has, and scaled."""
+        every: list[Part] = [*self.parts, *self.painters.values()]
+        single = [[part] for part in doing(Part, "rehearse", every)]
+        deep = Asked(is_deep=True)
+        plain = [replace(deep, parts=frozenset({part})) for part in ("sky", "ground", "grass")]
+        frames: list[tuple[list[Part], Asked, float]] = [([], asked, 1.0) for asked in (*plain, WHOLE, deep)]
+        frames += [(rehearsed, deep, 1.0) for rehearsed in (*single, every)]
+        frames += [(rehearsed, deep, REHEARSED_SCALE) for rehearsed in ([], every)]
         assert self._outlook is not None
         assert self._outlook.view is not None
-        for some, asked, scale in [*(([], part, 1.0) for part in (*plain, WHOLE, whole)), *more]:
+        for rehearsed, asked, scale in frames:
             before = self.record.copy()
-            for each in some:
-                each.rehearse(self.record)
+            for part in rehearsed:
+                part.rehearse(self.record)
             self.draw(self._outlook.view, asked, scale=scale, hidden=True)
             self.record[:] = before
             yield
 
     def blade_painter(self, segments: int) -> BladePainter:
-        """Return a painter of opaque blades with this many segments, in any order."""
+        """Return a painter of opaque blades with a number of segments, which may come in any order."""
         assert self.site is not None
         return BladePainter(self.ctx, self.block, segments, UNITS, record_of(self.site.growths))
 
     def write(self, outlook: Outlook) -> None:
-        """Send what a viewer is shown."""
+        """Upload what a viewer is shown."""
         self.record["beside_sun"] = 0.0
         self.record["anything_open"] = _is_open(outlook, self.site)
-        for part in self._doing["send"]:
+        for part in self._parts_with["send"]:
             part.send(outlook, self.record)
         counts = {name: painter.receivers(outlook) for name, painter in self.painters.items()}
         laid = iter(self.received.lay([count for each in counts.values() for count in each]))
@@ -106,7 +110,7 @@ class Painter(Holding):
             self.blades += painter.write(outlook, self._first)
 
     def _hear(self, target: moderngl.Framebuffer, asked: Asked) -> int:
-        """Let all receivers that are seen hear the wind; return the number of draw calls."""
+        """Compute the messages of all receivers shown; return the number of draw calls."""
         outlook, air, site = self._outlook, self.air, self.site
         if outlook is None or site is None:
             return 0
@@ -123,16 +127,17 @@ class Painter(Holding):
             for painter in self.painters.values():
                 calls += painter.hear()
             heard = self.coarsest.heard()
-            for part in self._doing["breathe"]:
+            for part in self._parts_with["breathe"]:
                 calls += part.breathe(heard)
             write_messages(self.received, outlook, self._first, site.ground)
             self.received.texture.use(UNITS["received"])
         return calls
 
     def _prepare(self) -> int:
-        """Draw what is read in this frame; return the number of draw calls. Here and below, generators cost a frame."""
+        """Draw the textures that this frame reads; return the number of draw calls."""
+        # A loop, here and below: sums of generators take noticeably longer
         calls = 0
-        for part in self._doing["prepare"]:
+        for part in self._parts_with["prepare"]:
             calls += part.prepare()
         return calls
 
@@ -145,10 +150,10 @@ class Painter(Holding):
         scale: float = 1.0,
         hidden: bool = False,
     ) -> None:
-        """Draw what is `asked` for of the frame into the framebuffer that the host has bound.
+        """Draw the `asked` parts of the frame into the host's bound framebuffer.
 
-        With `blades`, these alone stand on the ground and the carpet. Of the host's pixels, `scale` times as many are
-        drawn, across and up; none at all where it is `hidden`.
+        With `blades`, only these stand on ground and carpet. `scale` times the host's pixels are drawn, across and up;
+        none if the frame is `hidden`.
         """
         with guest(self.ctx, view) as host:
             if hidden:
@@ -162,11 +167,11 @@ class Painter(Holding):
     def _draw(
         self, view: View, target: moderngl.Framebuffer, asked: Asked, blades: Iterable[BladePainter] | None
     ) -> None:
-        self._tell(view, target, asked)
+        self._write_block(view, target, asked)
         self.draw_calls = self._hear(target, asked) if blades is None else 0
         if "sky" in asked.parts:
             with aside(self.ctx, target):
-                self.draw_calls += sum(part.look_up() for part in self._doing["look_up"])
+                self.draw_calls += sum(part.look_up() for part in self._parts_with["look_up"])
         self._draw_land(target, asked)
         if "grass" in asked.parts:
             self._draw_carpet(target, view, all_soft=blades is not None)
@@ -178,15 +183,15 @@ class Painter(Holding):
             self.draw_calls += sum(painter.draw() for painter in blades)
 
     def cast(self, view: View, outlook: Outlook) -> None:
-        """Write the depth of what a viewer was shown last into what the host has bound, as it is seen from a light.
+        """Write the depth of what a viewer was shown last, as seen from a light, into the host's bound framebuffer.
 
-        Grass is made out as that sees it: strips hide as much as their blades do.
+        Coverage is computed as seen from the light: strips block as much of it as their blades do.
         """
         self.write(outlook)
         with guest(self.ctx, view) as target:
-            self._tell(view, target, WHOLE)
+            self._write_block(view, target, WHOLE)
             self.draw_calls = self._hear(target, WHOLE)
-            self.record["eye"] = outlook.viewer.eye  # the mesh lies as the viewer has it
+            self.record["eye"] = outlook.viewer.eye  # the carpet's mesh depends on the viewer's eye
             self.block.write(self.record)
             self.ctx.enable_only(moderngl.DEPTH_TEST)
             with colourless(target):
@@ -202,55 +207,55 @@ class Painter(Holding):
                 self.draw_calls += sum(part.cast(light) for part in self.parts)
 
     def hear(self, view: View) -> int:
-        """Let all receivers that the last frame showed hear the winds once more; return the number of draw calls.
+        """Compute the messages of all receivers of the last frame once more; return the number of draw calls.
 
-        That is all of the animation that a frame has besides its systems, and draws nothing.
+        This is all of a frame's animation outside of its systems. It draws nothing.
         """
         with guest(self.ctx) as host:
-            self._tell(view, host, WHOLE)
+            self._write_block(view, host, WHOLE)
             return self._hear(host, WHOLE)
 
-    def _tell(self, view: View, target: moderngl.Framebuffer, asked: Asked) -> None:
-        """Tell all shaders of the frame."""
+    def _write_block(self, view: View, target: moderngl.Framebuffer, asked: Asked) -> None:
+        """Write the frame block, and bind the textures of all parts."""
         aim(self.record, view, target.viewport[2:], ends=depth_ends())
         confine(self.record, asked)
         self.block.write(self.record)
-        for part in self._doing["use"]:
+        for part in self._parts_with["use"]:
             part.use()
 
     def _draw_land(self, target: moderngl.Framebuffer, asked: Asked) -> None:
-        """Draw all that is opaque, and the sky behind it."""
+        """Draw everything opaque, and the sky behind it."""
         self.ctx.enable_only(moderngl.DEPTH_TEST)
         if "ground" in asked.parts:
             self.draw_calls += self.coarsest.draw_ground(alone="grass" not in asked.parts)
         if "grass" in asked.parts:
-            solid = self._doing["draw_solid"]
+            solid = self._parts_with["draw_solid"]
             solid = solid if asked.over_hosts else [*self.painters.values(), *solid]
-            for each in solid:
-                self.draw_calls += each.draw_solid()
+            for part in solid:
+                self.draw_calls += part.draw_solid()
         if "sky" in asked.parts:
             target.depth_mask = False
-            for part in self._doing["draw_behind"]:
+            for part in self._parts_with["draw_behind"]:
                 self.draw_calls += part.draw_behind()
 
     def _draw_carpet(self, target: moderngl.Framebuffer, view: View, *, all_soft: bool) -> None:
-        """Draw what lies on the land, and soft edges before it: all of them, or those beyond grass that stands."""
+        """Draw the carpet, and soft edges in front of it: all of them, or only those beyond standing grass."""
         target.depth_mask = False
         self._blend()
-        is_parted = any(part.soft_left() is not None for part in self._doing["soft_left"])
+        has_edges = any(part.soft_left() is not None for part in self._parts_with["soft_left"])
         carpet = self.coarsest
-        self.draw_calls += self._culled(view, partial(carpet.draw_dense if is_parted else carpet.draw, target))
+        self.draw_calls += self._draw_culled(view, partial(carpet.draw_dense if has_edges else carpet.draw, target))
         target.depth_mask = True
-        for part in self._doing["draw_soft"]:
+        for part in self._parts_with["draw_soft"]:
             among_grass = not all_soft and part.soft_left() is not None
             self.draw_calls += part.draw_soft(self._reach() if among_grass else 0.0)
-        if is_parted:  # thin grass over a crest lets trees behind it through
+        if has_edges:  # thin grass on a crest lets trees behind it show through
             target.depth_mask = False
-            self.draw_calls += self._culled(view, partial(carpet.draw_thin, target))
+            self.draw_calls += self._draw_culled(view, partial(carpet.draw_thin, target))
             target.depth_mask = True
 
-    def _culled(self, view: View, draw: Callable[[], int]) -> int:
-        """Draw without hillsides that face away, which the hill hides; return the number of draw calls."""
+    def _draw_culled(self, view: View, draw: Callable[[], int]) -> int:
+        """Draw with back faces culled, which hills hide anyway; return the number of draw calls."""
         mirrored = is_mirrored(view)
         if mirrored is not None:
             self.ctx.cull_face = "front" if mirrored else "back"
@@ -260,16 +265,16 @@ class Painter(Holding):
         return calls
 
     def _reach(self) -> float:
-        """Return how far off grass stands that is drawn from far to near [m]."""
-        return max(each.farthest for each in self.painters.values())
+        """Return the largest distance of grass that is drawn from far to near [m]."""
+        return max(painter.farthest for painter in self.painters.values())
 
     def _draw_grass(self, target: moderngl.Framebuffer, *, is_deep: bool) -> None:
-        """Draw what stands on the land, the coarser representations first."""
+        """Draw strips and blades, the coarser representations first."""
         self._blend()
         target.depth_mask = False
         for painter in list(self.painters.values())[-2::-1]:
-            for part in self._doing["soft_left"]:
-                self.draw_calls += _among(painter, part)
+            for part in self._parts_with["soft_left"]:
+                self.draw_calls += _draw_among(painter, part)
             self.draw_calls += painter.draw(target)
             self._hand_over()
         if is_deep:
@@ -283,25 +288,25 @@ class Painter(Holding):
         self.ctx.blend_func = OVER
 
     def release(self) -> None:
-        """Give everything back to the context."""
+        """Release all GL objects."""
         super().release()
         release_all(self.smaller, self.stopwatch)
 
 
 def _is_open(outlook: Outlook, site: Site | None) -> bool:
-    """Return whether grass is missing that is dense on the map: over holes, or where a game has cleared patches."""
+    """Return whether grass may be missing where its map is dense: over holes, or on cleared patches."""
     patches = outlook.patches
     has_holes = site is not None and site.ground.terrain.holes is not None
     return has_holes or bool((patches.alive & ~patches.grows).any())
 
 
 def _receivers(outlook: Outlook, site: Site) -> ReceiverArrays:
-    """Return all receivers of what a viewer is shown."""
+    """Return the receivers of everything that a viewer is shown."""
     return receivers_shown(outlook, site.growths, patch=site.ground.patch, margin=site.margin)
 
 
-def _among(painter: RepresentationPainter, part: Part) -> int:
-    """Draw what a part has left of soft edges, and before each the grass behind it; return the number of draw calls."""
+def _draw_among(painter: RepresentationPainter, part: Part) -> int:
+    """Draw a part's remaining soft edges, and before each the grass behind it; return the number of draw calls."""
     calls, left = 0, part.soft_left()
     while left is not None:
         calls += painter.draw_beyond(left) + part.draw_soft(left)

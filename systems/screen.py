@@ -1,4 +1,4 @@
-"""Where a prairie is drawn: a painter in each GL context, and places in pyglet's batches."""
+"""The targets of a prairie's drawing: a painter in each GL context, and groups in pyglet's batches."""
 
 import logging
 from collections.abc import Callable, Iterator, Sequence
@@ -26,7 +26,7 @@ log = logging.getLogger("tallgrass")
 
 
 class Screen:
-    """The host's framebuffers, in the context that is given or else in whichever is current."""
+    """The host's framebuffers, in a given context or else in the current one."""
 
     def __init__(
         self,
@@ -39,17 +39,18 @@ class Screen:
         self.ctx, self.linear = ctx, linear
         self._features, self._winds = features, winds
         self.painter: Painter | None = None
-        """The painter of the context that was drawn in last; None before the first time."""
+        """Painter of the context that was drawn in last; None before the first draw."""
         self._painters: Homes[Painter] = Homes()
-        self._told = False
+        self._has_warned = False
+        """Whether a framebuffer without depth has been reported."""
         self._groups: list[DrawingGroup] = []
 
     @contextmanager
     def opened(self, site: Site) -> Iterator[Painter | None]:
-        """Give the painter of a site in the host's context, and leave the host's GL state as it was in the end.
+        """Give the painter of a site in the host's context, and restore the host's GL state at the end.
 
-        Where the viewport has no pixels there is none. Raises RuntimeError where the host has no window, and where its
-        OpenGL is too old.
+        It is None if the viewport has no pixels. Raises RuntimeError if the host has no window or its OpenGL is too
+        old.
         """
         with self._entered() as painter:
             if painter is not None:
@@ -57,29 +58,29 @@ class Screen:
             yield painter
 
     def preparing(self, site: Site, look: Callable[[], None]) -> Iterator[tuple[int, int]]:
-        """Make all that may come to be needed in the context that is current, and give how many steps of all are done.
+        """Make everything in the current context that may be needed; yield the numbers of steps done and in total.
 
-        `look` lets somebody look whom a frame can be rehearsed for, where nobody has looked.
-        The host's GL state is its own between steps. Where the viewport has no pixels, there is no step. Raises
-        RuntimeError as `opened` does, and where another context has become current.
+        `look` uploads a frame to rehearse, and is called if no viewer has looked yet. Between steps the host has its
+        own GL state. There are no steps if the viewport has no pixels. Raises RuntimeError as `opened` does, and if
+        another context has become current.
         """
         with self._entered() as painter:
             if painter is None:
                 return
-            steps, of = painter.preparing(site, look), painter.steps(site)
-        yield 0, of
-        for done in range(1, of):
+            steps, count = painter.preparing(site, look), painter.steps(site)
+        yield 0, count
+        for done in range(1, count):
             with self._entered() as here:
                 if here is not painter:
                     raise RuntimeError("a prairie is prepared in one GL context: make that current before each step")
                 with guest(painter.ctx):
                     if next(steps, "over") == "over":
                         break
-            yield done, of
-        yield of, of
+            yield done, count
+        yield count, count
 
     def stage(self, site: Site) -> bool:
-        """Bring a piece of another site into the host's context; return whether all of it is there."""
+        """Upload a piece of another site into the host's context; return whether all of it is there."""
         with self._entered() as painter:
             if painter is None:
                 return False
@@ -88,7 +89,7 @@ class Screen:
 
     @contextmanager
     def _entered(self) -> Iterator[Painter | None]:
-        """Give the painter of the host's context, whatever it has settled on."""
+        """Give the painter of the host's context, which may have settled on another site."""
         self._painters.check()
         with np.errstate(under="ignore"), saved_state(self.ctx) as state:
             if 0 in state.viewport[2:]:
@@ -100,28 +101,28 @@ class Screen:
             yield self.painter
 
     def _must_have_depth(self, state: State) -> None:
-        """Tell once of a framebuffer without depth: it is drawn, but not as it should be."""
-        if self._told or has_depth(state.gl, state.framebuffer):
+        """Warn once of a framebuffer without depth, whose picture is wrong."""
+        if self._has_warned or has_depth(state.gl, state.framebuffer):
             return
-        self._told = True
+        self._has_warned = True
         log.warning(
             "a prairie is drawn into a framebuffer without depth, so what is far off lies over what is near: give it a "
             "depth buffer, or ask for one when the window is made"
         )
 
     def _made(self) -> Painter:
-        """Return a new painter, in the context that is current."""
+        """Return a new painter in the current context."""
         ctx = host_context(self.ctx)
         sync_framebuffer(ctx)
         return Painter(ctx, self._features, self._winds, linear=self.linear)
 
     def current(self) -> Painter:
-        """Return the painter of the context that is drawn in."""
+        """Return the painter of the context that is being drawn in."""
         assert self.painter is not None
         return self.painter
 
     def group(self, draw: Callable[[], None], batch: "Batch", order: int, parent: "Group | None") -> "DrawingGroup":
-        """Return a new group of a batch that draws in its turn."""
+        """Return a new group of a batch, which calls `draw` in its turn."""
         from ..engine.gl.batch import DrawingGroup  # noqa: PLC0415 - it loads pyglet, which needs a display
 
         made = DrawingGroup(draw, batch, order=order, parent=parent)
@@ -129,7 +130,7 @@ class Screen:
         return made
 
     def release(self) -> None:
-        """Give back the places in batches, and the painters in every context."""
+        """Remove the groups from their batches, and release the painters in every context."""
         for group in self._groups:
             group.delete()
         self._groups.clear()

@@ -1,4 +1,4 @@
-"""The grass of another site, on its way into GL beside what is drawn."""
+"""Staging: the grass of another site is uploaded piece by piece while the present one is drawn."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -15,52 +15,53 @@ from .wind.card import CardWinds
 
 @dataclass(slots=True, eq=False)
 class Staged:
-    """What there is of it so far."""
+    """The part of another site's grass that is in GL so far."""
 
     representations: Sequence[Representation]
     defines: dict[str, str | int]
-    """What programs are told that draw it."""
+    """Macros of the programs that draw it."""
 
     steps: Iterator[None] = field(default_factory=lambda: iter(()))
-    """What brings the rest into GL."""
+    """Uploads the rest, a piece a step."""
 
     air: CardWinds | None = None
-    """Of painters of its own; None where those that there are will draw it."""
+    """Winds for painters of its own; None if the present painters will draw it."""
 
     painters: dict[str, RepresentationPainter] = field(default_factory=dict)
+    """Its own painters by the names of their representations; empty if the present painters will draw it."""
 
     def making(
         self,
         canvas: Canvas,
-        beside: BackgroundCompiler,
+        compiler: BackgroundCompiler,
         winds: Sequence[WindPrimitive],
         ready: Callable[[], Iterator[None]] | None,
         /,
     ) -> Iterator[None]:
-        """Make painters of its own, as it needs other programs: one of these at a time, after the driver has beside.
+        """Make its own painters, one program at a time, each once the driver has compiled it in the background.
 
-        Then do what `ready` returns, if a game has prepared.
+        Then take the steps that `ready` returns, if it is given.
         """
         block = canvas.block
-        for each in self.representations:
-            with _told(block, self.defines):
-                self.painters[each.name] = painter = each.painter(canvas)
+        for representation in self.representations:
+            with _defining(block, self.defines):
+                self.painters[representation.name] = painter = representation.painter(canvas)
             yield
-            yield from _telling(block, self.defines, beside.compile_in_turn(painter.texts()))
-            yield from _telling(block, self.defines, painter.making())
-        with _told(block, self.defines):
+            yield from _each_defining(block, self.defines, compiler.compile_in_turn(painter.texts()))
+            yield from _each_defining(block, self.defines, painter.making())
+        with _defining(block, self.defines):
             canvas.air.meet(winds)
         if ready is not None:
-            yield from _telling(block, self.defines, ready())
+            yield from _each_defining(block, self.defines, ready())
 
     def release(self) -> None:
-        """Give everything back that nobody has taken over."""
+        """Release everything that has not been taken over."""
         release_all(*self.painters.values(), self.air)
 
 
 @contextmanager
-def _told(block: FrameBlock, defines: dict[str, str | int]) -> Iterator[None]:
-    """Let programs that are made meanwhile be told something else."""
+def _defining(block: FrameBlock, defines: dict[str, str | int]) -> Iterator[None]:
+    """Make programs with other macros inside this context."""
     before, block.defines = block.defines, defines
     try:
         yield
@@ -68,33 +69,34 @@ def _told(block: FrameBlock, defines: dict[str, str | int]) -> Iterator[None]:
         block.defines = before
 
 
-def _telling(block: FrameBlock, defines: dict[str, str | int], steps: Iterator[None]) -> Iterator[None]:
+def _each_defining(block: FrameBlock, defines: dict[str, str | int], steps: Iterator[None]) -> Iterator[None]:
+    """Take each of some steps with other macros, which are not those of the frames between steps."""
     while True:
-        with _told(block, defines):
+        with _defining(block, defines):
             if next(steps, "over") == "over":
                 return
         yield
 
 
-def special_of(site: Site, /) -> dict[str, str | int]:
-    """Return what shaders are told of what is special about any kind of a site's grass."""
-    return {name: told for each in site.representations for name, told in each.defines(site).items()}
+def kind_defines(site: Site, /) -> dict[str, str | int]:
+    """Return the macros that depend on a site's kinds of grass."""
+    return {name: value for each in site.representations for name, value in each.defines(site).items()}
 
 
-def are_alike(site: Site, before: Site, /) -> bool:
-    """Return whether two sites differ in nothing that painters are made of but what has grown of their kinds."""
+def same_settings(site: Site, before: Site, /) -> bool:
+    """Return whether painters for two sites are made of the same, except for the growths of their kinds."""
     same = site.quality == before.quality and site.reach == before.reach and site.scene.seed == before.scene.seed
     return same and len(site.growths) == len(before.growths)
 
 
-def are_other_kinds(site: Site, before: Site, /) -> bool:
-    """Return whether what is special about any kind may be something else."""
+def kinds_changed(site: Site, before: Site, /) -> bool:
+    """Return whether `kind_defines` may differ between two sites."""
     same = site.growths is before.growths and site.coming is before.coming
     return not same or site.own_segments != before.own_segments
 
 
-def is_other_grass(site: Site, before: Site, /) -> bool:
-    """Return whether what representations draw is made of something else."""
+def grass_changed(site: Site, before: Site, /) -> bool:
+    """Return whether the grass that representations draw differs between two sites."""
     if site is before:
         return False
-    return not (site.growths == before.growths and site.coming == before.coming and are_alike(site, before))
+    return not (site.growths == before.growths and site.coming == before.coming and same_settings(site, before))
