@@ -134,7 +134,7 @@ class Holding:
             yield from self._making_for_later(site)
 
     def _making_for_later(self, site: Site) -> Iterator[None]:
-        """Make the programs of later frames now, if a game has prepared or the driver cannot compile in the background."""
+        """Make the programs of later frames now if a game has prepared, or if nothing compiles in the background."""
         if self._prepared_winds is not None:
             yield from self._making_ready(site)
         elif not compiles_in_background(self.ctx):
