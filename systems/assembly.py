@@ -48,7 +48,7 @@ class Assembly:
             site,
             self.viewers,
             self.entities(site),
-            now=self.winds.now,
+            now=self.winds.acting,
             hear=self.hear,
             note=self.pressers.note,
             painter=self.screen.current,

@@ -1,4 +1,4 @@
-"""The pressers of a prairie: whose entities they are, the ways they have come, and what grass feels of them."""
+"""The pressers of a prairie: their entities, their walks, and what grass feels of them."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -32,43 +32,45 @@ from .wearing import Wearing
 from .wind.blow import ReceiverArrays
 
 REMEMBERED = 2.0
-"""How long what was trodden is remembered, of how long grass takes to stand again: it counts for what comes next."""
+"""Time for which marks are remembered, in times that grass takes to stand again: they affect later marks."""
 
 
 RATE = 30
-"""How often in a second those that a scene declares are asked where they are; between that they go straight."""
+"""Number of instants a second at which the poses of the scene's pressers are sampled; between them they go straight."""
 
 
 EVERY = 60.0
-"""How often the ways of those that a scene declares begin new stretches [s]: what is forgotten is not gone again."""
+"""Interval at which the scene's pressers begin new stretches [s]: a replay can begin there, after forgotten ones."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Treading:
-    """What pressers have done so far, to go on from."""
+    """State of all pressers and their marks, to continue from."""
 
     walks: tuple[Stand, Stand]
-    """Those that the scene declares, whose entities are -1, -2 and so on in its order; and a game's own."""
+    """Walk of the scene's pressers, whose entities are -1, -2 and so on in its order; and that of a game's own."""
 
     kept: Stretches
+    """Marks that have settled."""
+
     since: float
-    """The marks that have settled, and when they did so last [s]."""
+    """Time at which marks settled last [s]."""
 
     trodden: float | None
-    """The instant of what was trodden last [s], if anything was."""
+    """Time of the marks trodden last [s]; None if there are none."""
 
     anew: bool
-    """Whether those that the scene declares have their whole way still to go."""
+    """Whether the whole way of the scene's pressers is still to be replayed."""
 
     declared: list[Presser | None]
-    """What those press with that the scene declares; None of one that a game has deleted."""
+    """Component of each of the scene's pressers; None for one that a game has deleted."""
 
 
 class Pressers(Feature):
     """The entities of one world that have a `Presser` and a `Pose`, and what they have trodden.
 
-    Those that a scene declares are entities too, and go their ways from the beginning of time: what they have trodden
-    does not depend on when pictures are drawn, nor on when the scene was read.
+    The pressers that a scene declares are entities too, and move from time 0 on: their marks do not depend on when
+    pictures are drawn, nor on when the scene was read.
     """
 
     samplers = ("pressed",)
@@ -78,18 +80,18 @@ class Pressers(Feature):
         self._generation = world.generation
         self._declared: dict[int, PresserOnPath] = {}
         self._scenes, self._games = Walk(Trail(begun=SCENES, every=EVERY)), Walk(Trail())
-        """Those that the scene declares, and all others."""
+        """Walks of the scene's pressers, and of a game's own."""
         self._memory = Memory([self._scenes.trail, self._games.trail])
         self._is_anew = True
-        """Whether those that the scene declares have their whole way still to go."""
+        """Whether the whole way of the scene's pressers is still to be replayed."""
         self._scene = scene
         self.trodden = UNTRODDEN
-        """What has been trodden so far."""
+        """All marks so far."""
         self.change(scene, growths)
 
     @classmethod
     def begin(cls, start: Start, /) -> Self:
-        """Return those of a prairie's world."""
+        """Return the pressers of a prairie's world."""
         return cls(start.world, start.grown.scene, start.grown.growths, start.grown.ground.density)
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
@@ -99,14 +101,14 @@ class Pressers(Feature):
         self.change(grown.scene, grown.growths)
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> PressPart:
-        """Return what they tread, for passes over receivers."""
+        """Return the part that passes over receivers read marks from."""
         del block
         return PressPart(ctx, units["pressed"])
 
     def change(self, scene: Scene, growths: Sequence[Growth]) -> None:
-        """Take over the kinds of grass of a scene, at first or when it was read again, and those who walk in it.
+        """Take over a scene's kinds of grass and pressers, at first or when it was read again.
 
-        If others walk in it or grass remembers for longer, all that it declares have trodden is trodden anew.
+        If the pressers or the time that grass remembers have changed, all their marks are trodden again.
         """
         self.recovery: Floats = recoveries(scene)
         swings = [growth.response.step * len(growth.response.fall) for growth in growths]
@@ -117,11 +119,11 @@ class Pressers(Feature):
             self._declare(scene.pressers)
 
     def note(self, time: float) -> Trodden:
-        """Take note of where all pressers are at `time` [s], and return what has been trodden."""
-        self._go(time)
+        """Move all pressers to their poses at `time` [s], and return what has been trodden."""
+        self._place_declared(time)
         found = self._world.both(Presser, Pose)
         if len(found) < len(self._world.rows(Presser)):
-            self._miss()
+            self._report_without_pose()
         if not found and not self._scenes.who and not self._games.who and not self.trodden:
             return self.trodden
         wearing = [row for row in found if row[1].wear and row[0] not in self._declared and is_somewhere(row[2])]
@@ -130,17 +132,17 @@ class Pressers(Feature):
         is_scenes = np.array([entity in self._declared for entity, _ in who], np.bool_)
         games, scenes = ([who[number] for number in np.flatnonzero(which)] for which in (~is_scenes, is_scenes))
         is_new = self._games.come(games, rows[~is_scenes], time)
-        if self._come(scenes, rows[is_scenes], time) or is_new:
+        if self._walk_declared(scenes, rows[is_scenes], time) or is_new:
             self.trodden = self._memory.at(time)
         return self.trodden
 
-    def _miss(self) -> None:
-        """Say of whom nobody knows where they press."""
+    def _report_without_pose(self) -> None:
+        """Log which pressers have no `Pose`."""
         every = (entity for entity, _ in self._world.all(Presser))
         self._world.standing([(each, None) for each in every if self._world.find(each, Pose) is None], "the presser")
 
     def _standing(self, found: list[tuple[int, Presser, Pose]]) -> tuple[list[Who], Doubles]:
-        """Return who of those that press is anywhere, and where they are and look (x, z, yaw), shape (n, 3)."""
+        """Return the pressers whose pose is finite, and their poses (x, z, yaw), shape (n, 3)."""
         rows = as_places_of(pose for _, _, pose in found)
         if rows is None:
             found = [*compress(found, self._world.standing([(who, pose) for who, _, pose in found], "the presser"))]
@@ -148,23 +150,23 @@ class Pressers(Feature):
         return [row[:2] for row in found], rows
 
     def go_back(self) -> None:
-        """Forget what has been trodden, as time goes back: those that the scene declares tread it anew."""
+        """Forget all marks, as time goes back: the scene's pressers will be replayed."""
         self._games, self.trodden, self._wearing = Walk(Trail()), UNTRODDEN, Wearing()
         self._memory = Memory([self._scenes.trail, self._games.trail], self._memory.lasts)
         self._begin_anew()
 
     def games(self) -> list[tuple[int, Presser, Pose]]:
-        """Return a game's own pressers that are somewhere: their entities, and what these carry."""
+        """Return a game's own pressers whose pose is finite: entity, presser and pose."""
         every = self._world.both(Presser, Pose)
         return [row for row in every if row[0] not in self._declared and is_somewhere(row[2])]
 
     @property
     def declared(self) -> list[int]:
-        """The entities of those that the scene declares, in its order; a game may have deleted some."""
+        """Entities of the scene's pressers, in its order; a game may have deleted some."""
         return [*self._declared]
 
     def treading(self) -> Treading:
-        """Return what has been done so far."""
+        """Return the present state, for `resume`."""
         numbers = {entity: -1 - number for number, entity in enumerate(self._declared)}
         scenes, games = self._scenes.stand(), self._games.stand()
         scenes = replace(scenes, who=[(numbers[entity], presser) for entity, presser in scenes.who])
@@ -175,9 +177,9 @@ class Pressers(Feature):
         )  # fmt: skip
 
     def resume(self, treading: Treading, entities: Mapping[int, int]) -> None:
-        """Go on from what was done in a prairie of the same scene; `entities` are the game's own, by what they were."""
+        """Continue from a state of the same scene; `entities` maps the game's entities in it to those of now."""
         self._wearing = Wearing()
-        self._go(0.0)  # what the scene declares are entities, though the world was cleared
+        self._place_declared(0.0)  # so that the scene's pressers have entities, even if the world was cleared
         declared = dict[int, PresserOnPath]()
         for (entity, path), presser in zip(self._declared.items(), treading.declared, strict=True):
             is_there, now = self._world.has(entity), entity
@@ -198,9 +200,9 @@ class Pressers(Feature):
         self.trodden = UNTRODDEN if treading.trodden is None else self._memory.at(treading.trodden)
 
     def over(self, message: Floats, receivers: ReceiverArrays, /) -> Floats:
-        """Return messages of the wind (n, 2) to receivers where grass is pressed as well, shape (n, 2).
+        """Return the messages (n, 2) to receivers of the wind's messages and of pressers together, shape (n, 2).
 
-        Those that are without the small oscillations stand for whole patches, and are left as they are.
+        Receivers without small oscillations stand for whole patches: their messages stay as they are.
         """
         moving = len(message) - receivers.still
         place = receivers.place[:moving]
@@ -211,7 +213,7 @@ class Pressers(Feature):
         return message
 
     def _declare(self, pressers: Sequence[PresserOnPath]) -> None:
-        """Let those be entities that a scene declares, and begin their walk anew; one that has not changed stays."""
+        """Make a scene's pressers entities, and begin their walk anew; an unchanged presser keeps its entity."""
         left = dict(self._declared)
         self._declared = {}
         for declared in pressers:
@@ -229,23 +231,23 @@ class Pressers(Feature):
         self._scenes, self._is_anew = Walk(Trail(begun=SCENES, every=EVERY)), True
         self._memory.replace(self._scenes.trail)
 
-    def _go(self, time: float) -> None:
-        """Put those that the scene declares where they are at `time` [s]; what a game has deleted stays away."""
+    def _place_declared(self, time: float) -> None:
+        """Put the scene's pressers at their poses of `time` [s]; those that a game has deleted stay away."""
         if not self._scene.pressers:
             return
         if self._generation != self._world.check():
-            self._declared = {}  # their numbers may be others' by now
+            self._declared = {}  # other entities may have their numbers by now
             self._declare(self._scene.pressers)
             self._generation = self._world.generation
         for entity, declared in self._declared.items():
             if self._world.find(entity, Presser) is not None:
                 self._world.add(entity, _on_way(declared, time))
 
-    def _come(self, who: list[Who], pose: Doubles, time: float) -> bool:
-        """Let those that the scene declares go their ways to their poses (n, 3) of `time` [s].
+    def _walk_declared(self, who: list[Who], pose: Doubles, time: float) -> bool:
+        """Move the scene's pressers along their paths to their poses (n, 3) of `time` [s]; return whether it is news.
 
-        They are asked where they are at all instants since the last one. Nobody moves before all paths begin and after
-        all have ended: these instants are left out. Returns whether anything is new.
+        Their poses are sampled at all instants since the last call. Instants before all paths begin and after all have
+        ended are skipped.
         """
         if time - self._scenes.time > self._memory.lasts + EVERY:
             self._begin_anew()  # what they trod before is forgotten
@@ -253,15 +255,15 @@ class Pressers(Feature):
         if is_anew:
             declared = [self._declared[entity] for entity, _ in who]
             for number in _lead(declared, _start(declared, floor(time) - self._memory.lasts)):
-                walk.come(who, self._where(who, number / RATE), number / RATE)
+                walk.come(who, self._poses_at(who, number / RATE), number / RATE)
             self._is_anew = False
         stay = staying(walk.who, who)
         for number in _instants([self._declared[entity].path for entity, _ in stay], walk.time, time):
-            walk.come(stay, self._where(stay, number / RATE), number / RATE)
+            walk.come(stay, self._poses_at(stay, number / RATE), number / RATE)
         return walk.come(who, pose, time) or is_anew
 
-    def _where(self, who: list[Who], time: float) -> Doubles:
-        """Return where the paths of some of those that the scene declares lead at `time` [s], shape (n, 3)."""
+    def _poses_at(self, who: list[Who], time: float) -> Doubles:
+        """Return the poses (x, z, yaw) of some of the scene's pressers at `time` [s], shape (n, 3)."""
         return _rows([self._declared[entity].pose(time=time) for entity, _ in who])
 
 
@@ -270,34 +272,34 @@ def _rows(poses: Sequence[Pose]) -> Doubles:
 
 
 def _start(pressers: Sequence[PresserOnPath], latest: float) -> float:
-    """Return the latest time [s] from which a replay of all pressers' ways treads the same after `latest` [s].
+    """Return the latest time [s] from which a replay of all paths leaves the same marks after `latest` [s].
 
-    It is a multiple of `EVERY` at which each of them is on its way, has not set out yet, or has arrived.
+    It is a multiple of `EVERY` at which each presser moves, has not set out yet, or has arrived.
     """
 
-    def may(presser: PresserOnPath, then: float) -> bool:
-        return _is_due(presser, then) or presser.path[-1].at <= then
+    def is_possible(presser: PresserOnPath, then: float) -> bool:
+        return _can_begin(presser, then) or presser.path[-1].at <= then
 
     starts = (EVERY * number for number in range(floor(latest / EVERY), 0, -1))
-    return next((then for then in starts if all(may(presser, then) for presser in pressers)), 0.0)
+    return next((then for then in starts if all(is_possible(presser, then) for presser in pressers)), 0.0)
 
 
 def _lead(pressers: Sequence[PresserOnPath], start: float) -> list[int]:
-    """Return the numbers of the instants up to `start` [s] at which pressers are asked, rising.
+    """Return the numbers of the instants up to `start` [s] that a replay samples, in ascending order.
 
-    Those that have arrived by then go the way that led them there, from where they were on it at a multiple of `EVERY`.
+    For pressers that have arrived by then, it samples the end of their path, from a multiple of `EVERY` on.
     """
     numbers = {round(start * RATE)}
     for presser in pressers:
-        if not _is_due(presser, start):
+        if not _can_begin(presser, start):
             arrived = presser.path[-1].at
-            since = next(then for then in range(floor(arrived / EVERY), -1, -1) if _is_due(presser, EVERY * then))
+            since = next(then for then in range(floor(arrived / EVERY), -1, -1) if _can_begin(presser, EVERY * then))
             numbers |= {*range(round(EVERY * since * RATE), ceil(arrived * RATE) + 1)}
     return sorted(numbers)
 
 
-def _is_due(presser: PresserOnPath, then: float) -> bool:
-    """Return whether a presser treads the same after `then` [s] if it begins there: on its way, or before it."""
+def _can_begin(presser: PresserOnPath, then: float) -> bool:
+    """Return whether a replay from `then` [s] leaves the same later marks: if the presser moves, or has not set out."""
     if not presser.path or then <= presser.path[0].at:
         return True
     here, there = presser.pose(time=then), presser.pose(time=then + 1.0 / RATE)
@@ -305,7 +307,7 @@ def _is_due(presser: PresserOnPath, then: float) -> bool:
 
 
 def _instants(paths: Sequence[Sequence[Waypoint]], since: float, until: float) -> range:
-    """Return the numbers of the instants after `since` and before `until` [s] at which somebody may move."""
+    """Return the numbers of the instants between `since` and `until` [s], excluded, at which a presser may move."""
     moving = [path for path in paths if path]
     if not moving:
         return range(0)
@@ -315,7 +317,7 @@ def _instants(paths: Sequence[Sequence[Waypoint]], since: float, until: float) -
 
 
 def _on_way(declared: PresserOnPath, time: float) -> Pose:
-    """Return where a presser is at `time` [s]: between two instants of `RATE` it goes straight."""
+    """Return the pose of a presser at `time` [s], interpolated between the two instants around it."""
     before, after = (declared.pose(time=at / RATE) for at in (floor(time * RATE), ceil(time * RATE)))
     part = time * RATE - floor(time * RATE)
     turned = (after.yaw - before.yaw + pi) % (2.0 * pi) - pi
@@ -326,11 +328,11 @@ def _on_way(declared: PresserOnPath, time: float) -> Pose:
 
 @dataclass(slots=True)
 class Press:
-    """The system `press`: what has been trodden since the frame before."""
+    """The system `press`: notes what has been trodden so far."""
 
     outlooks: Iterable[Outlook]
     note: Callable[[float], Trodden]
-    """Takes note of where all are at a time [s]."""
+    """Moves all pressers to a time [s], and returns what has been trodden."""
 
     def run(self) -> None:
         """Press for every viewer that looks."""

@@ -1,4 +1,4 @@
-"""Wearing: where those go that wear grass off, less of it grows each time."""
+"""Wearing: grass grows thinner each time that a presser which wears it off goes over it."""
 
 from collections.abc import Iterable
 from math import atan2, hypot
@@ -10,21 +10,21 @@ from ..engine.terrain.record import Density
 from .mow.sown import wear
 
 STEP = 1.0
-"""How far somebody goes until what lies under that way is worn, in radii."""
+"""Length of way that is worn at a time, in radii."""
 
 JUMP = 5.0
-"""Who is farther away all at once has jumped [m], and wore off nothing."""
+"""Distance beyond which a move in one frame is a jump [m], which wears nothing off."""
 
 
 class Wearing:
-    """How far each of those has worn its way who wear grass off."""
+    """The ways of all pressers that wear grass off, as far as they are worn."""
 
     def __init__(self) -> None:
         self._worn: dict[int, tuple[float, float]] = {}
-        """Up to where, (x, z) [m], by entity."""
+        """Place (x, z) [m] up to which each entity's way is worn."""
 
     def go(self, pressers: Iterable[tuple[int, Presser, Pose]], density: Density, /) -> None:
-        """Wear off what lies on the ways that these, all who do, have gone since they were seen last."""
+        """Thin the grass on the ways that all wearing `pressers` have gone since the last call."""
         there = dict[int, tuple[float, float]]()
         for entity, presser, pose in pressers:
             x, z = self._worn.get(entity, (pose.x, pose.z))

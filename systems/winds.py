@@ -1,4 +1,4 @@
-"""The winds of a prairie: whose entities they are, where they are now, and what grass feels of them."""
+"""The winds of a prairie: their entities, their poses, and their messages."""
 
 import logging
 from collections.abc import Mapping, Sequence
@@ -35,12 +35,12 @@ log = logging.getLogger("tallgrass")
 
 
 KEPT = 60.0
-"""How long a wind that a game added is kept when it is over [s], for those who ask about a moment before."""
+"""Time for which an added wind is kept after its end [s], for questions about an earlier time."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Known:
-    """A wind's entity as it was seen last."""
+    """A wind's entity as it was in the last frame."""
 
     source: WindSource
 
@@ -48,11 +48,11 @@ class _Known:
     """The source's primitive, with the course of its phases."""
 
     end: float
-    """When it is over for good [s]."""
+    """Time at which it is over for good [s]."""
 
 
 class Winds(Feature):
-    """The winds in one world; those that a scene declares, those that a game adds, and a game's own entities."""
+    """All winds in one world: those that a scene declares, those that a game adds, and a game's own entities."""
 
     asked = SAMPLERS
 
@@ -68,7 +68,7 @@ class Winds(Feature):
         self._generation = world.generation
         self._declared: list[int] = []
         self._added: dict[int, int] = {}
-        """By its handle, the generation of the world in which a game added each wind."""
+        """Generation of the world in which each wind was added, by its handle."""
         self.quarantine = quarantine or Quarantine()
         self._clock = 0.0
         self._known: dict[int, _Known] = {}
@@ -81,34 +81,35 @@ class Winds(Feature):
         return cls(start.world, grown.scene, grown.ground, grown.growths, start.quarantine)
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
-        """Take over the winds that a scene declares that was read again; those of one that was not stay as they are."""
+        """Take over another site: its winds too, unless they and the ground are the same objects."""
         del time
         if grown.scene.wind is before.scene.wind and grown.ground is before.ground:
-            self._stand_in(grown.scene, grown.ground, grown.growths)
+            self._set_site(grown.scene, grown.ground, grown.growths)
         else:
             self.change(grown.scene, grown.ground, grown.growths)
 
     def change(self, scene: Scene, ground: Ground, growths: Sequence[Growth]) -> None:
         """Take over the winds that a scene declares, at first or when it was read again.
 
-        A wind that has not changed stays, and so does what is random about it; one that has changed keeps its name,
-        and with it that. Winds that a game added are left alone.
+        An unchanged wind keeps its entity and its random numbers. A changed wind keeps its name, which gives it the
+        same random numbers. Winds that a game added are not touched.
         """
-        self._stand_in(scene, ground, growths)
+        self._set_site(scene, ground, growths)
         there = dict(self._world.all(WindSource))
         before = {entity: there[entity] for entity in self._declared if entity in there}
         after = matched(list(before.values()), scene.wind)
         entities = {source: entity for entity, source in before.items()}
-        self._declared = [self._take(source, old, entities) for source, old in after]
+        self._declared = [self._declare(source, old, entities) for source, old in after]
         for entity in set(before) - set(self._declared):
             self._world.delete(entity)
 
-    def _stand_in(self, scene: Scene, ground: Ground, growths: Sequence[Growth]) -> None:
+    def _set_site(self, scene: Scene, ground: Ground, growths: Sequence[Growth]) -> None:
         self._scene, self._ground, self._growths = scene, ground, growths
         self._height_at = partial(height_at, ground.terrain)
         self._canopy = tuple(map(canopy_height, growths))
 
-    def _take(self, source: WindSource, old: WindSource | None, entities: dict[WindSource, int]) -> int:
+    def _declare(self, source: WindSource, old: WindSource | None, entities: dict[WindSource, int]) -> int:
+        """Return the entity of a declared wind: a new one, or that of the `old` wind, which it replaces."""
         if old is None:
             return self._world.create(source)
         if source is not old:
@@ -116,9 +117,9 @@ class Winds(Feature):
         return entities[old]
 
     def add(self, primitive: WindPrimitive, name: str | None = None, pose: Pose | None = None) -> int:
-        """Add a wind of a game's and return its entity; without a name it is called by its kind.
+        """Add a game's wind and return its entity; its default name is its kind.
 
-        Raises TypeError for what is no wind, no pose or no name, ValueError for a pose that is nowhere.
+        Raises TypeError for anything but a wind, a name and a pose, ValueError for a pose that is not finite.
         """
         must_be_wind(primitive, "add takes")
         if name is not None:
@@ -130,9 +131,10 @@ class Winds(Feature):
         return entity
 
     def move(self, handle: int, pose: Pose) -> None:
-        """Put a wind elsewhere that was added.
+        """Move an added wind to a pose.
 
-        Raises TypeError and ValueError for what is no handle of one or no pose, ValueError where a game has deleted it.
+        Raises TypeError for anything but a handle and a pose, ValueError for an unknown handle, for a pose that is not
+        finite, and for a wind that is over or that a game has deleted.
         """
         _must_be_pose(pose)
         if not self._is_there(handle):
@@ -140,16 +142,16 @@ class Winds(Feature):
         self._world.add(handle, pose)
 
     def remove(self, handle: int) -> None:
-        """Take a wind away that was added; one that the game has deleted meanwhile is no error.
+        """Remove an added wind; the game may have deleted it already.
 
-        Raises TypeError and ValueError for what is no handle of one.
+        Raises TypeError for anything but a handle, ValueError for an unknown one.
         """
         if self._is_there(handle):
             self._world.delete(handle)
         del self._added[handle]
 
     def _is_there(self, handle: object) -> bool:
-        """Return whether a wind that was added is still a wind; raises TypeError and ValueError for others."""
+        """Return whether an added wind still exists; raises TypeError and ValueError for anything but its handle."""
         if not isinstance(handle, int | np.integer):
             raise TypeError(f"winds are moved and removed by the handle that add returned, not by {shortened(handle)}")
         if handle not in self._added:
@@ -160,18 +162,18 @@ class Winds(Feature):
         return self._world.find(entity, WindSource) is not None
 
     def pass_to(self, time: float) -> None:
-        """Let the prairie's clock stand at `time` [s]: what a game changes on a wind, it changes then."""
+        """Set the prairie's clock to `time` [s], at which a game's next changes of winds take effect."""
         self._clock = time
         self.quarantine.let_back(time)
 
     @property
     def declared(self) -> list[int]:
-        """The entities of the winds that the scene declares, in its order; a game may have deleted some."""
+        """Entities of the winds that the scene declares, in its order; a game may have deleted some."""
         return [*self._declared]
 
     @property
     def added(self) -> list[int]:
-        """The entities of those that a game has added and that are still there."""
+        """Entities of the added winds that still exist."""
         return [entity for entity in self._added if self._is_there(entity)]
 
     def runs(self) -> dict[int, WindPrimitive]:
@@ -180,9 +182,9 @@ class Winds(Feature):
         return {entity: known.wind for entity, known in self._known.items() if known.wind.course is not None}
 
     def take(self, declared: Sequence[int], added: Sequence[int], runs: Mapping[int, WindPrimitive]) -> None:
-        """Take these entities for those that the scene declares, and for those that a game has added.
+        """Take over entities as the scene's declared winds and a game's added winds.
 
-        `runs` are winds of a game's, by entity, whose phases have run on a course of their own.
+        `runs` are the winds, by entity, whose rates a game has changed, with the courses of their phases.
         """
         generation = self._world.check()
         self._declared, self._added = [*declared], dict.fromkeys(added, generation)
@@ -191,12 +193,12 @@ class Winds(Feature):
         self._known = {entity: replace(each, wind=wind) for entity, (each, wind) in known.items()}
 
     def sources(self) -> list[WindSource]:
-        """Return the winds there are."""
+        """Return all winds."""
         self._revive()
         return [source for _, source in self._world.all(WindSource)]
 
     def samples(self) -> list[WindPrimitive]:
-        """Return the winds there are, and one of each kind that is installed and has a default for all it is told."""
+        """Return all winds, and one of each installed kind whose fields all have defaults."""
         found = [source.primitive for source in self.sources()]
         for name in wind_kinds().names():
             try:
@@ -205,11 +207,11 @@ class Winds(Feature):
                 log.debug("kind '%s' is not prepared", name, exc_info=error)
         return found
 
-    def now(self, time: float) -> list[Blowing]:
+    def acting(self, time: float) -> list[Blowing]:
         """Return the winds that act at `time` [s], the strongest claim first.
 
-        A wind whose entity has a `Pose` is there; one that something hovers over is where its jet meets the ground; the
-        others are where they say themselves.
+        A wind is at the `Pose` of its entity, if it has one; else where the jet of its hovering body meets the ground,
+        if it has one; else at its own pose.
         """
         top_at = top_over(self._ground, self._canopy)
         sources, poses, winds = list[WindSource](), list[Pose | None](), list[WindPrimitive]()
@@ -219,7 +221,7 @@ class Winds(Feature):
                 continue
             with suppress(QuarantinedError):
                 if pose is not None:
-                    hover_of(source, self.quarantine)  # one that fails is left out of this very frame
+                    hover_of(source, self.quarantine)  # if it fails, the wind is left out of this frame already
                 elif (body := hovering(source, top_at, self.quarantine, time=time)) is not None:
                     pose = foot(body, self._height_at)
             sources.append(source)
@@ -231,7 +233,7 @@ class Winds(Feature):
     def _standing(self, time: float) -> list[tuple[int, _Known]]:
         """Return the winds that are not over at `time` [s], after noting what a game has changed.
 
-        Those that it added go when they have been over for `KEPT`.
+        Added winds are deleted `KEPT` seconds after their end.
         """
         self._revive()
         found, known = self._world.all(WindSource), self._known
@@ -250,7 +252,7 @@ class Winds(Feature):
         return standing
 
     def _noted(self, source: WindSource, before: _Known | None) -> _Known:
-        """Return what a source is known as from now on, in place of what its entity was `before`."""
+        """Return the record of a source from now on, in place of the record `before` of the same entity."""
         wind = source.primitive
         try:
             if before is not None and type(before.wind) is type(wind):
@@ -262,29 +264,29 @@ class Winds(Feature):
         return _Known(source, wind, end)
 
     def bent(self, time: float) -> float:
-        """Return the posture index that the winds bring grass to everywhere at `time` [s], in the mean."""
+        """Return the mean posture index to which the winds bend grass everywhere at `time` [s]."""
         return mean_index([known.source for _, known in self._standing(time)], self.quarantine, time=time)
 
     def heard(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
-        """Return the message that each receiver ends up with at `time` [s], shape (n, 2)."""
+        """Return the messages (n, 2) of all winds together to receivers at `time` [s]."""
         seed, mixing, yaw = self._scene.seed, self._scene.mixing, mean_yaw(self._scene.wind)
-        return hear(self.now(time), receivers, self.quarantine, time=time, seed=seed, mixing=mixing, yaw=yaw)
+        return hear(self.acting(time), receivers, self.quarantine, time=time, seed=seed, mixing=mixing, yaw=yaw)
 
     def at(self, place: Floats, /, *, time: float, kind: int | None = None) -> Floats:
-        """Return what grass of a kind, or the densest there, feels at ground positions (n, 2) [m], shape (n, 2)."""
+        """Return the messages (n, 2) at ground positions (n, 2) [m] to a kind of grass, or to the densest there."""
         return self.heard(self.standing(place, kind=kind), time=time)
 
     def standing(self, place: Floats, /, *, kind: int | None = None) -> ReceiverArrays:
-        """Return receivers in grass of a kind, or of the densest there, at ground positions (n, 2) [m]."""
+        """Return receivers of a kind of grass, or of the densest there, at ground positions (n, 2) [m]."""
         kinds = densest_kind(self._ground.density, place) if kind is None else np.full(len(place), kind, np.intp)
         return lone_receivers(place, grass_of(self._growths, kinds))
 
     def _revive(self) -> None:
-        """Let the winds of the scene be entities again after the game has cleared its world; say so once."""
+        """Make the scene's winds entities again after the game has cleared its world, and log that once."""
         if self._generation == self._world.check():
             return
-        self._declared, self._known = [], {}  # their numbers may be others' by now
-        self.change(self._scene, self._ground, self._growths)  # raises where the world is gone, or another is current
+        self._declared, self._known = [], {}  # other entities may have their numbers by now
+        self.change(self._scene, self._ground, self._growths)  # raises if the world is gone, or another is current
         self._generation = self._world.generation
         log.warning("the esper world was cleared: what the scene declares is there again, added winds are gone")
 
@@ -292,10 +294,10 @@ class Winds(Feature):
 def matched(
     before: Sequence[WindSource], winds: Sequence[WindPrimitive], /
 ) -> list[tuple[WindSource, WindSource | None]]:
-    """Return the source of each of a scene's winds, and which of those `before` it takes the place of.
+    """Return the source of each of a scene's winds, and the source `before` that it replaces, if any.
 
-    One that declares the same is the same, wherever it stands now. Of the others, each takes the name of the one of its
-    kind that it has most in common with, or a new one.
+    A wind with the same values keeps its source, wherever in the scene it stands now. Each other wind takes the name of
+    the source of its kind with which it has most values in common, or a new name.
     """
     left = list(before)
     found: dict[int, WindSource] = {}
@@ -309,7 +311,7 @@ def matched(
     rows: list[tuple[WindSource, WindSource | None]] = []
     for number, wind in enumerate(winds):
         old = found.get(number)
-        name = old.name if old else next(name for k in count(number) if (name := declared(k, wind)) not in taken)
+        name = old.name if old else next(name for k in count(number) if (name := declared_name(k, wind)) not in taken)
         taken.add(name)
         same = old is not None and _likeness(old.primitive, wind) == inf
         rows.append((old if old and same else WindSource(wind, name), old))
@@ -323,13 +325,13 @@ def _must_be_pose(thing: object) -> None:
         raise ValueError(f"a wind is put where {SOMEWHERE}, not at {thing}")
 
 
-def declared(number: int, wind: WindPrimitive) -> str:
-    """Return the name of a wind in a scene's list of them."""
+def declared_name(number: int, wind: WindPrimitive) -> str:
+    """Return the name of the wind with a number in a scene's list."""
     return f"wind[{number}] {wind.kind}"
 
 
 def _likeness(one: WindPrimitive, other: WindPrimitive) -> float:
-    """Return how many values two winds have in common, infinity where they are the same; -1 for two kinds."""
+    """Return the number of values that two winds have in common, infinity for equal winds, -1 for two kinds."""
     if type(one) is not type(other) or one.kind != other.kind:
         return -1.0
     try:

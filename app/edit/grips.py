@@ -58,7 +58,7 @@ def grips_of(editor: Editor) -> list[Grip]:
 def grip_at(editor: Editor, place: Place, /) -> Grip | None:
     """Return the grip on the strongest wind whose mask a ground position (x, z) [m] is on, with all of its places."""
     prairie, spot = editor.prairie, np.array([place], np.float32)
-    for blown in prairie.winds.now(prairie.time):
+    for blown in prairie.winds.acting(prairie.time):
         number = number_of(editor, blown.source.primitive)
         if number is None or blown.extent is None or not _is_on(prairie, blown, spot):
             continue
@@ -76,7 +76,7 @@ def pulled(editor: Editor, grip: Grip, to: Place, /) -> None:
 
 def blowing_of(prairie: Prairie, wind: WindPrimitive, /) -> list[Blowing]:
     """Return what of a declared wind acts now, the strongest claim first."""
-    return [blown for blown in prairie.winds.now(prairie.time) if blown.source.primitive == wind]
+    return [blown for blown in prairie.winds.acting(prairie.time) if blown.source.primitive == wind]
 
 
 def number_of(editor: Editor, wind: WindPrimitive, /) -> int | None:

@@ -76,7 +76,7 @@ def _over_patches(
     axes: Axes, prairie: Prairie, primitive: WindPrimitive, x: Span, *, times: tuple[float, float], color: str
 ) -> None:
     z, patch, handle = (-20.0, 20.0), prairie.site.ground.patch, prairie.add(primitive)
-    before, now = ((time, prairie.winds.now(time)[0]) for time in times)
+    before, now = ((time, prairie.winds.acting(time)[0]) for time in times)
     middle = grid(x, z, patch)
     weight = patch_weights(now[1], middle, patch=patch, time=now[0])
     corner = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]], np.float32) * np.float32(patch)
@@ -131,7 +131,7 @@ def _field(axes: Axes, prairie: Prairie, primitive: WindPrimitive, *, half: floa
     place = grid(x, z, spacing)
     message = prairie.wind_at(place, time)
     index = np.hypot(*message.T)
-    wind = prairie.winds.now(time)[0]
+    wind = prairie.winds.acting(time)[0]
     prairie.remove(handle)
     if wind.extent is not None:
         _outline(axes, wind, x, z, time=time, color=FAINT, thin=0.9)

@@ -73,7 +73,7 @@ class Overlay:
         winds, time = prairie.winds, prairie.time
         x, _, z = outlook.viewer.eye
         far = prairie.site.reach[-1] * prairie.site.ground.patch
-        return masked(winds.now(time), winds.quarantine, time=time, around=(x, z), far=far)
+        return masked(winds.acting(time), winds.quarantine, time=time, around=(x, z), far=far)
 
     def _on_ground(self, outlook: Outlook, site: Site, masks: list[Masked]) -> Marks:
         terrain = site.ground.terrain

@@ -264,7 +264,7 @@ def test_w6_the_profile_of_a_gust_is_the_response_read_along_its_way() -> None:
 def test_figure_7_weighs_patches_by_the_ground_that_a_mask_holds() -> None:
     prairie = windless()
     prairie.add(Whirlwind(radius=6.0, soft=0.0))
-    (wind,) = prairie.winds.now(1.0)
+    (wind,) = prairie.winds.acting(1.0)
     middle = grid((-10.0, 10.0), (-10.0, 10.0), 2.5)
     weight = patch_weights(wind, middle, patch=2.5, time=1.0)
     prairie.release()

@@ -131,7 +131,7 @@ def test_r3_where_a_body_flies_is_worked_out_once_though_it_is_asked_for_where_i
             return Pose(8.0 * sin(time), 3.0, 0.5)
 
     winds.add(Counted(), "rotor")
-    winds.now(0.4)
+    winds.acting(0.4)
     once = len(asked)
     assert len(bodies(0.4)) == 1
     assert len(asked) == once > 0
@@ -146,7 +146,7 @@ def test_r4_a_strangers_wind_acts_where_its_tilted_jet_meets_the_ground(
     time = 1.2
     (body,) = bodies(time)
     there = foot(body, partial(height_at, site.ground.terrain))
-    (blowing,) = winds.now(time)
+    (blowing,) = winds.acting(time)
     assert blowing.pose == there
     assert abs(there.x - body.place[0]) > 0.5, "it slows down and leans"
     away = np.array([[1.9, 0.0], [-1.9, 0.0], [2.1, 0.0], [-2.1, 0.0]], np.float32)
@@ -158,7 +158,7 @@ def test_r4_at_a_pose_that_a_game_gives_a_strangers_wind_acts_and_its_body_flies
     winds: Winds, bodies: Bodies
 ) -> None:
     winds.add(Rotor(), "rotor", Pose(-7.0, 2.0, 1.0))
-    assert [blowing.pose for blowing in winds.now(1.0)] == [Pose(-7.0, 2.0, 1.0)]
+    assert [blowing.pose for blowing in winds.acting(1.0)] == [Pose(-7.0, 2.0, 1.0)]
     (body,) = bodies(1.0)
     assert (body.place[0], body.place[2], body.yaw, body.nose, body.bank) == (-7.0, 2.0, 1.0, 0.0, 0.0)
 
@@ -169,7 +169,7 @@ def test_r4_before_a_wind_begins_and_after_it_ends_nothing_hovers_and_its_path_i
     winds.add(Lost(start=2.0, stop=5.0), "lost")
     for time in (0.0, 1.9, 5.0):
         assert bodies(time) == []
-        assert winds.now(time) == []
+        assert winds.acting(time) == []
     assert winds.quarantine.reasons == {}
 
 
@@ -198,7 +198,7 @@ def test_d5_a_wind_that_fails_to_say_what_hovers_over_it_is_left_out_and_named_o
     winds.add(wind, "broken")
     winds.add(Rotor(kind="sound"), "sound")
     for _ in range(3):
-        assert [blowing.source.name for blowing in winds.now(1.0)] == ["sound"]
+        assert [blowing.source.name for blowing in winds.acting(1.0)] == ["sound"]
         assert len(bodies(1.0)) == 1
     assert list(winds.quarantine.reasons.values()) == [f"broken: {why}"]
     assert caplog.messages == [f"broken of {__name__}.{type(wind).__name__}: {why}; this wind is left out from now on"]
@@ -207,6 +207,6 @@ def test_d5_a_wind_that_fails_to_say_what_hovers_over_it_is_left_out_and_named_o
 @pytest.mark.parametrize("first", ["heard", "seen"])
 def test_d5_one_that_fails_at_a_games_pose_is_left_out_at_once_too(winds: Winds, bodies: Bodies, first: str) -> None:
     winds.add(Silent(), "broken", Pose())
-    assert (winds.now(1.0) if first == "heard" else bodies(1.0)) == []
+    assert (winds.acting(1.0) if first == "heard" else bodies(1.0)) == []
     assert list(winds.quarantine.reasons.values()) == ["broken: hover raised LookupError: nothing there"]
-    assert (winds.now(1.0), bodies(1.0)) == ([], [])
+    assert (winds.acting(1.0), bodies(1.0)) == ([], [])

@@ -102,7 +102,7 @@ def test_n4_the_card_hears_a_wind_that_was_changed_as_numpy_does(
         esper.add_component(entity, WindSource(RAMPS[what](part), "wind"))
         prairie.wind_at(FIELD)
         prairie.advance(3.0)
-    now, receivers = prairie.winds.now(prairie.time), prairie.winds.standing(FIELD)
+    now, receivers = prairie.winds.acting(prairie.time), prairie.winds.standing(FIELD)
     assert [wind.primitive.course is not None for wind in now] == [True] * len(now) != []
     ear = CardEar(ctx, receivers.grass)
     found = ear.hear(now, receivers, prairie.winds.quarantine, time=prairie.time, seed=1, mixing="weight")
@@ -143,14 +143,14 @@ def test_w7_a_gust_keeps_its_place_when_its_speed_changes_and_stays_until_its_gr
 ) -> None:
     entity = esper.create_entity(WindSource(Gust(speed=4.0, reach=100.0), "wind"))
     prairie.advance(15.0)
-    (before,) = prairie.winds.now(15.0)
+    (before,) = prairie.winds.acting(15.0)
     esper.add_component(entity, WindSource(Gust(speed=8.0, reach=100.0), "wind"))
-    (after,) = prairie.winds.now(15.0)
+    (after,) = prairie.winds.acting(15.0)
     assert (after.pose.x, after.pose.z) == pytest.approx((before.pose.x, before.pose.z))
     assert before.pose.x == pytest.approx(60.0)
-    (later,) = prairie.winds.now(19.0)
+    (later,) = prairie.winds.acting(19.0)
     assert later.pose.x == pytest.approx(60.0 + 4.0 * 8.0)
-    assert [len(prairie.winds.now(time)) for time in (15.0 + 5.0 + 4.0, 15.0 + 5.3 + 4.0)] == [1, 0]
+    assert [len(prairie.winds.acting(time)) for time in (15.0 + 5.0 + 4.0, 15.0 + 5.3 + 4.0)] == [1, 0]
 
 
 def test_gusts_that_a_game_added_are_gone_when_they_have_been_over_for_a_while(prairie: Prairie) -> None:
@@ -162,7 +162,7 @@ def test_gusts_that_a_game_added_are_gone_when_they_have_been_over_for_a_while(p
         prairie.wind_at(FIELD[:1])
     life = Gust(reach=10.0).life
     assert len(prairie.winds.sources()) == pytest.approx(KEPT + life, abs=2.0)
-    assert len(prairie.winds.now(prairie.time)) == pytest.approx(life, abs=1.0)
+    assert len(prairie.winds.acting(prairie.time)) == pytest.approx(life, abs=1.0)
     for handle in handles:
         prairie.remove(handle)
     assert not prairie.winds.sources()
