@@ -1,4 +1,4 @@
-"""Drawing what trees are drawn with: a twig on its card, and a whole tree from all around."""
+"""Baking pictures: of a twig for its card, and of a whole tree from all around."""
 
 from collections.abc import Callable
 from math import ceil
@@ -13,28 +13,28 @@ from ...engine.gl.stream import release_all
 from .far import COARSER, COLUMNS, EACH_ROW, FINER, FIRST_ROW, LEVELS, LINES, ROWS
 
 CARD = 256
-"""Pixels of a twig's card across and up."""
+"""Side of a twig's card [pixels]."""
 
-DEPTHS = 4.0, 2.0
-"""How far the pictures of a tree and of a twig go to the front and back: of half their height, and usual lengths."""
+DEPTH_RANGES = 4.0, 2.0
+"""Depth range of pictures to the front and back: of a tree, in half heights; of a twig, in usual lengths."""
 
-WHOLE = 1 << (LEVELS - 1)
-"""Texels in a row that the coarsest picture has one of."""
+COARSEST = 1 << (LEVELS - 1)
+"""Texels in a row of the finest mip level that the coarsest has one of."""
 
 Draw = Callable[[int], None]
 """Draws the picture of a number into the viewport that is set."""
 
 
-def lines_of(breadth: float, /) -> tuple[int, int]:
-    """Return the texels up and across of a tree's pictures where it is so broad, of their height."""
-    lines = _whole(LINES)
-    return lines, _whole(lines * breadth)
+def picture_size(breadth: float, /) -> tuple[int, int]:
+    """Return the height and width of a tree's pictures [texels]; `breadth` is the tree's, of their height."""
+    lines = _rounded_up(LINES)
+    return lines, _rounded_up(lines * breadth)
 
 
 def pictures(ctx: moderngl.Context, columns: int, rows: int, wide: int, tall: int, draw: Draw, /) -> Floats:
     """Return pictures drawn side by side in rows, each of `wide` by `tall` texels; two outputs are two layers.
 
-    They have shape (2, rows, columns, 4), and are premultiplied by the last channel of the first layer, the coverage:
+    They have shape (2, rows, columns, 4), and are premultiplied by the coverage, the last channel of the first layer:
     each texel is the mean of what it shows [bytes].
     """
     fine = wide * FINER, tall * FINER
@@ -60,26 +60,26 @@ def pictures(ctx: moderngl.Context, columns: int, rows: int, wide: int, tall: in
     return values
 
 
-def filtered(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureArray:
-    """Return a texture of such pictures."""
+def texture_of(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureArray:
+    """Return a texture of mip levels."""
     texture = mipmapped(ctx, made)
     texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
     texture.repeat_x = texture.repeat_y = False
     return texture
 
 
-def smaller(values: Floats, levels: int = LEVELS, /) -> list[Bytes]:
-    """Return layers (n, rows, columns, 4) at so many sizes."""
+def mip_levels(values: Floats, levels: int = LEVELS, /) -> list[Bytes]:
+    """Return layers (n, rows, columns, 4) at so many mip levels."""
     each = [values]
     for _ in range(levels - 1):
         each.append(_halved(each[-1]))
     return [np.ascontiguousarray(np.round(one).astype(np.uint8)) for one in each]
 
 
-def spread(values: Floats, cover: Floats, levels: int, /) -> list[Bytes]:
-    """Return a layer (1, rows, columns, 4) that is premultiplied by a coverage (rows, columns), each without it.
+def dilated(values: Floats, cover: Floats, levels: int, /) -> list[Bytes]:
+    """Return the mip levels of a layer (1, rows, columns, 4), unpremultiplied by a coverage (rows, columns).
 
-    Where nothing is covered it has what is about that, so that texels can be read between. It has so many sizes.
+    Texels without coverage take the values around them, so that interpolation stays right.
     """
     both = np.concatenate([values, cover[..., None]], axis=-1)[None]
     each = [both]
@@ -87,36 +87,37 @@ def spread(values: Floats, cover: Floats, levels: int, /) -> list[Bytes]:
         each.append(_halved(each[-1]))
     found = list[Floats]()
     for one in reversed(each):
-        there = one[..., 4:] > 0.0
-        own = 255.0 * one[..., :4] / np.where(there, one[..., 4:], 1.0)
+        covered = one[..., 4:] > 0.0
+        own = 255.0 * one[..., :4] / np.where(covered, one[..., 4:], 1.0)
         around = (
-            found[-1].repeat(2, axis=1).repeat(2, axis=2) if found else np.full_like(own, own[there[..., 0]].mean())
+            found[-1].repeat(2, axis=1).repeat(2, axis=2) if found else np.full_like(own, own[covered[..., 0]].mean())
         )
-        found.append(np.where(there, own, around))
+        found.append(np.where(covered, own, around))
     return [np.ascontiguousarray(np.round(one).astype(np.uint8)) for one in reversed(found)]
 
 
-def of_tree(values: Floats, /) -> tuple[list[Bytes], list[Bytes]]:
-    """Return what pictures of a tree show, and how light has come to that."""
+def tree_levels(values: Floats, /) -> tuple[list[Bytes], list[Bytes]]:
+    """Return the mip levels of a tree's pictures, and those of the optical depths before what they show."""
     coarser = values
     for _ in range(COARSER.bit_length() - 1):
         coarser = _halved(coarser)
-    return smaller(values[:1]), spread(coarser[1], coarser[0, ..., 3], LEVELS - COARSER.bit_length() + 1)
+    return mip_levels(values[:1]), dilated(coarser[1], coarser[0, ..., 3], LEVELS - COARSER.bit_length() + 1)
 
 
-def on_cards(layers: Bytes, /) -> Bytes:
-    """Return what cards are drawn with of a twig's pictures (2 n, rows, columns, 4): tone, normal across, along, cover.
+def card_texels(layers: Bytes, /) -> Bytes:
+    """Return a twig's pictures (2 n, rows, columns, 4) as cards read them: tone, normal across and along, coverage.
 
-    Leaves face out of their card, so that part of the normal is told by the others.
+    Leaves face out of their card, so the normal's third part follows from the others.
     """
     shows, faces = layers[::2], layers[1::2]
     return np.ascontiguousarray(np.concatenate([shows[..., :1], faces[..., :2], shows[..., 3:]], axis=-1))
 
 
-def evened(pictures: Bytes, solid: float, /) -> Bytes:
-    """Return pictures of cards (n, rows, columns, 4) with what covers so much, and more, no brighter than the rest.
+def equalised(pictures: Bytes, solid: float, /) -> Bytes:
+    """Return pictures of cards (n, rows, columns, 4) whose dense texels are as bright in the mean as the others.
 
-    That alone is seen where leaves are behind it, and coarse texels with a stem or an edge among leaves cover less.
+    Only texels of a coverage of `solid` or more are seen where leaves are behind, and coarse texels with a stem or an
+    edge among leaves cover less.
     """
     result = pictures.copy()
     for each in result:
@@ -130,8 +131,8 @@ def evened(pictures: Bytes, solid: float, /) -> Bytes:
     return result
 
 
-def _whole(texels: float) -> int:
-    return -(-ceil(texels) // WHOLE) * WHOLE
+def _rounded_up(texels: float) -> int:
+    return -(-ceil(texels) // COARSEST) * COARSEST
 
 
 def _halved(values: NDArray[np.generic]) -> Floats:
@@ -141,16 +142,16 @@ def _halved(values: NDArray[np.generic]) -> Floats:
     return np.asarray(np.float32(0.25) * np.add(pairs[..., 0, :], pairs[..., 1, :], dtype=np.float32))
 
 
-def covers(texels: Bytes, wide: int, lines: int, /) -> Bytes:
-    """Return how much of it each picture of a tree from all around covers, shape (pictures, lines, wide)."""
+def coverage(texels: Bytes, wide: int, lines: int, /) -> Bytes:
+    """Return the coverage of each picture of a tree from all around, shape (pictures, lines, wide)."""
     cover = texels[0, ..., 3].reshape(ROWS, lines, COLUMNS, wide)
     return np.asarray(cover.transpose(0, 2, 1, 3).reshape(ROWS * COLUMNS, lines, wide))
 
 
-def from_around(number: int, middle: float, half: float, slim: float, /) -> Doubles:
-    """Return the matrix (4, 4) that shows a tree from one of its sides, half so high about a height [m].
+def view_matrix(number: int, middle: float, half: float, slim: float, /) -> Doubles:
+    """Return the matrix (4, 4) that shows a tree from one of its sides, `half` high about the height `middle` [m].
 
-    It is `slim` times as high as wide.
+    The picture is `slim` times as high as wide.
     """
     azimuth, up = 2.0 * np.pi * (number % COLUMNS) / COLUMNS, FIRST_ROW + EACH_ROW * (number // COLUMNS)
     to = np.array([np.cos(up) * np.sin(azimuth), np.sin(up), np.cos(up) * np.cos(azimuth)])
@@ -158,16 +159,16 @@ def from_around(number: int, middle: float, half: float, slim: float, /) -> Doub
     shown = np.eye(4)
     shown[:3, :3] = np.stack([across, np.cross(to, across), -to]) / half
     shown[0, :3] *= slim
-    shown[2, :3] /= DEPTHS[0]
+    shown[2, :3] /= DEPTH_RANGES[0]
     shown[:3, 3] = -shown[:3, :3] @ (0.0, middle, 0.0)
     return shown
 
 
-def on_card(reach: tuple[float, float, float], usual: float, /) -> Doubles:
-    """Return the matrix (4, 4) that shows a twig on its card, which reaches so far aside, back and on [its lengths]."""
+def card_matrix(reach: tuple[float, float, float], usual: float, /) -> Doubles:
+    """Return the matrix (4, 4) that shows a twig on its card; `reach` is aside, back and on [its usual lengths]."""
     wide, back, on = reach
     shown = np.eye(4)
     shown[0, 0] = 1.0 / (wide * usual)
     shown[1, 1], shown[1, 3] = 2.0 / ((on - back) * usual), -1.0 - 2.0 * back / (on - back)
-    shown[2, 2] = -1.0 / (DEPTHS[1] * usual)
+    shown[2, 2] = -1.0 / (DEPTH_RANGES[1] * usual)
     return shown

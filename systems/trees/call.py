@@ -8,7 +8,7 @@ import moderngl
 from ...engine.gl.shaders import PackedUniforms, pack, pack_array, set_packed, set_used_uniforms
 from .choice import Batch
 from .kind import Binding, GpuKind
-from .outline import Around
+from .outline import Outline
 from .programs import SAMPLED, SOFT, Programs
 from .stream import BACKS, CARDS, FAR, IN_ROWS, LEAVES, NEAR, QUAD, WOOD, GpuModel, Numbers
 from .wood import CLOSED, OPAQUE, SOLID
@@ -112,8 +112,8 @@ class Calls:
         kind, model = self._models[number]
         sort = LEAVES if name == LEAVES else NEAR if name in CARDS else WOOD if name in model.wood else FAR
         whole = how.edges == SOFT or how.sampled or how.casts
-        outline, around = (kind.outline, model.around) if whole else (kind.core, model.core)
-        corners, ends = outline if sort == NEAR else [], around if sort == FAR else None
+        card, picture = (kind.outline, model.outline) if whole else (kind.solid_outline, model.solid_outline)
+        corners, outline = card if sort == NEAR else [], picture if sort == FAR else None
         of_leaves = QUAD * kind.habit.leaf.quads if sort == LEAVES else 0
         drawn_as, edges = sort, SAMPLED if how.sampled and sort != FAR else how.edges
         if sort == FAR and how.in_rows:
@@ -121,12 +121,12 @@ class Calls:
         stream = model.hung.get(name, model.streams[name])
         array = self._programs.array(drawn_as, stream, model, edges=edges)
         whole_tree = SOLID if how.casts else CLOSED if sort == FAR else OPAQUE
-        own = uniforms_of(array.program, corners, ends, kind.solid if sort == NEAR else whole_tree, casts=how.casts)
+        own = uniforms_of(array.program, corners, outline, kind.solid if sort == NEAR else whole_tree, casts=how.casts)
         uniforms = {id(each[0]): each for each in kind.uniforms(array.program, model) + own}
         return State(
             array,
             moderngl.TRIANGLE_STRIP if sort in (NEAR, FAR) else moderngl.TRIANGLES,
-            of_leaves + len(corners) + (0 if ends is None else 2 * len(ends.high)),
+            of_leaves + len(corners) + (0 if outline is None else 2 * len(outline.high)),
             [*uniforms.values()],
             kind.textures(array.program, model, noise=sort in (WOOD, FAR)),
         )
@@ -153,7 +153,7 @@ def draw(calls: Sequence[DrawCall], numbers: Numbers, /) -> int:
 def uniforms_of(
     program: moderngl.Program,
     corners: list[tuple[float, float]],
-    around: Around | None,
+    outline: Outline | None,
     solid_from: float,
     *,
     casts: bool,
@@ -165,8 +165,8 @@ def uniforms_of(
     uniforms = pack(program, {"solid_from": (solid_from,)}) + (pack(program, {"behind": (0.0,)}) if casts else [])
     if corners:
         uniforms += pack_array(program, "corners", corners)
-    if around is not None and around.high:  # else its pictures show nothing so opaque, and nothing is drawn
-        uniforms += pack(program, {"high": around.high}) + pack_array(program, "reaches", around.reaches)
+    if outline is not None and outline.high:  # else its pictures show nothing so opaque, and nothing is drawn
+        uniforms += pack(program, {"high": outline.high}) + pack_array(program, "reaches", outline.reaches)
     return uniforms
 
 

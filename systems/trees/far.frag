@@ -130,7 +130,7 @@ vec2 gives_way(float clump) {
 
 const float BARE = 0.15;  // how much of a crown is covered where clumps have gone, by stems that those hid, of what those cover
 
-const float UNCLUMPED = 2.5;  // where a clump is seen, so many times as many leaves are behind its first as light meets: 1 / CLUMPED
+const float UNCLUMPED = 2.5;  // where a clump is seen, so many times as many leaves are behind its first as light meets: 1 / CLUMPING
 
 // How much of a clump there is where a tree has few of its leaves: where many stand behind one another, one of them is seen.
 float left_of(float clump, vec4 shading) {

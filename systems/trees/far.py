@@ -1,43 +1,43 @@
-"""The pictures of a tree from all around, which stand for it far off (Forsyth, Impostors: Adding Clutter, 2001)."""
+"""Pictures of a tree from all around, which stand for it far off (Forsyth, Impostors: Adding Clutter, 2001)."""
 
 from math import log2, radians
 
 COLUMNS, ROWS = 12, 3
-"""Pictures all around, and from how many elevations."""
+"""Number of azimuths and of elevations of pictures."""
 
 FIRST_ROW, EACH_ROW = radians(4.0), radians(38.0)
-"""Elevation of the lowest ones, and how much higher each row is [rad]."""
+"""Elevation of the lowest pictures, and step from row to row [rad]."""
 
 LINES = 256
-"""Texels of a picture up: as many as there are pixels where it begins to be drawn so. Of a broad tree, it is as high as
-that is broad, from above."""
+"""Height of a picture [texels]: as many as pixels where it begins to show. A broad tree's is as high as it is broad,
+from above."""
 
 COARSER = 2
-"""How many times as large texels are of how light has come to what a picture shows: that changes from twig to twig."""
+"""Texel size of optical depths, of that of the pictures: depths change from twig to twig."""
 
 FINER = 2
-"""Each texel is the mean of so many by so many pixels."""
+"""Supersampling: each texel is the mean of so many by so many pixels."""
 
 LEVELS = 5
-"""Sizes of a picture that are kept, each half the one before: coarser ones would mix neighbours."""
+"""Number of mip levels: coarser ones would mix neighbours."""
 
 TILE_EDGE = 0.5
-"""What of a picture is its neighbours' at its edge [texels of the size that is read]."""
+"""Half a texel of the level that is read: within it of an edge, a neighbour's would be interpolated [texels]."""
 
 FINER_BY = -0.5 * log2(3.0)
-"""Level at which one is shown, from that of its pixels: there it is as blurred as by the mean over a pixel.
+"""Bias of the mip level, so that a picture is as blurred as by the mean over a pixel.
 
-Across, that has a variance of 1/12 of a pixel's square. Texels are means over themselves, and are read between: of a
-texel's square, the first has 1/12 and the second 1/6."""
+Across, that mean has a variance of 1/12 of a pixel's square. A texel is a mean over itself, with 1/12 of a texel's
+square, and linear interpolation adds 1/6."""
 
 CAST_COARSER = 0.5 * log2(2.0)
-"""How many levels more it is in the map that says what it shades.
+"""Bias of the mip level in shade maps.
 
-That is read between its texels, which has twice the variance of the mean over one. As light falls off exponentially
-with the leaves that it meets, what shades is a mean as broad as that already, of how much leaves cover."""
+They are interpolated, with twice the variance of a texel's mean. As light falls off exponentially with optical depth,
+the mean of the depths is already as broad as that."""
 
 THICKEST = 0.6
-"""Radius of a stem that a picture's texel of 255 stands for [m]."""
+"""Radius of a stem that a texel value of 255 stands for [m]."""
 
 GLSL = {
     "COLUMNS": COLUMNS, "ROWS": ROWS, "FIRST_ROW": FIRST_ROW, "EACH_ROW": EACH_ROW, "TILE_EDGE": TILE_EDGE,

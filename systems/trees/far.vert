@@ -8,7 +8,7 @@
 #include "systems/trees/outline.py"
 #include "systems/trees/shade.py"
 #ifndef CAST
-#include "systems/trees/lying.glsl"
+#include "systems/trees/normals.glsl"
 #endif
 
 in float columns;   // of a forest far off, how many trees stand side by side in its place

@@ -1,4 +1,4 @@
-"""The trees of a prairie: whose entities they are, and which of them stand."""
+"""The trees of a prairie: their entities, and which of them stand."""
 
 import logging
 from collections.abc import Mapping, Sequence
@@ -20,9 +20,9 @@ from ..frame.feature import Eye, Feature, Start
 from ..space.grown import Grown
 from .crown import FOOT, FOOT_MEETS_MOST, LEAST_SHADE
 from .draw import TreePart
+from .fading import FadingShade
 from .felled import Place, found_again
 from .forest import Forest, Gone, Rows
-from .going import Going
 from .habit import HABITS
 from .model import models_of
 from .place import placed
@@ -30,50 +30,50 @@ from .scatter import SQUARE
 from .standing import STANDING, Standing, individualise
 from .wild import Felled, Seedling, Wild, seedlings
 
-NOBODY = np.zeros((0, 2), np.float32)
+NO_PLACES = np.zeros((0, 2), np.float32)
 
-Found = list[tuple[int, Tree, Pose]]
+Posed = list[tuple[int, Tree, Pose]]
 
 log = logging.getLogger("tallgrass")
 
 
 class Trees(Feature):
-    """The entities of one world that have a `Tree` and a `Pose`; those of the scene are made here."""
+    """The entities of one world with a `Tree` and a `Pose`; makes those of the scene."""
 
     own = ("tree_twigs", "tree_cards", "tree_far", "tree_met", "tree_air", "tree_mean")
 
     def __init__(self, world: World, grown: Grown, *, live: bool) -> None:
         self._world, self._grown, self._live = world, grown, live
         self._seedlings: list[Seedling] = []
-        """The scene's own trees, as they are planted."""
+        """The scene's single trees, as planted."""
         self.entities: list[int] = []
-        """Of the scene's own trees, in the order in which they were planted; some may have been felled."""
+        """Entities of these trees, in the same order; some may have been felled."""
         self.wild: Wild | None = None
-        """Those of a forest that is too large for all of them to be entities."""
-        self._seen: tuple[list[tuple[int, Tree]], list[tuple[int, Pose]]] = [], []
-        self._heights = -1
+        """The trees of a forest that is too large for all of them to be entities."""
+        self._last_seen: tuple[list[tuple[int, Tree]], list[tuple[int, Pose]]] = [], []
+        self._terrain_version = -1
         self._generation = world.check()
         self._unknown: set[str] = set()
-        """Kinds of which it was said that the scene does not have them."""
+        """Kinds without a declaration that were already reported."""
         self._rows: Rows = np.zeros(0, STANDING)
         self.standing = self.shading = Standing(self._rows)
-        """Those of this frame; and with those that were felled just now, what gives shade."""
-        self._there: list[int] = []
-        """The entities of the rows."""
-        self._going = Going()
+        """Trees of this frame; `shading` has those felled just now, too, as their shade fades."""
+        self._row_entities: list[int] = []
+        """Entities of the rows."""
+        self._fading = FadingShade()
         self._shading_of: object = None
         self._plant()
 
     @classmethod
     def begin(cls, start: Start, /) -> Self:
-        """Return those of a prairie's world, with its scene's planted."""
+        """Return the trees of a prairie's world, with those of its scene planted."""
         return cls(start.world, start.grown, live=start.live)
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
-        """Go on with a scene read again: where its trees, its ground or its seed are others, all are planted anew."""
+        """Go on with a scene read again: replant all if its trees, ground or seed have changed."""
         del time
         self._grown = grown
-        if _made_of(grown) != _made_of(before):
+        if _planting_inputs(grown) != _planting_inputs(before):
             for entity in self.entities:
                 self._world.delete(entity)
             if self.wild is not None:
@@ -82,16 +82,16 @@ class Trees(Feature):
             self._plant()
 
     def _plant(self) -> None:
-        """Make an entity for each tree that the scene has, unless they are too many."""
+        """Make an entity of each tree of the scene, unless they are too many."""
         scene, terrain = self._grown.scene, self._grown.ground.terrain
-        self._seedlings, self._heights, self.wild = [], -1, None
-        self._rows, self._there = self._rows[:0], []  # none of them is felled
-        self._going.forget()
+        self._seedlings, self._terrain_version, self.wild = [], -1, None
+        self._rows, self._row_entities = self._rows[:0], []  # none of them is felled
+        self._fading.forget()
         self._unknown.clear()
         fixed = list[Floats]()
         for name, kind in scene.trees.items():
             seed = scene.seed + len(fixed)
-            place = placed(kind, terrain, np.concatenate([NOBODY, *fixed]), seed=seed)
+            place = placed(kind, terrain, np.concatenate([NO_PLACES, *fixed]), seed=seed)
             fixed.append(place)
             self._seedlings += _seedlings(name, kind, place, seed=seed)
         forest = Forest(self._grown, fixed)
@@ -102,7 +102,7 @@ class Trees(Feature):
         self.entities = [self._world.create(*each) for each in self._seedlings]
 
     def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
-        """Look which trees stand where; one of a kind that the scene does not have is named once, and left out."""
+        """Find which trees stand where; a tree of an undeclared kind is reported once and left out."""
         if self.wild is not None:
             self.wild.follow(viewer, eye)
         self.note(time)
@@ -110,69 +110,73 @@ class Trees(Feature):
             self.standing = self.wild.standing(viewer, eye, self._rows)
         elif self.standing.rows is not self._rows:
             self.standing = Standing(self._rows)
-        self._shade(self.standing)
+        self._update_shading(self.standing)
 
     def note(self, time: float) -> None:
-        """Take note of which trees stand where at a time [s], and how much grass grows below them."""
+        """Take over changed trees at a time [s], and the grass density below them."""
         self._revive()
         changes = self._grown.ground.terrain.changes.count
         with uncollected():
             seen = (trees := self._world.rows(Tree)), self._world.rows(Pose) if trees else []
-            are_others = seen != self._seen
-            self._seen = seen  # of equal lists the new ones: they are the same ones again in the next frame
-        if are_others or changes != self._heights:
-            self._heights = changes
-            self._look(time)
-        if self._going.step(time):
+            are_others = seen != self._last_seen
+            self._last_seen = seen  # of equal lists the new ones: they are the same ones again in the next frame
+        if are_others or changes != self._terrain_version:
+            self._terrain_version = changes
+            self._update_rows(time)
+        if self._fading.step(time):
             self._shade_grass()
 
     def _revive(self) -> None:
-        """Let the scene's trees that stood last be entities again after the game has cleared its world."""
+        """Make the scene's standing trees entities again after the game has cleared its world."""
         if self._generation == self._world.check():
             return
         self._generation = self._world.generation
-        stood = {*self._there} if self._heights >= 0 else {*self.entities}
-        self._rows, self._there = self._rows[:0], []  # none of them is felled
+        stood = {*self._row_entities} if self._terrain_version >= 0 else {*self.entities}
+        self._rows, self._row_entities = self._rows[:0], []  # none of them is felled
         for number in [number for number, entity in enumerate(self.entities) if entity in stood]:
-            self._plant_again(number)
+            self._replant(number)
 
-    def _shade(self, standing: Standing) -> None:
-        """Let these give shade, and what is left of those that were felled."""
-        if not len(self._going):
+    def _update_shading(self, standing: Standing) -> None:
+        """Let standing trees give shade, and felled ones what is left of theirs."""
+        if not len(self._fading):
             self.shading = standing
-        elif self._shading_of != (standing, self._going.changes):
-            self._shading_of = standing, self._going.changes
-            self.shading = Standing(np.concatenate([standing.rows, self._going.rows()]))
+        elif self._shading_of != (standing, self._fading.version):
+            self._shading_of = standing, self._fading.version
+            self.shading = Standing(np.concatenate([standing.rows, self._fading.rows()]))
 
-    def _look(self, time: float) -> None:
+    def _update_rows(self, time: float) -> None:
         """Take over which entities stand where."""
         posed = self._world.both(Tree, Pose)
-        if len(self._seen[0]) > len(posed):  # some have no pose, or are another prairie's
-            placed = {who for who, _, _ in posed}
-            self._world.standing([(who, None) for who, _ in self._world.all(Tree) if who not in placed], "the tree")
+        if len(self._last_seen[0]) > len(posed):  # some have no pose, or are another prairie's
+            placed = {entity for entity, _, _ in posed}
+            self._world.standing(
+                [(entity, None) for entity, _ in self._world.all(Tree) if entity not in placed], "the tree"
+            )
         found = [each for each in posed if self._knows(each[1])]
-        there = [*compress(found, self._world.standing([(who, pose) for who, _, pose in found], "the tree"))]
-        self._let_go({entity for entity, _, _ in found}, time)
-        self._rows, self._there = _rows(there, self._grown), [entity for entity, _, _ in there]
+        there = [*compress(found, self._world.standing([(entity, pose) for entity, _, pose in found], "the tree"))]
+        self._fade_removed({entity for entity, _, _ in found}, time)
+        self._rows, self._row_entities = _rows(there, self._grown), [entity for entity, _, _ in there]
         self._shade_grass()
 
-    def _let_go(self, there: set[int], time: float) -> None:
-        """Let the shade of those that are gone go by and by, but of those that only a viewer's way takes away."""
+    def _fade_removed(self, there: set[int], time: float) -> None:
+        """Begin to fade the shade of removed trees, but not of those removed as a viewer went away."""
         left = self.wild.left if self.wild is not None else set[int]()
-        gone = [number for number, entity in enumerate(self._there) if entity not in there and entity not in left]
+        gone = [
+            number for number, entity in enumerate(self._row_entities) if entity not in there and entity not in left
+        ]
         left.clear()
         if gone:
-            self._going.fell(self._rows[gone], time=time)
+            self._fading.fell(self._rows[gone], time=time)
 
     def _shade_grass(self) -> None:
-        """Let less grass grow below the trees that stand."""
+        """Lower the grass density below the trees that stand."""
         density = self._grown.ground.density
-        changed = density.crowns.stand(_discs(np.concatenate([self._rows, self._going.rows()]), self._grown))
+        changed = density.crowns.stand(_discs(np.concatenate([self._rows, self._fading.rows()]), self._grown))
         if len(changed):
             density.sown.touch(_boxes(changed))
 
     def _knows(self, tree: Tree) -> bool:
-        """Return whether the scene has a tree's kind; say once where it does not."""
+        """Return whether the scene declares a tree's kind; report once if not."""
         kinds = self._grown.scene.trees
         if tree.kind in kinds:
             return True
@@ -186,29 +190,29 @@ class Trees(Feature):
 
     @property
     def kinds(self) -> Mapping[str, TreeKind]:
-        """Those that the scene has, by their names."""
+        """Kinds of trees of the scene, by name."""
         return self._grown.scene.trees
 
     def planted(self) -> set[int]:
-        """Return the entities of the scene's own trees that are as they were planted."""
+        """Return the entities of the scene's trees that are unchanged since they were planted."""
         self._revive()
         own = {entity for number, entity in enumerate(self.entities) if self._is_as_planted(number)}
         return own | (self.wild.entities if self.wild is not None else set())
 
     def felled(self) -> tuple[list[int], list[Felled], list[Place]]:
-        """Return which trees of the scene's own are gone, or have become others, and where all of these stood.
+        """Return the scene's trees that are gone or changed, and where all of them stood.
 
-        First those that have numbers, then those of a forest too large for that.
+        First the numbers of single trees, then those of a large forest.
         """
         self._revive()
-        own, (wild, stood) = self._changed(), ([], []) if self.wild is None else self.wild.felled()
+        own, (wild, stood) = self._changed_numbers(), ([], []) if self.wild is None else self.wild.felled()
         poses = [self._seedlings[number][1] for number in own]
         return own, wild, [*[(pose.x, pose.z) for pose in poses], *stood]
 
     def found_again(
         self, own: Sequence[int], wild: Sequence[Felled], stood: Sequence[Place] | None, /
     ) -> tuple[list[int], Gone]:
-        """Return which trees those are that `felled` returned of this scene, or of one before it.
+        """Return the trees of this scene that `felled` returned of it, or of an earlier scene.
 
         Raises ValueError for any that the scene does not have.
         """
@@ -219,7 +223,7 @@ class Trees(Feature):
         rest = None if stood is None else stood[len(own) :]
         return numbers, {} if self.wild is None else self.wild.found_again(wild, rest)
 
-    def _changed(self) -> list[int]:
+    def _changed_numbers(self) -> list[int]:
         return [number for number in range(len(self.entities)) if not self._is_as_planted(number)]
 
     def _is_as_planted(self, number: int) -> bool:
@@ -227,24 +231,24 @@ class Trees(Feature):
         return self._world.has(entity) and (find(entity, Tree), find(entity, Pose)) == self._seedlings[number]
 
     def fell(self, numbers: list[int], wild: Gone, kept: set[int], /) -> None:
-        """Let these be gone of the scene's own, and all others stand where they were planted.
+        """Remove these trees of the scene, and restore all others to where they were planted.
 
-        Those that a game has made others stay where they are among the entities `kept`.
+        Trees that a game has changed stay if they are among the entities `kept`.
         """
-        self._rows, self._there = self._rows[:0], []  # what a saved game has not is not felled now
-        self._heights = -1  # look again, though the entities may be the same
-        self._going.forget()
+        self._rows, self._row_entities = self._rows[:0], []  # what a saved game has not is not felled now
+        self._terrain_version = -1  # look again, though the entities may be the same
+        self._fading.forget()
         if self.wild is not None:
             self.wild.fell(wild, kept)
-        others, wanted = set(self._changed()), set(numbers)
+        others, wanted = set(self._changed_numbers()), set(numbers)
         for number in wanted:
             entity = self.entities[number]
             if self._world.has(entity) and not (number in others and entity in kept):
                 self._world.delete(entity)
         for number in others - wanted:
-            self._plant_again(number)
+            self._replant(number)
 
-    def _plant_again(self, number: int) -> None:
+    def _replant(self, number: int) -> None:
         entity, seedling = self.entities[number], self._seedlings[number]
         if self._world.has(entity):
             for part in seedling:
@@ -253,17 +257,17 @@ class Trees(Feature):
             self.entities[number] = self._world.create(*seedling)
 
     def release(self) -> None:
-        """Let nothing grow any more."""
+        """Stop the growing thread."""
         if self.wild is not None:
             self.wild.release()
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> TreePart:
-        """Return what draws them."""
+        """Return the part that draws them in a GL context."""
         return TreePart(ctx, block, units, lambda: self.standing, lambda: self.shading)
 
 
 def _seedlings(name: str, kind: TreeKind, place: Floats, *, seed: int) -> list[Seedling]:
-    """Return the single trees of a kind that stand at places (n, 2) [m]."""
+    """Return the single trees of a kind at places (n, 2) [m]."""
     draw = np.random.default_rng((seed, 47))
     low, high = kind.height or HABITS[kind.habit].height
     heights = np.clip(draw.uniform(low, high, len(place)), LOWEST, HIGHEST).tolist()
@@ -274,13 +278,13 @@ def _seedlings(name: str, kind: TreeKind, place: Floats, *, seed: int) -> list[S
     ]
 
 
-def _made_of(grown: Grown) -> tuple[object, ...]:
+def _planting_inputs(grown: Grown) -> tuple[object, ...]:
     kinds = {name: kind.uncoloured for name, kind in grown.scene.trees.items()}
     return list(kinds.items()), grown.scene.seed, grown.ground.terrain, grown.ground.density
 
 
 def _boxes(discs: Doubles) -> Doubles:
-    """Return corners (x, z) [m] between which discs (n, 4) lie, (m, 2, 2): those near to one another in one."""
+    """Return bounding boxes of discs (n, 4), each of one square of the ground: corners (x, z) [m], shape (m, 2, 2)."""
     _, box = np.unique(np.floor(discs[:, :2] / SQUARE), axis=0, return_inverse=True)
     box, reach = box.reshape(-1), discs[:, 2:3]
     low, high = np.full((box.max() + 1, 2), np.inf), np.full((box.max() + 1, 2), -np.inf)
@@ -290,7 +294,7 @@ def _boxes(discs: Doubles) -> Doubles:
 
 
 def _discs(rows: NDArray[np.void], grown: Grown) -> Doubles:
-    """Return how crowns and trunks of trees, records of `STANDING`, shade the grass, as `Crowns` has it."""
+    """Return the discs by which crowns and trunks of records of `STANDING` shade the grass, as `Crowns` has them."""
     discs, feet = np.zeros((2, len(rows), 4))
     for number, kind in enumerate(grown.scene.trees.values()):
         for which, model in enumerate(models_of(kind.habit, grown.scene.seed + number)):
@@ -306,8 +310,8 @@ def _discs(rows: NDArray[np.void], grown: Grown) -> Doubles:
     return discs[discs[:, 3] > 0.0]
 
 
-def _rows(found: Found, grown: Grown) -> NDArray[np.void]:
-    """Return trees as they stand, records of `STANDING`."""
+def _rows(found: Posed, grown: Grown) -> NDArray[np.void]:
+    """Return entities as records of `STANDING`."""
     names = list(grown.scene.trees)
     rows = np.zeros(len(found), STANDING)
     if not found:

@@ -1,4 +1,4 @@
-"""Which trees are felled, as a state holds it: by number and by where each stood, so that another scene finds them."""
+"""Felled trees of a saved state: by number and place, so that another scene finds them."""
 
 from collections.abc import Sequence
 
@@ -7,16 +7,17 @@ import numpy as np
 from ...components.arrays import Doubles
 
 SAME = 0.05
-"""How far off a tree may stand that another processor or release has placed [m]: no two are so close."""
+"""Distance within which two trees are the same one [m]: another processor or release may place it differently, and no
+two trees are so close."""
 
 Place = tuple[float, float]
-"""Where a tree stands, (x, z) [m]."""
+"""Place of a tree, (x, z) [m]."""
 
 
 def found_again(numbers: Sequence[int], stood: Sequence[Place] | None, places: Doubles, /) -> list[int]:
-    """Return which of the trees at `places` (n, 2) [m] those are that had these numbers, and stood there.
+    """Return the indices of the felled trees among `places` (n, 2) [m].
 
-    Raises ValueError where none is.
+    `numbers` are their indices when felled, and `stood` their places. Raises ValueError where none is found.
     """
     if stood is None:
         if not all(0 <= number < len(places) for number in numbers):

@@ -1,4 +1,4 @@
-"""Trees of density: all that a small ground has, and those about a viewer on one of any size; and how old they are."""
+"""Trees of density: all of a small ground, and those about a viewer on a large one; and their heights by age."""
 
 from collections.abc import Iterable
 from functools import partial
@@ -20,57 +20,57 @@ from .scatter import SQUARE, Scatter, Squares, apart
 from .standing import DENSE_TO, STANDING, individualise
 
 MOST_ENTITIES = 20_000
-"""Trees of density that are all entities; of more, those are near viewers."""
+"""Trees of density that are all entities; of more, only those near viewers are."""
 
 LEVELS = 5
-"""How often the trees that are shown are fewer, each time from twice as far off on: up to 8 km."""
+"""Number of rings about a viewer, each of fewer trees and twice the reach of the last: up to 8 km."""
 
 HECTARE = 1e4
 """[m²]."""
 
 GROVE = 45.0
-"""How far it is from grove to grove, about [m]."""
+"""Distance between groves, about [m]."""
 
 FINER, FINER_PART = 2.7, 0.4
-"""How many times as close together what makes groves uneven is, and how much it adds to them."""
+"""Frequency of the noise that makes groves uneven, and its amplitude, of that of groves."""
 
-STEEP = 3.0
-"""How fast groves grow dense from their edge inwards, by their noise of -1 to 1: all over a third of it."""
+GROVE_EDGE = 3.0
+"""Steepness of a grove's density by its noise of -1 to 1: full from a third on."""
 
 DENSER = 4.0
-"""How many times as densely trees stand in groves as on the whole ground."""
+"""Density of trees in groves, of that on the whole ground."""
 
 STEEPEST = 89.9
-"""Slope on which trees grow at most [degrees]: its tangent is a number."""
+"""Greatest slope on which trees grow [degrees]: its tangent is a finite number."""
 
-NEAREST = 0.5
-"""How near to another kind's a tree may stand, of its own spacing."""
+LEAST_APART = 0.5
+"""Least distance from a tree of another kind, of its own spacing."""
 
-FALLS = 1.5
-"""How many times e fewer grown trunks there are than the thinnest: their number falls by the same factor from each
-class of diameters to the next (de Liocourt, De l'amenagement des sapinieres, 1898), here by 1.35 in each of five."""
+DIAMETER_DECAY = 1.5
+"""Natural logarithm of the ratio of the thinnest to grown trunks in number: it falls by the same factor from each class
+of diameters to the next (de Liocourt, De l'amenagement des sapinieres, 1898), here by 1.35 in each of five."""
 
-SOON = 1.6
-"""How soon a trunk's height comes to a grown one's, by its diameter d: as 1 - exp(-SOON d) (Meyer, A Mathematical
-Expression for Height Curves, 1940)."""
+HEIGHT_GROWTH = 1.6
+"""Rate of height growth by diameter d: 1 - exp(-HEIGHT_GROWTH d) (Meyer, A Mathematical Expression for Height Curves,
+1940)."""
 
 SEEDLING = 0.1
-"""Height of the youngest that are shown, of grown ones."""
+"""Height of the youngest trees shown, of grown ones."""
 
 Square = tuple[int, int]
 Rows = NDArray[np.void]
 Gone = dict[Square, dict[int, Place]]
-"""Which trees are gone from squares, by their numbers on each, and where they stood."""
+"""Trees gone from squares: by number on each, and where they stood."""
 
 
 class Forest:
-    """The trees that the kinds' densities bring to a ground; `fixed` are the places (n, 2) of others, by kind."""
+    """The trees that the kinds' densities bring to a ground; `fixed` are the places (n, 2) of single trees, by kind."""
 
     def __init__(self, grown: Grown, fixed: list[Floats]) -> None:
         self._grown, self._fixed = grown, fixed
-        self._known: dict[tuple[int, int, int], Rows] = {}
-        """What grows on squares, by level and their numbers."""
-        self._heights = -1
+        self._squares: dict[tuple[int, int, int], Rows] = {}
+        """Grown trees of squares, by level and square."""
+        self._terrain_version = -1
         self.gone: Gone = {}
         names = list(grown.scene.grass)
         self._kinds = [
@@ -81,7 +81,7 @@ class Forest:
 
     @property
     def is_large(self) -> bool:
-        """Whether there are too many for all to be entities."""
+        """Whether there are too many trees for all to be entities."""
         hectares = float(np.prod(self._grown.ground.terrain.whole)) / HECTARE
         return hectares * sum(kind.density for _, kind, _, _ in self._kinds) > MOST_ENTITIES
 
@@ -89,11 +89,11 @@ class Forest:
         """Return all trees of a small ground, records of `STANDING`."""
         half = [int(np.ceil(side / 2.0 / SQUARE)) for side in self._grown.ground.terrain.whole]
         squares = Squares((-half[0], -half[1]), np.ones((2 * half[0], 2 * half[1]), np.bool_))
-        return self._on(squares, 0)[0] if self._kinds else np.zeros(0, STANDING)
+        return self._trees_on(squares, 0)[0] if self._kinds else np.zeros(0, STANDING)
 
     @property
     def streams(self) -> bool:
-        """Whether it has only the squares that its ground's window shows."""
+        """Whether the ground is streamed: then only squares of its window can grow."""
         return self._grown.ground.terrain.blocks is not None
 
     def reaches(self, square: Square, /) -> bool:
@@ -102,38 +102,38 @@ class Forest:
         return bool((np.array(square, float) >= -half).all() and (np.array(square, float) < half).all())
 
     def on(self, squares: Iterable[Square], /) -> dict[Square, Rows]:
-        """Return the trees on squares whose trees are shown one by one."""
+        """Return the trees on squares, at full density."""
         wanted = [(0, *square) for square in squares]
         self._grow(wanted)
-        return {(i, j): self._known[0, i, j] for _, i, j in wanted}
+        return {(i, j): self._squares[0, i, j] for _, i, j in wanted}
 
     def around(self, eye: tuple[float, float, float], but: Iterable[Square], /) -> Rows:
-        """Return those about an eye (x, y, z) [m], but those on some squares: fewer and fewer from `DENSE_TO` on."""
+        """Return the trees about an eye (x, y, z) [m] but on some squares: fewer and fewer from `DENSE_TO` on."""
         left_out = {(0, *square) for square in but}
-        wanted = [each for level in range(LEVELS) for each in self._ring(eye, level) if each not in left_out]
+        wanted = [each for level in range(LEVELS) for each in self._squares_of_ring(eye, level) if each not in left_out]
         self._grow(wanted)
         self._forget([*wanted, *left_out])
-        self._follow_ground()
+        self._update_heights()
         gone = self.gone
-        parts = [self._known[each] for each in wanted if each[0] or each[1:] not in gone]
+        parts = [self._squares[each] for each in wanted if each[0] or each[1:] not in gone]
         parts += [self._standing(each[1:]) for each in wanted if not each[0] and each[1:] in gone]
         return np.frombuffer(bytearray().join(part.tobytes() for part in parts), STANDING)  # much quicker than numpy's
 
     def _standing(self, square: Square) -> Rows:
-        rows = self._known[0, *square]
+        rows = self._squares[0, *square]
         return np.delete(rows, [number for number in self.gone[square] if number < len(rows)])
 
     @property
     def version(self) -> int:
-        """How often the ground has changed that it stands on."""
+        """Number of changes of the terrain."""
         return self._grown.ground.terrain.changes.count
 
     def grow_about(self, eye: tuple[float, float, float], /) -> None:
-        """Have all grown that `around` returns of an eye (x, y, z) [m], on any thread."""
-        self._grow([each for level in range(LEVELS) for each in self._ring(eye, level)])
+        """Grow all that `around` returns for an eye (x, y, z) [m], on any thread."""
+        self._grow([each for level in range(LEVELS) for each in self._squares_of_ring(eye, level)])
 
-    def _ring(self, eye: tuple[float, float, float], level: int) -> list[tuple[int, int, int]]:
-        """Return the squares of a level that are shown about an eye, which is anywhere on its own."""
+    def _squares_of_ring(self, eye: tuple[float, float, float], level: int) -> list[tuple[int, int, int]]:
+        """Return the squares of a level that are shown to an eye anywhere on its own square."""
         side, outer = SQUARE * 2**level, DENSE_TO * 2**level
         own = np.floor(np.array(eye[::2]) / side).astype(int)
         steps = np.arange(-round(outer / side) - 1, round(outer / side) + 2)
@@ -151,56 +151,56 @@ class Forest:
         return [(level, *square) for square in squares[within.all(axis=1)].tolist()]
 
     def _grow(self, wanted: list[tuple[int, int, int]]) -> None:
-        unknown = [each for each in wanted if each not in self._known]
+        unknown = [each for each in wanted if each not in self._squares]
         for level in sorted({each[0] for each in unknown}):
             missing = np.array([each[1:] for each in unknown if each[0] == level])
             low = missing.min(axis=0)
             mask = np.zeros(missing.max(axis=0) - low + 1, np.bool_)
             mask[tuple((missing - low).T)] = True
-            rows, square = self._on(Squares((int(low[0]), int(low[1])), mask), level)
+            rows, square = self._trees_on(Squares((int(low[0]), int(low[1])), mask), level)
             number = (square[:, 0] - low[0]) * mask.shape[1] + square[:, 1] - low[1]
             order = np.argsort(number, kind="stable")
             ends = np.searchsorted(number[order], np.arange(mask.size + 1))
             rows = rows[order]
             for i, j in missing.tolist():
-                at = (i - low[0]) * mask.shape[1] + j - low[1]
-                self._known[level, i, j] = rows[ends[at] : ends[at + 1]].copy()
+                index = (i - low[0]) * mask.shape[1] + j - low[1]
+                self._squares[level, i, j] = rows[ends[index] : ends[index + 1]].copy()
 
     def _forget(self, wanted: list[tuple[int, int, int]]) -> None:
-        if len(self._known) > 4 * len(wanted) + 100:
+        if len(self._squares) > 4 * len(wanted) + 100:
             kept = set(wanted)
-            self._known = {each: rows for each, rows in self._known.items() if each in kept}
+            self._squares = {each: rows for each, rows in self._squares.items() if each in kept}
 
-    def _follow_ground(self) -> None:
-        """Let all that is known stand on the ground as it is."""
+    def _update_heights(self) -> None:
+        """Move known trees to the terrain as it is now."""
         terrain = self._grown.ground.terrain
-        if self._heights != terrain.changes.count and self._heights >= 0:
-            for rows in self._known.values():
+        if self._terrain_version != terrain.changes.count and self._terrain_version >= 0:
+            for rows in self._squares.values():
                 rows["root"][:, 1] = height_at(terrain, np.ascontiguousarray(rows["root"][:, ::2]))
-        self._heights = terrain.changes.count
+        self._terrain_version = terrain.changes.count
 
-    def _on(self, squares: Squares, level: int) -> tuple[Rows, NDArray[np.int32]]:
-        """Return the trees on squares, records of `STANDING`, and the numbers (n, 2) of their squares."""
+    def _trees_on(self, squares: Squares, level: int) -> tuple[Rows, NDArray[np.int32]]:
+        """Return the trees on squares, records of `STANDING`, and the square of each (n, 2)."""
         found, taken = [], list[Floats]()
         for order, (number, kind, among, seed) in enumerate(self._kinds):
-            more = len(self._kinds) - 1 - order if level == 0 else 0
-            asked = _wider(squares, more)
+            margin = len(self._kinds) - 1 - order if level == 0 else 0
+            asked = _widened(squares, margin)
             share = partial(self._share, kind, among, seed)
             place, square = Scatter(kind, seed, share, DENSER if kind.groves > 0.0 else 1.0, level).within(asked)
             if level == 0:
                 free = apart(place, self._fixed[number], kind.spacing)
                 for others in (*self._fixed[:number], *self._fixed[number + 1 :], *taken):
-                    free &= apart(place, others, NEAREST * kind.spacing)
+                    free &= apart(place, others, LEAST_APART * kind.spacing)
                 place, square = place[free], square[free]
                 taken.append(place)
-            at = square - squares.corner
-            own: Mask = np.asarray(((at >= 0) & (at < squares.wanted.shape)).all(axis=1))
-            own[own] = squares.wanted[tuple(at[own].T)]
-            found.append((self._rows(number, kind, seed, place[own], level), square[own]))
+            offset = square - squares.corner
+            inside: Mask = np.asarray(((offset >= 0) & (offset < squares.wanted.shape)).all(axis=1))
+            inside[inside] = squares.wanted[tuple(offset[inside].T)]
+            found.append((self._rows(number, kind, seed, place[inside], level), square[inside]))
         return np.concatenate([rows for rows, _ in found]), np.concatenate([square for _, square in found])
 
     def _share(self, kind: TreeKind, among: int | None, seed: int, place: Floats) -> Floats:
-        """Return how many of a kind's trees there are at places (n, 2) [m], of all, shape (n,)."""
+        """Return the density of a kind's trees at places (n, 2) [m], as a share of the greatest, shape (n,)."""
         terrain, share = self._grown.ground.terrain, np.ones(len(place), np.float32)
         if kind.groves > 0.0:
             lattice = (place / np.float32(GROVE)).astype(np.float32)
@@ -208,7 +208,7 @@ class Forest:
                 smooth_noise(noise_table(seed, 45 + n), lattice * np.float32(f))[:, 0]
                 for n, f in ((0, 1.0), (1, FINER))
             )
-            dense = np.clip(STEEP * (wave + FINER_PART * finer), 0.0, 1.0)
+            dense = np.clip(GROVE_EDGE * (wave + FINER_PART * finer), 0.0, 1.0)
             share = np.clip(1.0 - kind.groves * (1.0 - dense), 0.0, 1.0).astype(np.float32)
         share *= stands(terrain, place)
         grows = np.flatnonzero(share > 0.0)
@@ -222,18 +222,18 @@ class Forest:
         rows = np.zeros(len(place), STANDING)
         rows["root"][:, 0], rows["root"][:, 2] = place.T
         rows["root"][:, 1] = height_at(self._grown.ground.terrain, place)
-        own = hash3(seed, *(np.ascontiguousarray(each).view(np.int32) for each in place.T))
+        hashed = hash3(seed, *(np.ascontiguousarray(each).view(np.int32) for each in place.T))
         low, high = kind.height or HABITS[kind.habit].height
-        tall = low + (high - low) * unit(stream(own, 5)).astype(np.float64)
-        rows["height"] = np.clip(tall * grown_to(kind.young, unit(stream(own, 7))), LOWEST, HIGHEST)
-        rows["yaw"] = np.pi * (2.0 * unit(stream(own, 6)) - 1.0)
+        tall = low + (high - low) * unit(stream(hashed, 5)).astype(np.float64)
+        rows["height"] = np.clip(tall * grown_to(kind.young, unit(stream(hashed, 7))), LOWEST, HIGHEST)
+        rows["yaw"] = np.pi * (2.0 * unit(stream(hashed, 6)) - 1.0)
         rows["foliage"], rows["kind"], rows["ring"] = kind.foliage, number, level + 1
         individualise(rows)
         return rows
 
 
-def _wider(squares: Squares, by: int) -> Squares:
-    """Return squares with those up to so many beside them."""
+def _widened(squares: Squares, by: int) -> Squares:
+    """Return squares with a margin of `by` more on each side."""
     wanted = np.pad(squares.wanted, by)
     for _ in range(by):
         for axis in (0, 1):
@@ -242,12 +242,12 @@ def _wider(squares: Squares, by: int) -> Squares:
 
 
 def grown_to(young: float, chance: NDArray[np.floating], /) -> Doubles:
-    """Return how high trees stand, of what they grow to, shape (n,): a part of them is young.
+    """Return the heights of trees, of grown ones, shape (n,); a share of `young` of them is still growing.
 
     `chance` is a random number of each in [0, 1), shape (n,).
     """
     grows = chance < young
     order = np.where(grows, chance, 0.0) / max(young, float(np.finfo(np.float32).tiny))
-    diameter = -np.log1p(-order * (1.0 - np.exp(-FALLS))) / FALLS
-    height = -np.expm1(-SOON * diameter) / -np.expm1(-SOON)
+    diameter = -np.log1p(-order * (1.0 - np.exp(-DIAMETER_DECAY))) / DIAMETER_DECAY
+    height = -np.expm1(-HEIGHT_GROWTH * diameter) / -np.expm1(-HEIGHT_GROWTH)
     return np.where(grows, SEEDLING + (1.0 - SEEDLING) * height, 1.0)

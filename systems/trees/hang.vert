@@ -32,7 +32,7 @@ void tell_leaves(int number, vec3 along, vec3 aside, float turns, Light above, v
     pack(HungLeaves(along, aside, above.sun, above.sky, below, above.haze, turns, number), hung_axes, hung_light, hung_haze);
 }
 #else
-#include "systems/trees/lying.glsl"
+#include "systems/trees/normals.glsl"
 
 const bool LEAF_BY_LEAF = false;
 

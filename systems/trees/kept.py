@@ -1,4 +1,4 @@
-"""Pictures of trees that were drawn once, kept on disk under a hash of everything that they depend on."""
+"""Pictures of trees, cached on disk under a hash of everything that they depend on."""
 
 import io
 import json
@@ -21,25 +21,25 @@ from .twig import PICTURES as OF_TWIGS
 SUFFIX = ".trees"
 
 MOST = 24
-"""Files that are kept: a kind of tree each, and some megabytes."""
+"""Number of files that are kept, one a kind of tree, of some megabytes each."""
 
 QUICKLY = 1
-"""How hard files are compressed: a fifth of the time of what is usual, for files a tenth larger."""
+"""Compression level: a fifth of the usual time, for files a tenth larger."""
 
 Picture = list[Bytes]
-"""Layers (n, rows, columns, 4) at each of their sizes, the finest first."""
+"""Layers (n, rows, columns, 4) at each mip level, the finest first."""
 
 
 def kind_key(habit: str, seed: int, renderer: str, /) -> str:
-    """Return a name for the pictures of a kind as a graphics card draws them, in hexadecimal; colours do not count."""
+    """Return the cache key of a kind's pictures on a graphics card, in hexadecimal; colours are not in it."""
     depends = {"version": _version(), "habit": habit, "seed": seed, "renderer": renderer}
     return blake2b(json.dumps(depends, sort_keys=True).encode(), digest_size=20).hexdigest()
 
 
 def kept_pictures(key: str, sides: list[tuple[int, int]], /) -> list[Picture] | None:
-    """Return a twig's pictures and those of a kind's models, as they were kept; None where they are not, or broken.
+    """Return a twig's pictures and those of its kind's models from the cache; None where missing or broken.
 
-    Of each model there are two, as `of_tree` has them; they have so many texels across and up.
+    A model has two, as `tree_levels` returns them; `sides` are the texels across and up of each model's.
     """
     told = kept(key + SUFFIX, key)
     if told is None:
@@ -57,7 +57,7 @@ def kept_pictures(key: str, sides: list[tuple[int, int]], /) -> list[Picture] | 
 
 
 def keep_pictures(key: str, pictures: list[Picture], /) -> None:
-    """Keep what `kept_pictures` returns; where nothing can be written, that is said once."""
+    """Write what `kept_pictures` returns; a folder that cannot be written is reported once."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=QUICKLY) as archive:
         for one, levels in enumerate(pictures):
@@ -68,7 +68,7 @@ def keep_pictures(key: str, pictures: list[Picture], /) -> None:
 
 
 def sizes_of(sides: list[tuple[int, int]], /) -> list[list[tuple[int, int, int, int]]]:
-    """Return the shapes of all pictures of a kind, at each of their sizes."""
+    """Return the shapes of all pictures of a kind, at each mip level."""
     coarser = COARSER.bit_length() - 1
     each = [(2 * OF_TWIGS, CARD, CARD, range(LEVELS))]
     for wide, lines in sides:
@@ -80,7 +80,7 @@ def sizes_of(sides: list[tuple[int, int]], /) -> list[list[tuple[int, int, int, 
 
 @cache
 def _version() -> str:
-    """Return a hash of the code that grows and draws trees, so that nothing drawn by other code counts as its own."""
+    """Return a hash of the code that grows and draws trees: pictures of other code do not count."""
     digest = blake2b(np.__version__.encode(), digest_size=16)
     root = files("tallgrass")
     for folder in (root / "systems" / "trees", root / "engine" / "shaders" / "lib"):

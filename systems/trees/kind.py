@@ -1,4 +1,4 @@
-"""A kind of tree in one GL context: its twig's card, and its models with their pictures from all around."""
+"""A kind of tree in one GL context: its twig's card, and its models with their pictures from all picture_outline."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -13,14 +13,36 @@ from ...engine.gl.shaders import PackedUniforms, pack, pack_array, set_packed, s
 from ...engine.gl.stream import release_all
 from ..light.materials import pigment
 from . import parameter
-from .bake import CARD, covers, evened, filtered, from_around, of_tree, on_card, on_cards, pictures, smaller
+from .bake import (
+    CARD,
+    card_matrix,
+    card_texels,
+    coverage,
+    equalised,
+    mip_levels,
+    pictures,
+    texture_of,
+    tree_levels,
+    view_matrix,
+)
 from .far import COLUMNS, ROWS
 from .habit import HABITS, NEEDLES, Leaf
 from .kept import keep_pictures, kept_pictures, kind_key
-from .lies import Lies, lies_of, lies_on
 from .model import models_of
 from .noise import bark_noise
-from .outline import BOX, CLOSE, FAINTEST, ONE, around, core, covered_at, outline, pairs, solid_above
+from .normals import Normals, card_normals, tree_normals
+from .outline import (
+    BOX,
+    CLOSE_MARGIN,
+    FAINTEST,
+    FULL,
+    card_outline,
+    corner_list,
+    covered_at,
+    picture_outline,
+    solid_above,
+    solid_outline,
+)
 from .programs import Programs
 from .stream import LEAVES, PICTURED, QUAD, WOOD, GpuModel, Numbers
 from .twig import BEHIND, FINER_EACH, HANGING_OFF, SHOOTS_LONG, SHOOTS_OFF
@@ -54,12 +76,12 @@ class GpuKind:
         self._seed = seed
         self.models = [GpuModel(ctx, each) for each in models_of(declared.habit, seed)]
         self.card: moderngl.TextureArray | None = None
-        self.outline = self.core = pairs(BOX)
+        self.outline = self.solid_outline = corner_list(BOX)
         """Outlines of its card, and of the part dense enough to be drawn as opaque."""
         self.solid, self._behind = SOLID, BEHIND * self.habit.twigs.length
         """Coverage from which on its card is drawn as opaque; depth behind its soft edges that is clear of leaves
         [m]."""
-        self._lies = Lies()
+        self._normals = Normals()
         self._hides: tuple[float, ...] = (1.0,) * OF_TWIGS
         """Coverage of its card on each of its pictures, of that on the first."""
         self.bark = mipmapped(ctx, bark_noise())
@@ -72,7 +94,7 @@ class GpuKind:
         self._vectors = {id(each): parameter.vectors({**self._uniforms, **each.numbers}) for each in self.models}
 
     def bake(self, programs: Programs) -> None:
-        """Bake its twig's card, and then its models' pictures from all around, unless they are cached."""
+        """Bake its twig's card, and then its models' pictures from all picture_outline, unless they are cached."""
         key = kind_key(self.declared.habit, self._seed, self.ctx.info["GL_RENDERER"])
         found = kept_pictures(key, [(model.model.wide, model.model.lines) for model in self.models])
         if found is None:
@@ -83,34 +105,34 @@ class GpuKind:
             keep_pictures(key, found)
         self._load_card(found[0])
         for model, seen, depths in zip(self.models, found[1::2], found[2::2], strict=True):
-            model.far, model.met = filtered(self.ctx, seen), filtered(self.ctx, depths)
-            model.lies = lies_on(model.model.twigs, self._lies, turn=self.habit.leaf.form == NEEDLES)
-            cover = covers(seen[0], model.model.wide, model.model.lines)
-            model.around = around(cover)
-            model.core = core(cover, ONE * CLOSED, model.around)
+            model.far, model.met = texture_of(self.ctx, seen), texture_of(self.ctx, depths)
+            model.normals = tree_normals(model.model.twigs, self._normals, turn=self.habit.leaf.form == NEEDLES)
+            cover = coverage(seen[0], model.model.wide, model.model.lines)
+            model.outline = picture_outline(cover)
+            model.solid_outline = solid_outline(cover, FULL * CLOSED, model.outline)
 
     def _load_card(self, twig: list[Bytes]) -> None:
         """Make the card's texture, outlines and normals from its twig's pictures."""
         if self.card is None:
             shown = [each[::2, ..., 3].max(axis=0) for each in twig]
             self.solid = solid_above(twig[1][0, ..., 3])  # about as large as such cards are at most
-            self.card = filtered(self.ctx, [evened(on_cards(each), ONE * self.solid) for each in twig])
-            solid = covered_at(shown, ONE * self.solid)
-            self.outline = pairs(outline(shown[0] > FAINTEST))
-            self.core = pairs(outline(solid, CLOSE)) if solid.any() else []
-            self._lies = lies_of(twig[0][:2])
+            self.card = texture_of(self.ctx, [equalised(card_texels(each), FULL * self.solid) for each in twig])
+            solid = covered_at(shown, FULL * self.solid)
+            self.outline = corner_list(card_outline(shown[0] > FAINTEST))
+            self.solid_outline = corner_list(card_outline(solid, CLOSE_MARGIN)) if solid.any() else []
+            self._normals = card_normals(twig[0][:2])
             cover = twig[0][::2, ..., 3].mean(axis=(1, 2))
             self._hides = tuple((cover / cover[0]).tolist())
 
     def _twig_pictures(self, programs: Programs) -> list[Bytes]:
-        """Return the pictures of its twig, each with more and smaller leaves; the depth test is on meanwhile."""
+        """Return the pictures of its twig, each with more and mip_levels leaves; the depth test is on meanwhile."""
         each = [self._twig_picture(programs, FINER_EACH**number) for number in range(OF_TWIGS)]
         return [np.concatenate(layers) for layers in zip(*each, strict=True)]
 
     def _twig_picture(self, programs: Programs, finer: float) -> list[Bytes]:
         """Return its twig's picture with leaves `finer` times as small, and more of them to cover as much."""
         twig = programs.array(LEAVES, self.models[0].bare, baked=True)
-        matrix, leaf = on_card(self.reach, self.habit.twigs.length), self.habit.leaf.finer(finer)
+        matrix, leaf = card_matrix(self.reach, self.habit.twigs.length), self.habit.leaf.finer(finer)
         off = SHOOTS_OFF if self.habit.leaf.shoots > 1 else HANGING_OFF
         numbers = {**_leaf_uniforms(leaf, self.habit.twigs.length), "finer": (finer,), "shoots_off": (off,)}
 
@@ -120,14 +142,14 @@ class GpuKind:
             _set_matrix(twig.program, matrix)
             twig.render(moderngl.TRIANGLES, vertices=QUAD * leaf.quads, instances=1)
 
-        return smaller(pictures(self.ctx, 1, 1, CARD, CARD, draw_twig))
+        return mip_levels(pictures(self.ctx, 1, 1, CARD, CARD, draw_twig))
 
     def _model_pictures(self, programs: Programs, model: GpuModel) -> tuple[list[Bytes], list[Bytes]]:
-        """Return a model's pictures from all around, and the optical depths before what they show."""
+        """Return a model's pictures from all picture_outline, and the optical depths before what they show."""
         wood, cards = (programs.array(sort, model.bare, model, baked=True) for sort in (WOOD, PICTURED))
 
         def draw_tree(number: int) -> None:
-            matrix = from_around(number, model.model.middle, model.model.half, model.model.slim)
+            matrix = view_matrix(number, model.model.middle, model.model.half, model.model.slim)
             for array, count in (
                 (wood, 3 * len(model.model.wood[0].triangles)),
                 (cards, QUAD * len(model.model.twigs)),
@@ -136,7 +158,7 @@ class GpuKind:
                 _set_matrix(array.program, matrix)
                 array.render(moderngl.TRIANGLES, vertices=count, instances=1)
 
-        return of_tree(pictures(self.ctx, COLUMNS, ROWS, model.model.wide, model.model.lines, draw_tree))
+        return tree_levels(pictures(self.ctx, COLUMNS, ROWS, model.model.wide, model.model.lines, draw_tree))
 
     def _kind_uniforms(self) -> Numbers:
         """Return the uniforms of the kind, whichever of its models is drawn."""
@@ -164,9 +186,11 @@ class GpuKind:
         key = id(model)
         if key not in program.extra:  # the model is kept with it: so no other one is taken for it
             uniforms = pack(program, self._uniforms, model.numbers)
-            lies = model.lies if "tree_far" in set_used_uniforms(program) else self._lies
+            normals = model.normals if "tree_far" in set_used_uniforms(program) else self._normals
             uniforms += pack(program, {"hides": self._hides, "behind": (self._behind,)})
-            uniforms += pack_array(program, parameter.NAME, self._vectors[key]) + pack_array(program, "lies", lies)
+            uniforms += pack_array(program, parameter.NAME, self._vectors[key]) + pack_array(
+                program, "leaf_normals", normals
+            )
             program.extra[key] = model, uniforms
         found: PackedUniforms = program.extra[key][1]
         return found

@@ -1,4 +1,4 @@
-"""Models of a kind of tree: what is grown once, as shaders are given it."""
+"""Models of a kind of tree: grown once, and drawn many times."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
 from ...engine.declared.tree import HabitName
-from .bake import lines_of
+from .bake import picture_size
 from .bark import Wood, bark_of
 from .crown import leaf_area, shade_of, shading
 from .grow import Tree, grown
@@ -17,58 +17,58 @@ from .motion import limb_hertz, trunk_hertz
 from .twig import ORDERS, TWIG
 
 MODELS = 2
-"""Trees that are grown of a kind: each stands for many, turned and scaled."""
+"""Models grown of a kind: each stands for many trees, turned and scaled."""
 
 MARGIN = 1.04
-"""Half the breadth and height of a tree's pictures, of how far its twigs reach: leaves go beyond those."""
+"""Half the breadth and height of a tree's pictures, of its twigs' reach: leaves go beyond the twigs."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Model:
-    """A tree that has grown, as shaders are given it."""
+    """A grown tree, as shaders read it."""
 
     habit: Habit
     height: float
     """[m]."""
 
     twigs: NDArray[np.void]
-    """Records of `TWIG`, in an order of which any first ones stand for all, shape (n,)."""
+    """Records of `TWIG`, in an order whose every start is a fair sample, shape (n,)."""
 
     vertices: NDArray[np.void]
     """Records of `BARK`, shape (n,)."""
 
     wood: tuple[Wood, ...]
-    """What is drawn of those, for each of `PIXEL_RADII` and what is farther off."""
+    """Triangles of these, for each of `PIXEL_RADII` and beyond."""
 
     middle: float
-    """Height of the middle of its pictures from all around [m]."""
+    """Height of the middle of its pictures [m]."""
 
     half: float
-    """Half the height of those [m]."""
+    """Half the height of its pictures [m]."""
 
     lines: int
-    """Texels of each up."""
+    """Height of its pictures [texels]."""
 
     wide: int
-    """Those across, as large."""
+    """Width of its pictures [texels]."""
 
     radius: float
-    """How far its crown reaches from the trunk [m]."""
+    """Radius of its crown about the trunk [m]."""
 
     hertz: float
-    """How fast its trunk swings [Hz]."""
+    """Frequency of its trunk [Hz]."""
 
     leaf_area: float
-    """Of all its leaves, one side [m²]."""
+    """Area of all its leaves, one side [m²]."""
 
     @property
     def slim(self) -> float:
-        """How many times as high as wide its pictures are."""
+        """Height of its pictures, of their width."""
         return self.lines / self.wide
 
     @property
     def shade(self) -> tuple[float, float, float]:
-        """How it shades the grass, as `shade_of` has it."""
+        """Its shade on the grass, as `shade_of` returns it."""
         return shade_of(self.leaf_area, self.radius, self.height, 0.5 * self.habit.slender * self.height)
 
 
@@ -88,20 +88,20 @@ def _model(habit: Habit, height: float, *, seed: int) -> Model:
     ends = tree.twigs.foot + tree.twigs.length[:, None] * tree.twigs.along
     radius = float(np.hypot(ends[:, 0], ends[:, 2]).max())
     top = float(ends[:, 1].max())
-    half = MARGIN * max(0.5 * top, radius)  # from above it is as high as it is broad
+    half = MARGIN * max(0.5 * top, radius)  # a picture from above is as high as the tree is broad
     return Model(
-        habit, height, twigs, vertices, wood, 0.5 * top, half, *lines_of(MARGIN * radius / half), radius,
+        habit, height, twigs, vertices, wood, 0.5 * top, half, *picture_size(MARGIN * radius / half), radius,
         trunk_hertz(height, habit.slender * height), float(area.sum()),
     )  # fmt: skip
 
 
 def _limbs(tree: Tree, seed: int) -> tuple[Doubles, Doubles]:
-    """Return each limb's foot (n, 3), and what sets it apart and its frequency (n, 2)."""
+    """Return each limb's foot (n, 3), and its random number and frequency (n, 2)."""
     limbs = tree.levels[1]
-    own = np.random.default_rng((seed, 43)).uniform(0.0, 1.0, len(limbs.at))
-    numbers = np.stack([own, [limb_hertz(each) for each in limbs.length]], axis=1)
+    random = np.random.default_rng((seed, 43)).uniform(0.0, 1.0, len(limbs.at))
+    numbers = np.stack([random, [limb_hertz(each) for each in limbs.length]], axis=1)
     foot, numbers = (each.astype(np.float16).astype(np.float64) for each in (limbs.spine[:, 0], numbers))
-    return foot, numbers  # as vertices have them
+    return foot, numbers  # rounded, as in vertices
 
 
 def _twig_records(tree: Tree, area: Doubles, seed: int) -> NDArray[np.void]:
@@ -109,7 +109,7 @@ def _twig_records(tree: Tree, area: Doubles, seed: int) -> NDArray[np.void]:
     records = np.zeros(len(twigs.foot), TWIG)
     for name in ("foot", "along", "face"):
         records[name] = getattr(twigs, name)
-    records["span"] = twigs.length  # strict compilers take `length` for a method
+    records["span"] = twigs.length  # strict GLSL compilers take `length` for a method
     records["pivot"] = pivot[twigs.limb]
     records["limb"], records["hertz"] = limb[twigs.limb].T
     middle = twigs.foot + 0.5 * twigs.length[:, None] * twigs.along.astype(np.float64)

@@ -1,4 +1,4 @@
-"""Noise that bark is furrowed and spotted by, over a square that repeats."""
+"""Tileable noise for the furrows and spots of bark."""
 
 from functools import lru_cache
 
@@ -8,10 +8,10 @@ from ...components.arrays import Bytes
 from ...engine.gl.mipmaps import levels
 
 NOISE_CELLS = 64
-"""Of a value each, along a side of the square."""
+"""Cells of one value each, along a side of the tile."""
 
 FINER = 4
-"""Texels along a side of one."""
+"""Texels along a side of a cell."""
 
 SEED = 7
 
@@ -20,7 +20,7 @@ GLSL = {"NOISE_CELLS": float(NOISE_CELLS), "NOISE_FINER": float(FINER)}
 
 @lru_cache(maxsize=1)
 def bark_noise() -> list[Bytes]:
-    """Return it at all its levels, a layer (1, rows, columns) each: values of cells, smooth between them."""
+    """Return all mip levels, a layer (1, rows, columns) each: values of cells, smoothly interpolated."""
     values = np.random.default_rng(SEED).uniform(0.0, 255.0, (NOISE_CELLS, NOISE_CELLS))
     at = (np.arange(NOISE_CELLS * FINER) + 0.5) / FINER
     low = at.astype(np.intp)

@@ -1,4 +1,4 @@
-"""Where single trees of a kind stand: at places that are written, and along rows."""
+"""Places of a kind's single trees: given positions, and rows."""
 
 from collections.abc import Sequence
 
@@ -9,26 +9,26 @@ from ...engine.declared.tree import MOST, TreeKind
 from ...engine.terrain.record import Terrain
 from ...engine.terrain.sample import hole_at
 
-ASIDE, ASIDE_MOST = 0.3, 0.4
-"""How far trees of an uneven row stand aside at most, of their distance, and in all [m]."""
+JITTER, MOST_JITTER = 0.3, 0.4
+"""Greatest sideways offset of trees in an uneven row, of their distance, and in all [m]."""
 
 MISSING = 0.125
-"""How many are missing of those of a row as uneven as can be."""
+"""Share of trees missing in a row as uneven as can be."""
 
-LEAST = 0.5
-"""Distance from tree to tree at least [m], where they are not to be nearer."""
+LEAST_APART = 0.5
+"""Least distance between trees [m], unless the kind's spacing is less."""
 
 
 def placed(kind: TreeKind, terrain: Terrain, taken: Floats, /, *, seed: int) -> Floats:
-    """Return the ground positions (n, 2) [m] of a kind's single trees; none stands on another of them or of `taken`.
+    """Return the ground positions (n, 2) [m] of a kind's single trees, none on another or on `taken`.
 
-    Those of rows off the terrain, and all over its holes, are left out.
+    Those off the terrain or over its holes are left out.
     """
     draw = np.random.default_rng((seed, 48))
     rows = [_along(row, kind.spacing, kind.uneven, draw) for row in kind.rows]
     chosen = [np.array(kind.positions, np.float32).reshape(-1, 2), *rows]
     fixed = np.concatenate(chosen)
-    return _apart(fixed[stands(terrain, fixed)], min(kind.spacing, 1.0) * LEAST, taken)
+    return _apart(fixed[stands(terrain, fixed)], min(kind.spacing, 1.0) * LEAST_APART, taken)
 
 
 def stands(terrain: Terrain, place: Floats, /) -> Mask:
@@ -38,7 +38,7 @@ def stands(terrain: Terrain, place: Floats, /) -> Mask:
 
 
 def _along(row: Sequence[Sequence[float]], spacing: float, uneven: float, draw: np.random.Generator) -> Floats:
-    """Return places along a line, from its first to its last, so far apart [m], evenly or not."""
+    """Return places along a line at a spacing [m], evenly or not."""
     line = np.array(row, np.float64)
     run = np.append(0.0, np.hypot(*np.diff(line, axis=0).T).cumsum())
     count = min(max(round(run[-1] / spacing), 1) + 1, MOST)
@@ -46,7 +46,7 @@ def _along(row: Sequence[Sequence[float]], spacing: float, uneven: float, draw: 
     if uneven > 0.0:
         each = uneven * run[-1] / max(count - 1, 1)
         at = (at + each * draw.uniform(-0.5, 0.5, count)).clip(0.0, run[-1])
-        aside = min(ASIDE * each, ASIDE_MOST) * draw.uniform(-1.0, 1.0, (count, 2))
+        aside = min(JITTER * each, MOST_JITTER) * draw.uniform(-1.0, 1.0, (count, 2))
         kept = draw.random(count) >= MISSING * uneven
         at, aside = at[kept], aside[kept]
     place = np.stack([np.interp(at, run, line[:, axis]) for axis in (0, 1)], axis=1)
@@ -54,7 +54,7 @@ def _along(row: Sequence[Sequence[float]], spacing: float, uneven: float, draw: 
 
 
 def _apart(place: Floats, least: float, taken: Floats) -> Floats:
-    """Return the places that are at least so far [m] from those before them; those `taken` count as half as far."""
+    """Return the places at least a distance [m] from those before them, and half of it from those `taken`."""
     cells = dict[tuple[int, int], list[tuple[float, float, float]]]()
 
     def note(x: float, z: float, apart: float) -> None:

@@ -1,4 +1,4 @@
-"""Where density brings trees on ground of any size: square by square, the same whichever squares are asked for."""
+"""Trees of density on ground of any size: square by square, the same whichever squares are asked for."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,88 +15,87 @@ SQUARE = 64.0
 """Side of a square [m]; squares count from the origin, along x and z."""
 
 CANDIDATES = 0.7
-"""Side of a cell in which one tree may stand, of that of the ground which density gives one."""
+"""Side of a cell with one candidate, of the square root of the ground that density gives a tree."""
 
-OWN, LEAST = 0.55, 0.02
-"""How much of the disc in which others are too near lies in a tree's own cell, about, and what counts at least
-[cells]."""
+SAME_CELL, LEAST_RIVALS = 0.55, 0.02
+"""Area of the disc of rivals within a candidate's own cell, about, and least number of rivals [cells]."""
 
 Share = Callable[[Floats], Floats]
-"""Gives how many of the trees of density there are at ground positions (n, 2) [m], of all, in [0, 1], shape (n,)."""
+"""Returns the density at ground positions (n, 2) [m], of the greatest, in [0, 1], shape (n,)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Squares:
-    """Squares of the ground that are asked for: `wanted` of those from a corner on."""
+    """Squares that are asked for: those `wanted` from a corner on."""
 
     corner: tuple[int, int]
-    """Numbers of the first square, along x and z."""
+    """First square (i, j), along x and z."""
 
     wanted: Mask
-    """Which of them, shape (along x, along z)."""
+    """Mask of squares, shape (along x, along z)."""
 
 
 @dataclass(frozen=True)
 class Scatter:
-    """One kind of tree, as density brings it.
+    """Trees of one kind, scattered by density.
 
-    A lattice of cells lies over the ground, and each has a place where a tree may stand. As many of those are drawn as
-    the density says, and of two that are nearer than the kind's spacing the one stays that was drawn first (Matérn,
-    Spatial Variation, 1960: his second process of hard cores).
+    A lattice of cells lies over the ground, each with one candidate place. The density says how many candidates are
+    drawn; of two nearer than the kind's spacing, the one drawn first stays (Matérn, Spatial Variation, 1960: his second
+    hard-core process).
     """
 
     kind: TreeKind
     seed: int
     share: Share
-    more: float
-    """How many times the density grows where `share` is 1."""
+    densest: float
+    """Density where `share` is 1, of the kind's."""
 
     level: int = 0
     """Cells and squares are 2 to this power times as long, and a tree stands for as many as would stand on its cell."""
 
     @cached_property
-    def least(self) -> float:
-        """The distance from tree to tree [m]."""
+    def spacing(self) -> float:
+        """Least distance between trees [m]."""
         return self.kind.spacing * 2.0**self.level
 
     @cached_property
     def cell(self) -> float:
         """Side of a cell [m]."""
-        each = 1e4 / (self.more * self.kind.density)
+        each = 1e4 / (self.densest * self.kind.density)
         return max(self.kind.spacing, CANDIDATES * float(np.sqrt(each))) * 2.0**self.level
 
     def drawn(self, share: Floats) -> Doubles:
-        """Return the part of places that is drawn, so that of those which stay there are so many."""
-        due = share * self.more * self.kind.density * 1e-4 * (self.cell / 2.0**self.level) ** 2
-        crowd = max(np.pi * (self.least / self.cell) ** 2 - OWN, LEAST)
-        return np.asarray(-np.log1p(-np.minimum(crowd * due, 0.999)) / crowd)
+        """Return the probability to draw a candidate, such that those that stay have the right density."""
+        wanted = share * self.densest * self.kind.density * 1e-4 * (self.cell / 2.0**self.level) ** 2
+        rivals = max(np.pi * (self.spacing / self.cell) ** 2 - SAME_CELL, LEAST_RIVALS)
+        return np.asarray(-np.log1p(-np.minimum(rivals * wanted, 0.999)) / rivals)
 
     def within(self, squares: Squares, /) -> tuple[Floats, Ints]:
-        """Return the places (n, 2) [m] of the trees in squares, and the numbers of those squares (n, 2)."""
+        """Return the places (n, 2) [m] of the trees in squares, and the square of each (n, 2)."""
         side = SQUARE * 2.0**self.level
         low = np.array(squares.corner, np.float64) * side
         high = low + np.array(squares.wanted.shape) * side
         first = np.floor(low / self.cell).astype(np.int64) - 2
         size = np.ceil(high / self.cell).astype(np.int64) + 2 - first
         lines = [first[axis] + np.arange(size[axis]) for axis in (0, 1)]
-        of = [
+        square_of = [
             np.floor((line + 0.5) * self.cell / side).astype(np.int64) - at
             for line, at in zip(lines, squares.corner, strict=True)
         ]
-        inside = [(each >= 0) & (each < count) for each, count in zip(of, squares.wanted.shape, strict=True)]
-        at = [np.where(keep, each, 0) for keep, each in zip(inside, of, strict=True)]
-        own = squares.wanted[np.ix_(*at)] & inside[0][:, None] & inside[1][None, :]
-        near = own.copy()
+        inside = [(each >= 0) & (each < count) for each, count in zip(square_of, squares.wanted.shape, strict=True)]
+        at = [np.where(keep, each, 0) for keep, each in zip(inside, square_of, strict=True)]
+        wanted_cell = squares.wanted[np.ix_(*at)] & inside[0][:, None] & inside[1][None, :]
+        near = wanted_cell.copy()
         for axis in (0, 1):
             near |= np.roll(near, 1, axis) | np.roll(near, -1, axis)
-        return self._thinned(lines, own, near, of, squares.corner)
+        return self._thinned(lines, wanted_cell, near, square_of, squares.corner)
 
     def _thinned(
         self,
         lines: list[NDArray[np.int64]],
-        own: Mask,
+        wanted_cell: Mask,
         near: Mask,
-        of: list[NDArray[np.int64]],
+        square_of: list[NDArray[np.int64]],
         corner: tuple[int, int],
     ) -> tuple[Floats, Ints]:
         i, j = near.nonzero()
@@ -106,25 +105,25 @@ class Scatter:
         place = np.stack([x, z], axis=1).astype(np.float32)
         chance = unit(stream(hashed, 3)).astype(np.float64)
         drawn = chance < self.drawn(self.share(place))
-        first = np.full(near.shape, np.inf)  # who comes first stays; who is not drawn, never
-        first[i, j] = np.where(drawn, unit(stream(hashed, 4)), np.inf)
+        priority = np.full(near.shape, np.inf)  # the lower stays; places not drawn never do
+        priority[i, j] = np.where(drawn, unit(stream(hashed, 4)), np.inf)
         at = np.zeros((*near.shape, 2), np.float32)
         at[i, j] = place
-        stays = own & np.isfinite(first)
+        stays = wanted_cell & np.isfinite(priority)
         i, j = stays.nonzero()
         kept = np.ones(len(i), np.bool_)
         for right in (-1, 0, 1):
             for down in (-1, 0, 1):
                 if right or down:
                     other = i + right, j + down
-                    close = ((at[other] - at[i, j]) ** 2).sum(axis=1) < self.least**2
-                    kept &= ~(close & (first[other] < first[i, j]))
+                    close = ((at[other] - at[i, j]) ** 2).sum(axis=1) < self.spacing**2
+                    kept &= ~(close & (priority[other] < priority[i, j]))
         i, j = i[kept], j[kept]
-        return at[i, j], np.stack([of[0][i] + corner[0], of[1][j] + corner[1]], axis=1).astype(np.int32)
+        return at[i, j], np.stack([square_of[0][i] + corner[0], square_of[1][j] + corner[1]], axis=1).astype(np.int32)
 
 
 def apart(place: Floats, others: Floats, least: float, /) -> Mask:
-    """Return which places (n, 2) are at least so far [m] from all others (m, 2), shape (n,)."""
+    """Return which places (n, 2) are at least a distance [m] from all others (m, 2), shape (n,)."""
     free = np.ones(len(place), np.bool_)
     if not len(others):
         return free

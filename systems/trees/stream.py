@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from ...engine.gl.stream import Records, Stream, release_all
 from .bark import PACKED, PIXEL_RADII, packed, ranges_of
-from .lies import Lies
 from .model import Model
+from .normals import Normals
 from .outline import NOWHERE
 from .shells import SHELLS
 from .standing import HUNG, HUNG_LEAVES, INSTANCE, ROW_SPACING, STOOD, TWIG_INSTANCE
@@ -106,9 +106,9 @@ class GpuModel:
         self.far: moderngl.TextureArray | None = None
         """Pictures of the model from all around, and the optical depths before what they show."""
         self.met: moderngl.TextureArray | None = None
-        self.lies = Lies()
+        self.normals = Normals()
         """Normals of its leaves."""
-        self.around = self.core = NOWHERE
+        self.outline = self.solid_outline = NOWHERE
         """Outlines of its pictures, and of what in them is dense enough to be drawn as opaque."""
 
     def bark(self, program: moderngl.Program) -> tuple[moderngl.Buffer | str, ...]:

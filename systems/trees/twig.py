@@ -1,4 +1,4 @@
-"""What shaders are told of each twig of a model, and how they find it."""
+"""The texture of a model's twigs, and its lookup in GLSL."""
 
 import numpy as np
 
@@ -7,44 +7,44 @@ from ...engine.gl.emit import emitted, record_lookup
 TWIG = np.dtype(
     [
         ("foot", "3f4"), ("span", "f4"),  # [m]
-        ("along", "3f4"), ("limb", "f4"),  # what sets its limb apart from others, 0 to 1
+        ("along", "3f4"), ("limb", "f4"),  # random number of its limb, 0 to 1
         ("face", "3f4"), ("hertz", "f4"),  # frequency of its limb
-        ("pivot", "3f4"), ("orders", "f4"),  # foot of its limb [m]; which twig has this one's number in other orders
-        ("shading", "4f4"),  # how many leaves light meets on its way, by direction and in the mean
+        ("pivot", "3f4"), ("orders", "f4"),  # foot of its limb [m]; the twig at this number in two other orders
+        ("shading", "4f4"),  # optical depth outwards, linear in direction
     ]
 )  # fmt: skip
 
 ORDERS = 4096
-"""More than a tree has twigs: their order along x plus so many times that along z is a number that a float holds."""
+"""More than the twigs of a tree: a float holds their order along x plus this times that along z."""
 
 ROW = 64
 """Records in a row of their texture."""
 
 RANKS = 12.0
-"""How steeply a twig dwindles by its rank before it is left out: 1 would be over all ranks."""
+"""Steepness of a twig's shrinking by rank before it is left out: 1 would spread it over all ranks."""
 
 LEAST_KEPT = 0.04
-"""Share of twigs that is drawn at least."""
+"""Least share of twigs that is drawn."""
 
 LEAF_PIXELS = 14.0, 22.0
-"""Length of a leaf from which on twigs begin to be drawn leaf by leaf, and from which all are [pixels]."""
+"""Length of a leaf from which on twigs begin to be drawn leaf by leaf, and from which on all are [pixels]."""
 
 BEHIND = 0.5
-"""How far behind them leaves must have nothing for their soft edges to be drawn, of their twig's length: what is
-nearer is of their colour. And so far behind leaves are thin stems among them."""
+"""Depth behind the soft edges of leaves that must be clear for them to be drawn, of their twig's length: what is nearer
+has their colour. Thin stems among leaves lie as far behind."""
 
 SHOOTS_OFF, SHOOTS_LONG = 0.85, 0.62
 """Angle of side shoots from their twig [rad]; length of the longest, of the twig's."""
 
 HANGING_OFF = 0.3
-"""That angle of twigs that hang side by side, where a card stands for several of those without side shoots [rad]."""
+"""Angle between twigs that hang side by side, where a card shows several without side shoots [rad]."""
 
 PICTURES, FINER_EACH = 3, 1.6
-"""Pictures of a twig's card, and how many times as small leaves are on each as on the one before."""
+"""Number of a twig's pictures, and ratio of leaf sizes from each to the next."""
 
 TWIGS_EACH = FINER_EACH**2
-"""How many times as many twigs each stands for: leaves are as far apart, of how large they are. Were they any closer
-together, cards of a tree near by would be seen as plates."""
+"""Number of twigs that a picture stands for, of the one before: the distance between leaves is in proportion to their
+size. If leaves were denser, a near tree's cards would look like plates."""
 
 GLSL = record_lookup("Twig", TWIG, "tree_twigs", ROW) + emitted(
     {

@@ -15,94 +15,97 @@ from .scatter import SQUARE
 from .standing import Standing
 
 NEAR = 160.0
-"""How near to a viewer squares are whose trees are entities [m]; they stay until they are a square farther off."""
+"""Distance from a viewer of squares whose trees become entities [m]; they stay until a square farther off."""
 
 MOST_VIEWERS = 8
-"""Of more, those count that looked last."""
+"""Greatest number of viewers; of more, those count that looked last."""
 
 
 Seedling = tuple[Tree, Pose]
 Felled = tuple[int, int, int]
-"""A tree that is gone: the numbers of its square, and its own on that."""
+"""A tree that is gone: its square (i, j), and its number on that."""
 
 
 class Wild:
-    """The entities of a large forest, and what is shown of it about each viewer; `names` are those of its kinds.
+    """The entities of a large forest, and the trees shown to each viewer; `names` are those of its kinds.
 
-    While somebody watches `live`, what a viewer comes to see far off grows on another thread.
+    If `live`, distant trees that come into a viewer's range grow on another thread.
     """
 
     def __init__(self, world: World, forest: Forest, names: list[str], *, live: bool) -> None:
         self._world, self._forest, self._names = world, forest, names
         self._live = live
-        self._hands = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")  # without a thread, until it is asked
-        self._asked: dict[str, Future[None]] = {}
+        self._executor = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")  # without a thread, until it is asked
+        self._growing: dict[str, Future[None]] = {}
         self._eyes: dict[str, tuple[int, int]] = {}
-        """The square that each viewer is on."""
-        self._own: dict[Square, list[tuple[int, Seedling]]] = {}
-        """The trees of each square near any, entities and as what they were planted."""
+        """Square that each viewer is on."""
+        self._planted: dict[Square, list[tuple[int, Seedling]]] = {}
+        """Entities and seedlings of each square near a viewer; the entity is -1 where the tree is gone."""
         self._changed: dict[int, Felled] = {}
-        """Trees that a game has made others, and has of its own now, by their entities."""
+        """Trees that a game has changed and taken over, by entity."""
         self.left: set[int] = set()
-        """Entities that were taken away as no viewer is near them any more, until somebody takes note."""
-        self._people = 0
-        self._shown: dict[str, tuple[tuple[object, ...], Standing]] = {}
+        """Entities removed because no viewer is near, until somebody clears the set."""
+        self._generation = 0
+        self._standing: dict[str, tuple[tuple[object, ...], Standing]] = {}
 
     @property
     def entities(self) -> set[int]:
-        """Those that are there as they were planted."""
-        return {entity for own in self._own.values() for entity, one in own if self._is(entity, one)}
+        """Entities that are unchanged since they were planted."""
+        return {
+            entity for own in self._planted.values() for entity, seedling in own if self._unchanged(entity, seedling)
+        }
 
     def follow(self, viewer: str, eye: Eye, /) -> None:
-        """Let the trees near a viewer's eye (x, y, z) [m] be entities."""
+        """Make the trees near a viewer's eye (x, y, z) [m] entities."""
         square = int(np.floor(eye[0] / SQUARE)), int(np.floor(eye[2] / SQUARE))
-        if self._eyes.get(viewer) == square and self._people == self._world.check():
+        if self._eyes.get(viewer) == square and self._generation == self._world.check():
             return
-        if self._people != self._world.check():  # a game has deleted all there was
-            self._own, self._people = {}, self._world.check()
+        if self._generation != self._world.check():  # a game has deleted all there was
+            self._planted, self._generation = {}, self._world.check()
         self._eyes.pop(viewer, None)
         self._eyes[viewer] = square
         self._eyes = dict([*self._eyes.items()][-MOST_VIEWERS:])
-        stay = self._about(2)
-        for left in [each for each in self._own if each not in stay]:
-            self._leave(left)
-        self._come(self._about(1) - self._own.keys())
+        stay = self._squares_near(2)
+        for square_left in [each for each in self._planted if each not in stay]:
+            self._remove(square_left)
+        self._add(self._squares_near(1) - self._planted.keys())
 
-    def _about(self, more: int) -> set[Square]:
-        reach = round(NEAR / SQUARE) + more
+    def _squares_near(self, margin: int) -> set[Square]:
+        reach = round(NEAR / SQUARE) + margin
         steps = range(-reach, reach + 1)
         return {
             (i + x, j + z)
             for i, j in self._eyes.values() for x in steps for z in steps if x * x + z * z <= reach * reach
         }  # fmt: skip
 
-    def _come(self, squares: Iterable[Square]) -> None:
+    def _add(self, squares: Iterable[Square]) -> None:
         for square, rows in self._forest.on(sorted(squares)).items():
             gone = self._forest.gone.get(square, {})
             planted = seedlings(rows, self._names)
-            self._own[square] = [
-                (-1 if number in gone else self._world.create(*one), one) for number, one in enumerate(planted)
+            self._planted[square] = [
+                (-1 if number in gone else self._world.create(*seedling), seedling)
+                for number, seedling in enumerate(planted)
             ]
 
-    def _leave(self, square: Square) -> None:
-        self._note(square)
-        for number, (entity, one) in enumerate(self._own.pop(square)):
-            if self._is(entity, one):
+    def _remove(self, square: Square) -> None:
+        self._note_gone(square)
+        for number, (entity, seedling) in enumerate(self._planted.pop(square)):
+            if self._unchanged(entity, seedling):
                 self._world.delete(entity)
                 self.left.add(entity)
             elif entity >= 0 and self._world.has(entity):
                 self._changed[entity] = *square, number
 
-    def _is(self, entity: int, one: Seedling) -> bool:
-        """Return whether an entity is a tree as it was planted."""
+    def _unchanged(self, entity: int, seedling: Seedling) -> bool:
+        """Return whether an entity is still its seedling."""
         tree = self._world.find(entity, Tree) if entity >= 0 and self._world.has(entity) else None
-        return tree is not None and (tree, self._world.find(entity, Pose)) == one
+        return tree is not None and (tree, self._world.find(entity, Pose)) == seedling
 
-    def _note(self, square: Square) -> None:
-        """Take note which trees of a square are not there any more as they were planted."""
+    def _note_gone(self, square: Square) -> None:
+        """Note which trees of a square are removed or changed."""
         gone = {
-            number: (one[1].x, one[1].z)
-            for number, (entity, one) in enumerate(self._own[square]) if not self._is(entity, one)
+            number: (seedling[1].x, seedling[1].z)
+            for number, (entity, seedling) in enumerate(self._planted[square]) if not self._unchanged(entity, seedling)
         }  # fmt: skip
         if gone:
             self._forest.gone[square] = gone
@@ -110,36 +113,36 @@ class Wild:
             self._forest.gone.pop(square, None)
 
     def standing(self, viewer: str, eye: Eye, rows: Rows, /) -> Standing:
-        """Return the trees that a viewer is shown: `rows` are all that are entities."""
-        made_of = id(rows), self._eyes.get(viewer), tuple(self._own), self._forest.version
-        known = self._shown.get(viewer)
-        if known is not None and known[0][1] != made_of[1] and self._live and self._waits(viewer, eye):
+        """Return the trees that a viewer is shown; `rows` are all that are entities."""
+        inputs = id(rows), self._eyes.get(viewer), tuple(self._planted), self._forest.version
+        known = self._standing.get(viewer)
+        if known is not None and known[0][1] != inputs[1] and self._live and self._still_growing(viewer, eye):
             return known[1]
-        if known is None or known[0] != made_of:
-            self._shown = {name: each for name, each in self._shown.items() if name in self._eyes}
-            known = made_of, Standing(np.concatenate([rows, self._forest.around(eye, self._own)]))
-            self._shown[viewer] = known
+        if known is None or known[0] != inputs:
+            self._standing = {name: each for name, each in self._standing.items() if name in self._eyes}
+            known = inputs, Standing(np.concatenate([rows, self._forest.around(eye, self._planted)]))
+            self._standing[viewer] = known
         return known[1]
 
-    def _waits(self, viewer: str, eye: Eye) -> bool:
-        """Return whether what a viewer comes to see is still growing; it begins to, where it was not asked for."""
-        if viewer not in self._asked:
-            self._asked[viewer] = self._hands.submit(self._forest.grow_about, eye)
-        if not self._asked[viewer].done():
+    def _still_growing(self, viewer: str, eye: Eye) -> bool:
+        """Return whether a viewer's distant trees are still growing; start growing them if need be."""
+        if viewer not in self._growing:
+            self._growing[viewer] = self._executor.submit(self._forest.grow_about, eye)
+        if not self._growing[viewer].done():
             return True
-        self._asked.pop(viewer).result()
+        self._growing.pop(viewer).result()
         return False
 
     def felled(self) -> tuple[list[Felled], list[Place]]:
-        """Return which trees are gone, or have become others, and where these stood."""
-        for square in self._own:
-            self._note(square)
+        """Return the trees that are gone or changed, and where they stood."""
+        for square in self._planted:
+            self._note_gone(square)
         gone = [(square, number) for square, gone in self._forest.gone.items() for number in gone]
         told = sorted((*square, number, *self._forest.gone[square][number]) for square, number in gone)
         return [(i, j, number) for i, j, number, _, _ in told], [(x, z) for _, _, _, x, z in told]
 
     def found_again(self, felled: Sequence[Felled], stood: Sequence[Place] | None, /) -> Gone:
-        """Return which trees those are that are gone by a state; raises ValueError for any that nobody planted."""
+        """Return the trees that a saved state has felled; raises ValueError for any that nobody planted."""
         by_square: dict[Square, list[int]] = {}
         for which, (i, j, _) in enumerate(felled):
             by_square.setdefault((i, j), []).append(which)
@@ -157,7 +160,7 @@ class Wild:
         return gone
 
     def fell(self, gone: Gone, kept: set[int], /) -> None:
-        """Let these be gone, and all others stand where they were planted; of changed ones those `kept` stay."""
+        """Remove these trees and restore all others; changed trees stay if they are among the entities `kept`."""
         self.clear()
         self._forest.gone = gone
         for entity, (i, j, number) in [*self._changed.items()]:
@@ -167,19 +170,19 @@ class Wild:
                 del self._changed[entity]
 
     def clear(self) -> None:
-        """Let none be an entity until a viewer is followed again."""
-        for square in [*self._own]:
-            self._leave(square)
+        """Remove all entities until a viewer is followed again."""
+        for square in [*self._planted]:
+            self._remove(square)
         self._eyes.clear()
-        self._shown.clear()
+        self._standing.clear()
 
     def release(self) -> None:
-        """Let nothing grow any more."""
-        self._hands.shutdown(wait=False, cancel_futures=True)
+        """Stop the growing thread."""
+        self._executor.shutdown(wait=False, cancel_futures=True)
 
 
 def seedlings(rows: Rows, names: list[str], /) -> list[Seedling]:
-    """Return trees, records of `STANDING` of kinds by their names, as entities have them."""
+    """Return records of `STANDING` as seedlings; `names` are those of the kinds."""
     columns = (rows[name].tolist() for name in ("kind", "height", "foliage", "root", "yaw"))
     return [
         (Tree(names[kind], height, foliage), Pose(x, z, yaw))

@@ -9,7 +9,7 @@ import pytest
 
 from tallgrass import Pose, Prairie, Tree
 from tallgrass.engine.declared.quality import LodName
-from tallgrass.systems.trees import going
+from tallgrass.systems.trees import fading
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.shade import SIDE, SIDES
 from tallgrass.testing import Stage, little_prairie, looking, private_world
@@ -47,7 +47,7 @@ def dense(prairie: Prairie, x: float, z: float) -> float:
 def test_f3_as_much_grows_below_a_tree_as_it_leaves_of_the_light(
     stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(going, "LASTS", 0.0)
+    monkeypatch.setattr(fading, "DURATION", 0.0)
     esper.create_entity(Tree("tree", 12.0), Pose(3.0, 0.0))
     half_bare = esper.create_entity(Tree("tree", 12.0, foliage=0.5), Pose(-25.0, 0.0))
     stage.shot(prairie, OVER)
@@ -85,7 +85,7 @@ def test_f4_below_a_felled_tree_grass_comes_back_into_the_sun_by_and_by(stage: S
     for _ in range(6):
         light_then.append(stage.shot(prairie, OVER)[40:56, 40:56].mean())
         dense_then.append(dense(prairie, 2.5, 0.0))
-        prairie.advance(going.LASTS / 4.0)
+        prairie.advance(fading.DURATION / 4.0)
     assert dense_then[0] < 0.45
     assert dense_then == sorted(dense_then)
     assert max(np.diff(dense_then)) < 0.4
@@ -114,7 +114,7 @@ def test_f4_grass_on_strips_lies_in_a_trees_shade(
 def test_f4_more_soil_is_seen_below_a_tree_in_every_representation_and_less_once_it_is_felled(
     stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(going, "LASTS", 0.0)
+    monkeypatch.setattr(fading, "DURATION", 0.0)
     monkeypatch.setattr(TreePart, "draw_solid", lambda _: 0)
     monkeypatch.setattr(TreePart, "draw_soft", lambda *_: 0)
     open_ground = stage.shot(prairie, OVER)

@@ -13,8 +13,8 @@ from tallgrass.systems.reference import draw_truth, without_trees
 from tallgrass.systems.trees import standing
 from tallgrass.systems.trees.bake import CARD
 from tallgrass.systems.trees.draw import TreePart
-from tallgrass.systems.trees.lies import LIES, Lies, lies_of
-from tallgrass.systems.trees.outline import ROUNDED, solid_above
+from tallgrass.systems.trees.normals import NORMALS, Normals, card_normals
+from tallgrass.systems.trees.outline import ROUNDED_UP, solid_above
 from tallgrass.systems.trees.stream import CARDS, FAR
 from tallgrass.systems.trees.twig import PICTURES
 from tallgrass.systems.trees.wood import SOLID
@@ -79,7 +79,7 @@ def test_how_leaves_lie_is_told_in_few_directions() -> None:
     picture = np.full((2, 64, 64, 4), 255, np.uint8)
     picture[1, ..., :3] = np.round(127.5 + 127.5 * normal).reshape(64, 64, 3)
     picture[:, :32, :5] = 0  # where nothing is
-    told = np.array(lies_of(picture))
+    told = np.array(card_normals(picture))
     area = 1.0 / normal[:, 2]
     assert told[:, 3].sum() == pytest.approx(1.0)
     for to in ((0.0, 0.0, 1.0), (0.6, 0.0, 0.8), (1.0, 0.0, 0.0), (0.0, -0.6, 0.8)):
@@ -95,14 +95,14 @@ def test_needles_are_drawn_as_solid_only_where_they_cover_nearly_all_and_leaves_
     above = solid_above(strewn)
     assert above > SOLID
     cover = strewn / 255.0
-    assert (1.0 - cover[cover > above]).sum() <= ROUNDED * cover.sum()
+    assert (1.0 - cover[cover > above]).sum() <= ROUNDED_UP * cover.sum()
     assert solid_above(np.full((4, 4), 255, np.uint8)) == solid_above(np.zeros((4, 4), np.uint8)) == SOLID
 
 
 def test_leaves_that_face_nowhere_are_told_to_face_out_of_the_card() -> None:
     nowhere = np.zeros((2, 8, 8, 4), np.uint8)
     nowhere[0] = 255  # leaves, of which the other layer says nothing
-    told = np.array(lies_of(nowhere))
+    told = np.array(card_normals(nowhere))
     assert np.isfinite(told).all()
     np.testing.assert_array_equal(told[:, :3], np.tile([0.0, 0.0, 1.0], (len(told), 1)))
 
@@ -165,15 +165,15 @@ def test_far_off_level_leaves_let_the_sun_through_to_who_looks_up_at_them(stage:
     oak, programs = part["_kinds"][0], vars(part["_programs"])["_programs"].values()
     kept = [each.lies for each in oak.models]
 
-    def let_lie(all_lies: list[Lies]) -> None:
+    def let_lie(all_lies: list[Normals]) -> None:
         for model, lies in zip(oak.models, all_lies, strict=True):
-            model.lies = lies
+            model.normals = lies
             for program in programs:
                 program.extra.pop(id(model), None)
         part["_calls"].clear()
 
     for lies in ([(0.0, 1.0, 0.0, 1.0)], [(1.0, 0.0, 0.0, 0.5), (0.0, 0.0, 1.0, 0.5)]):
-        let_lie([lies + [(0.0, 1.0, 0.0, 0.0)] * (LIES - len(lies))] * len(kept))
+        let_lie([lies + [(0.0, 1.0, 0.0, 0.0)] * (NORMALS - len(lies))] * len(kept))
         seen = stage.shot(prairie, aim)[30:60, 30:60].mean(axis=(0, 1))
         blue.append(seen[2] / seen[1])
     let_lie(kept)

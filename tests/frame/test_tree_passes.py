@@ -138,11 +138,11 @@ def test_n6_what_covers_pixels_wholly_is_all_within_its_own_outline(
     part = vars(prairie.painter.part(TreePart))
     seen = stage.shot(prairie, camera)
     for kind in part["_kinds"]:
-        assert area_of(kind.core) < area_of(kind.outline)
-        monkeypatch.setattr(kind, "core", kind.outline)
+        assert area_of(kind.solid_outline) < area_of(kind.outline)
+        monkeypatch.setattr(kind, "solid_outline", kind.outline)
         for model in kind.models:
-            assert np.mean(model.core.reaches) < np.mean(model.around.reaches)
-            monkeypatch.setattr(model, "core", model.around)
+            assert np.mean(model.solid_outline.reaches) < np.mean(model.outline.reaches)
+            monkeypatch.setattr(model, "solid_outline", model.outline)
     part["_calls"].clear()
     apart = np.abs(np.asarray(stage.shot(prairie, camera), np.float64) - seen).max(axis=-1)
     part["_calls"].clear()

@@ -15,9 +15,9 @@ from tallgrass import Lamp, Pose, Prairie, Shade, Tree
 from tallgrass.app.bench.steps import held
 from tallgrass.components.arrays import Floats
 from tallgrass.systems.reference import draw_truth
-from tallgrass.systems.trees import bake, going, kind, standing, stream
+from tallgrass.systems.trees import bake, fading, kind, standing, stream
 from tallgrass.systems.trees.draw import TreePart
-from tallgrass.systems.trees.outline import CORNERS, Around
+from tallgrass.systems.trees.outline import CORNERS, Outline
 from tallgrass.systems.trees.shade import ShadeMap
 from tallgrass.systems.trees.wood import Parts
 from tallgrass.testing import Stage, little_prairie, looking, private_world
@@ -54,7 +54,7 @@ def prairie(ctx: moderngl.Context) -> Iterator[Prairie]:
 
 @pytest.fixture(autouse=True)
 def _shade_of_what_is_felled_goes_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(going, "LASTS", 0.0)
+    monkeypatch.setattr(fading, "DURATION", 0.0)
 
 
 @pytest.fixture
@@ -291,15 +291,15 @@ def test_far_off_nothing_of_it_lies_beyond_its_outline(
     part = vars(prairie.painter.part(TreePart))
     (ash,) = part["_kinds"]
     stage.shot(prairie, camera)  # its pictures are there
-    kept = [each.around for each in ash.models]
+    kept = [each.outline for each in ash.models]
     assert all(np.mean(each.reaches) < 0.6 for each in kept)  # a birch is narrower than it is high
-    for outlines in (kept, [Around((-1.0, -0.3, 0.3, 1.0), [(1.0,) * CORNERS] * len(kept[0].reaches))] * len(kept)):
+    for outlines in (kept, [Outline((-1.0, -0.3, 0.3, 1.0), [(1.0,) * CORNERS] * len(kept[0].reaches))] * len(kept)):
         for model, outline in zip(ash.models, outlines, strict=True):
-            model.around = outline
+            model.outline = outline
         part["_calls"].clear()
         seen.append(stage.shot(prairie, camera))
     for model, outline in zip(ash.models, kept, strict=True):
-        model.around = outline
+        model.outline = outline
     part["_calls"].clear()
     assert changed(seen[0], bare) > 0.0
     assert np.abs(seen[0] - seen[1]).max() <= 2.0  # of 255: a dark twig that hardly covers anything

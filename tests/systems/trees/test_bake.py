@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from tallgrass.systems.trees.bake import WHOLE, evened, lines_of, of_tree, spread
+from tallgrass.systems.trees.bake import COARSEST, dilated, equalised, picture_size, tree_levels
 from tallgrass.systems.trees.far import COARSER, LINES
 
 
 @pytest.mark.parametrize("breadth", [0.07, 0.31, 0.8, 1.0])
 def test_a_picture_is_hardly_broader_than_what_it_shows(breadth: float) -> None:
-    lines, wide = lines_of(breadth)
-    assert wide % WHOLE == lines % WHOLE == 0
-    assert 0 <= lines - LINES < WHOLE
-    assert 0 <= wide - lines * breadth < WHOLE
+    lines, wide = picture_size(breadth)
+    assert wide % COARSEST == lines % COARSEST == 0
+    assert 0 <= lines - LINES < COARSEST
+    assert 0 <= wide - lines * breadth < COARSEST
 
 
 def test_how_light_has_come_is_the_mean_of_what_is_covered_and_goes_on_where_nothing_is() -> None:
@@ -21,7 +21,7 @@ def test_how_light_has_come_is_the_mean_of_what_is_covered_and_goes_on_where_not
     cover[:, 16:] = 0.0
     light = np.full((32, 48, 4), 90.0, np.float32)
     light[:16] = 200.0
-    levels = spread(light * (cover / 255.0)[..., None], cover, 3)
+    levels = dilated(light * (cover / 255.0)[..., None], cover, 3)
     assert [each.shape for each in levels] == [(1, 32 >> level, 48 >> level, 4) for level in range(3)]
     for level, each in enumerate(levels):
         edge = 16 >> level
@@ -33,7 +33,7 @@ def test_how_light_has_come_is_the_mean_of_what_is_covered_and_goes_on_where_not
 def test_of_a_tree_texels_are_larger_that_tell_how_light_has_come() -> None:
     values = np.full((2, 64, 96, 4), 255.0, np.float32)
     values[1] = 80.0
-    shows, met = of_tree(values)
+    shows, met = tree_levels(values)
     assert met[0].shape == (1, 64 // COARSER, 96 // COARSER, 4)
     assert met[-1].shape == shows[-1].shape
     assert all((each == 255).all() for each in shows)
@@ -45,7 +45,7 @@ def test_what_is_solid_of_a_card_is_as_bright_as_all_of_it() -> None:
     cover = draw.integers(0, 256, (2, 32, 32))
     tone = np.stack([0.5 + 0.2 * (cover[0] > 150), 0.3 + 0.2 * (cover[1] > 150)]) * cover
     pictures = np.stack([tone, cover, cover, cover], axis=-1).round().astype(np.uint8)
-    made = evened(pictures, 150.0).astype(np.float64)
+    made = equalised(pictures, 150.0).astype(np.float64)
     for own, before, covered in zip(made, pictures, cover, strict=True):
         for some in (covered >= 150, covered < 150):
             mean = before[..., 0].sum() / covered.sum()

@@ -8,7 +8,7 @@ from tallgrass.engine.camera import View, projection_matrix, view_matrix
 from tallgrass.systems.space.frustum import picture_sides
 from tallgrass.systems.trees.choice import Choice
 from tallgrass.systems.trees.model import Model, models_of
-from tallgrass.systems.trees.outline import AROUND, BOX, CORNERS, Around, around, outline
+from tallgrass.systems.trees.outline import BOX, CORNERS, MARGIN, Outline, card_outline, picture_outline
 from tallgrass.systems.trees.standing import STANDING, Standing
 from tallgrass.testing import looking
 
@@ -23,7 +23,7 @@ def crowns(aside: Doubles) -> Bytes:
     return np.where(covered, 255, 0).astype(np.uint8)
 
 
-def spans(corners: Around, picture: int) -> tuple[Doubles, Doubles]:
+def spans(corners: Outline, picture: int) -> tuple[Doubles, Doubles]:
     """Return from where to where its corners' lines go in each row of texels."""
     high, rows = 0.5 * SIDE * (np.array(corners.high) + 1.0), np.arange(SIDE) + 0.5
     left, right = (0.5 * SIDE * np.interp(rows, high, corners.reaches[2 * picture + side]) for side in (0, 1))
@@ -32,7 +32,7 @@ def spans(corners: Around, picture: int) -> tuple[Doubles, Doubles]:
 
 def test_all_that_a_picture_of_a_tree_covers_lies_within_its_corners_and_little_else() -> None:
     pictures = crowns(np.array([-12.0, 0.0, 9.0]))
-    corners = around(pictures)
+    corners = picture_outline(pictures)
     assert len(corners.reaches) == 2 * len(pictures)
     for number, picture in enumerate(pictures > 0):
         left, right = spans(corners, number)
@@ -43,7 +43,7 @@ def test_all_that_a_picture_of_a_tree_covers_lies_within_its_corners_and_little_
 
 
 def test_about_a_picture_that_covers_nothing_the_whole_of_it_is_drawn() -> None:
-    empty = around(np.zeros((2, SIDE, SLIM), np.uint8))
+    empty = picture_outline(np.zeros((2, SIDE, SLIM), np.uint8))
     assert (empty.high[0], empty.high[-1]) == (-1.0, 1.0)
     assert empty.reaches == [(SLIM / SIDE,) * CORNERS] * 4
 
@@ -52,15 +52,15 @@ def test_about_a_picture_that_covers_nothing_the_whole_of_it_is_drawn() -> None:
 def test_all_that_the_picture_of_a_twig_covers_lies_within_four_corners_and_little_else(askew: float) -> None:
     up, across = np.mgrid[0:SIDE, 0:SIDE] + 0.5 - 0.5 * SIDE
     covered = ((across + askew * up) / 14.0) ** 2 + (up / 40.0) ** 2 < 1.0
-    one, two, four, three = outline(covered)
+    one, two, four, three = card_outline(covered)
     corners = np.array([one, two, three, four]) * (0.5 * SIDE, SIDE) + np.array([0.5 * SIDE, 0.0])
     rows, columns = np.nonzero(covered)
     for first, second in zip(corners, np.roll(corners, -1, axis=0), strict=True):
         inwards = np.array([first[1] - second[1], second[0] - first[0]]) / np.linalg.norm(second - first)
-        assert ((np.stack([columns, rows], axis=1) + 0.5 - first) @ inwards).min() > AROUND
+        assert ((np.stack([columns, rows], axis=1) + 0.5 - first) @ inwards).min() > MARGIN
     x, y = corners.T
-    assert 0.5 * (x * np.roll(y, -1) - np.roll(x, -1) * y).sum() < 4.4 * (14.0 + AROUND) * (40.0 + AROUND)
-    assert np.array_equal(outline(np.zeros_like(covered)), BOX)
+    assert 0.5 * (x * np.roll(y, -1) - np.roll(x, -1) * y).sum() < 4.4 * (14.0 + MARGIN) * (40.0 + MARGIN)
+    assert np.array_equal(card_outline(np.zeros_like(covered)), BOX)
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,7 @@ from tallgrass.engine.declared.tree import TreeKind
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.systems.features import feature_of
 from tallgrass.systems.trees.feature import Trees
-from tallgrass.systems.trees.forest import SEEDLING, SOON, Forest, grown_to
+from tallgrass.systems.trees.forest import HEIGHT_GROWTH, SEEDLING, Forest, grown_to
 from tallgrass.systems.trees.place import placed
 from tallgrass.testing import LITTLE, little_prairie, private_world
 
@@ -96,7 +96,9 @@ def test_trees_of_density_are_of_all_ages_and_few_of_rows_and_places() -> None:
 
 def test_trunks_of_young_trees_are_the_more_the_thinner() -> None:
     high = grown_to(1.0, np.linspace(0.0, 1.0, 1000, endpoint=False))
-    thick = -np.log1p(-(high - SEEDLING) / (1.0 - SEEDLING) * -np.expm1(-SOON)) / SOON  # of a grown one's
+    thick = (
+        -np.log1p(-(high - SEEDLING) / (1.0 - SEEDLING) * -np.expm1(-HEIGHT_GROWTH)) / HEIGHT_GROWTH
+    )  # of a grown one's
     counts = np.histogram(thick, 5, (0.0, 1.0))[0]
     assert counts[:-1] / counts[1:] == pytest.approx(1.35, rel=0.03)
     assert (grown_to(0.0, np.array([0.0, 0.5])) == 1.0).all()

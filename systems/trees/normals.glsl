@@ -1,9 +1,9 @@
 // How leaves that lie in several ways look together.
 #include "systems/trees/leaf_sends.glsl"
-#include "systems/trees/lies.py"
+#include "systems/trees/normals.py"
 #include "systems/trees/pigment.glsl"
 
-uniform vec4 lies[LIES];  // as lies.py has it
+uniform vec4 leaf_normals[NORMALS];  // as normals.py has it
 
 // What is seen of leaves of which each lies another way.
 struct Seen {
@@ -20,9 +20,9 @@ Seen seen_of(mat3 own, vec3 ray, Light above, vec3 below) {
     float side = to_eye.z < 0.0 ? -1.0 : 1.0, shown = LEAST_PART, pictured = LEAST_PART, root_of = 0.0;
     Seen seen = Seen(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0));
     vec2 mean = vec2(0.0), spread = vec2(0.0);
-    for (int each = 0; each < LIES; each++) {
-        vec3 normal = lies[each].xyz;
-        float to = dot(normal, to_eye), lit = dot(normal, to_sun), shows = lies[each].w * abs(to), part = lies[each].w * normal.z;
+    for (int each = 0; each < NORMALS; each++) {
+        vec3 normal = leaf_normals[each].xyz;
+        float to = dot(normal, to_eye), lit = dot(normal, to_sun), shows = leaf_normals[each].w * abs(to), part = leaf_normals[each].w * normal.z;
         vec3 sends = leaf_sends(lit * sign(to), strewn);
         float up = (own * normal).y * sign(to);
         float bright = sqrt(brightness(albedo * (above.sun * sends + mix(below, above.sky, 0.5 + 0.5 * up)) + above.haze));

@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from tallgrass.components.arrays import Doubles
-from tallgrass.systems.trees.lies import LIES, lies_on
+from tallgrass.systems.trees.normals import NORMALS, tree_normals
 from tallgrass.systems.trees.twig import TWIG
 
 
 def told(along: Doubles, face: Doubles, card: list[tuple[float, float, float, float]], *, turn: bool) -> Doubles:
     twigs = np.zeros(len(along), TWIG)
     twigs["along"], twigs["face"], twigs["span"] = along, face, 0.7
-    found = np.array(lies_on(twigs, card, turn=turn))
-    assert found.shape == (LIES, 4)
+    found = np.array(tree_normals(twigs, card, turn=turn))
+    assert found.shape == (NORMALS, 4)
     assert found[:, 3].sum() == pytest.approx(1.0)
     return found
 
