@@ -12,52 +12,53 @@ from .postures import NEAR_FLAT, hanging_of
 from .record import Blades
 
 _PLASTIC = 1.32471795724474602596
-"""Its powers make the sequence of points that stays evenly spread on the torus at every length."""
+"""Base of the sequence of points that is evenly spread on the torus at every length: they step by its powers."""
 
 _JITTER = 0.33
 _LEAST_LEAN = 0.05
 
 _TUFT = 8
-"""Blades of a tuft, in the mean: tillers of one plant."""
+"""Mean number of blades of a tuft: tillers of one plant."""
 
 _LOOSEST, _TIGHTEST = 0.05, 0.9
-"""How far blades stand drawn to the middle of their tuft, of the way: at least, and at most at a clumping of 1."""
+"""Fraction of the way that blades are drawn to the middle of their tuft: least, and largest at a clumping of 1."""
 
 _FANNED = 0.8
-"""How far azimuths at which blades lean out of their tuft are off [rad]."""
+"""Standard deviation of the azimuths at which blades lean out of their tuft [rad]."""
 
 _WIDTH, _WIDTHS, _WIDEST = 0.95, 0.36, 2.0
-"""Mean width of blades, of their kind's; how they differ, as the deviation of its logarithm; and by how much at most:
-leaves of one sward differ by a factor of three."""
+"""Mean width of blades, relative to their kind's; standard deviation of its logarithm; and largest factor: leaves of
+one sward differ by a factor of three."""
 
 _OLD = 0.25
-"""Share of grass leaves that hang over: a tiller has three or four live ones, and the oldest has grown too heavy."""
+"""Fraction of leaves that hang over: a tiller has three or four live ones, and the oldest has grown too heavy."""
 
 _OLD_LEANS, _MOST_OLD = (1.2, 3.0), 0.9
-"""How far these hang at rest, of the largest index at which others lean, from the least to the most; how far at all."""
+"""Posture index of hanging leaves at rest, relative to the largest of other leaves: least and largest; upper bound."""
 
 _ALONG_EDGE = 1e-6
-"""Least part of its way that a leaf counts as going to the patch's edge."""
+"""Least component of a leaf's direction towards an edge of the patch: it guards a division."""
 
 _SIDEWAYS = 0.35
-"""How far azimuths that they face are off from those to which they hang [rad]: a leaf bends over its face."""
+"""Standard deviation of the azimuths that hanging leaves face from those to which they hang [rad]: a leaf bends over
+its face."""
 
 _TUSSOCK = 0.55
 """Width of a tussock [m]."""
 
 _ALIKE = 0.8
-"""How much alike blades of a tussock are at most."""
+"""Largest likeness of the blades of a tussock, at a clumping of 1."""
 
 _DROOP, _MOST_DROOP, _SHRUNK = 0.3, 0.9, 0.85
-"""How much farther dead blades lean as a posture index, how far at most; how long they are."""
+"""Posture index added to the lean of dead blades, and its bound; their length, relative to live ones."""
 
 
 def grow_blades(kind: GrassKind, /, *, count: int, patch: float, variants: int, seed: int) -> Blades:
     """Return the blades of one patch model, `patch` metres wide, from a seed.
 
-    Rows stand in order of `rank`: the first k of them are spread over the patch as evenly as all of them, so
-    that thinning out leaves no holes. Roots are even across the patch's edges too; heights and clumps vary
-    slowly from place to place, so that neighbours are alike.
+    Rows are ordered by `rank`: the first k are spread over the patch as evenly as all, so that thinning out
+    leaves no holes. Roots are even across the patch's edges too; heights and clumps vary slowly from place to
+    place, so that neighbours are alike.
     """
     random = np.random.default_rng([seed, 0x626C6164])
     place, outward = _spread(count, kind.clumping, random)
@@ -86,9 +87,9 @@ def grow_blades(kind: GrassKind, /, *, count: int, patch: float, variants: int, 
 
 
 def let_hang(blades: Blades, kind: GrassKind, /, *, patch: float, variants: int, seed: int) -> Blades:
-    """Return blades of a patch [m] of which the oldest hang over, to the side they lean to and with their face up.
+    """Return the blades of a patch [m] with the oldest leaves hanging to the side to which they lean, face up.
 
-    They are as long and as wide as before. Round stems, which have no leaves, and grass that never leans have none.
+    Lengths and widths stay. Round stems have no leaves to hang, and grass that never leans has none that do.
     """
     random, hanging = np.random.default_rng([seed, 0x68616E67]), hanging_of(variants)
     count = len(blades.height)
@@ -96,50 +97,50 @@ def let_hang(blades: Blades, kind: GrassKind, /, *, patch: float, variants: int,
     least, most = np.minimum(np.multiply(_OLD_LEANS, kind.lean), _MOST_OLD)
     toward = np.arctan2(blades.rest[:, 1], blades.rest[:, 0]).astype(np.float64)
     facing = _within_a_turn(toward + random.normal(0.0, _SIDEWAYS, count))
-    index = np.minimum(random.uniform(least, most, count), _inside_up_to(blades, toward, kind.lean, patch))
+    index = np.minimum(random.uniform(least, most, count), _largest_inside(blades, toward, kind.lean, patch))
     rest = _leaning(index, toward)
-    which = random.integers(variants - hanging, variants, count, dtype=np.int32) if hanging else blades.variant
+    variant = random.integers(variants - hanging, variants, count, dtype=np.int32) if hanging else blades.variant
     return replace(
         blades,
         rest=np.where(old[:, None], rest, blades.rest),
         facing=np.where(old, facing, blades.facing).astype(np.float32),
-        variant=np.where(old, which, blades.variant),
+        variant=np.where(old, variant, blades.variant),
     )
 
 
-def _inside_up_to(blades: Blades, toward: Doubles, lean: float, patch: float, /) -> Doubles:
-    """Return the posture indices up to which leaves (n,) that hang reach no farther over the patch's edge than others.
+def _largest_inside(blades: Blades, toward: Doubles, lean: float, patch: float, /) -> Doubles:
+    """Return the posture indices up to which hanging leaves (n,) lean over the patch's edge no farther than others do.
 
-    Strips are as long as leaves reach. Where the tip of an evenly bent blade is flat, the line from its root to its tip
-    lies about a radian from the vertical, and that of a leaf that hangs lies flat. Of the few blades next to the edge,
-    none is the longest, leans most and straight outwards: they reach about half as far over it as that one would.
+    Strips are as long as leaves reach. At index 1 the line from root to tip is about a radian from the vertical for an
+    evenly bent blade, but flat for a hanging leaf. None of the few blades next to the edge is the longest, leans most
+    and straight outwards: they reach about half as far over it as such a blade would.
     """
     length = blades.height.astype(np.float64)
-    way = np.stack([np.cos(toward), np.sin(toward)], axis=1)
+    direction = np.stack([np.cos(toward), np.sin(toward)], axis=1)
     over = max(0.5 * (length.max(initial=0.0) * np.sin(lean) - blades.width.max(initial=0.0)), 0.0)
-    left = np.where(way > 0.0, patch - blades.root, blades.root) + over
-    farthest = (left / np.maximum(np.abs(way), _ALONG_EDGE)).min(axis=1)
+    room = np.where(direction > 0.0, patch - blades.root, blades.root) + over
+    farthest = (room / np.maximum(np.abs(direction), _ALONG_EDGE)).min(axis=1)
     return np.asarray(np.arcsin(np.minimum(farthest / length, 1.0)) / NEAR_FLAT)
 
 
 def _leaning(lean: Doubles, toward: Doubles, /) -> NDArray[np.float32]:
-    """Return posture indices at rest (n,) towards azimuths (n,) as vectors."""
+    """Return the leans of posture indices (n,) towards azimuths (n,) as vectors, shape (n, 2)."""
     return np.asarray(lean[:, None] * np.stack([np.cos(toward), np.sin(toward)], axis=1), np.float32)
 
 
 def _within_a_turn(azimuth: Doubles, /) -> Doubles:
-    """Return azimuths from -pi to pi."""
+    """Return azimuths wrapped to [-pi, pi)."""
     return np.asarray((azimuth + np.pi) % (2.0 * np.pi) - np.pi)
 
 
 def _widths(height: Doubles, random: np.random.Generator, /) -> Doubles:
-    """Return widths of blades that are so high (n,), of their kind's: they have the leaf area of even ones."""
+    """Return random relative widths of blades of these heights (n,); their total area is that of equal widths."""
     width = np.exp(np.clip(random.normal(0.0, _WIDTHS, len(height)), -np.log(_WIDEST), np.log(_WIDEST)))
     return np.asarray(_WIDTH * width * (height.sum() / (width @ height)))
 
 
 def wither(blades: Blades, part: float, /, *, seed: int) -> Blades:
-    """Return blades of which this part, 0 to 1, has died: shorter, more bent at rest, and `WITHERED`."""
+    """Return the blades with a random `part`, 0 to 1, dead: shorter, more bent at rest, and `WITHERED`."""
     random = np.random.default_rng([seed, 0x77697468])
     dead = random.random(len(blades.height)) < part
     length = np.maximum(np.linalg.norm(blades.rest, axis=1), 1e-6)
@@ -153,25 +154,25 @@ def wither(blades: Blades, part: float, /, *, seed: int) -> Blades:
 
 
 def _spread(count: int, clumping: float, random: np.random.Generator, /) -> tuple[Doubles, Doubles]:
-    """Return points on the unit torus, shape (count, 2), of which every first few are evenly spread, in tufts.
+    """Return points in tufts on the unit torus, (count, 2), and azimuths from the middles of their tufts, (count,).
 
-    Beside them the azimuth of each from the middle of its tuft, shape (count,).
+    Any number of first points is evenly spread.
     """
     powers = np.array([1.0 / _PLASTIC, 1.0 / _PLASTIC**2])
     place = np.arange(count)[:, None] * powers + random.random(2)
     place += _JITTER / np.sqrt(count) * random.normal(0.0, 1.0, (count, 2))
     place = place[:, ::-1] if random.random() < 0.5 else place
     centres = random.random((max(count // _TUFT, 1), 2))
-    away = centres[None] - place[:, None]
-    away -= np.round(away)
-    nearest = np.argmin((away**2).sum(axis=2), axis=1)
-    inward = away[np.arange(count), nearest]
+    offset = centres[None] - place[:, None]
+    offset -= np.round(offset)
+    nearest = np.argmin((offset**2).sum(axis=2), axis=1)
+    inward = offset[np.arange(count), nearest]
     tight = _LOOSEST + (_TIGHTEST - _LOOSEST) * clumping * random.random(len(centres))[nearest]
     return np.asarray((place + tight[:, None] * inward) % 1.0), np.arctan2(-inward[:, 1], -inward[:, 0])
 
 
 def _clumps(place: Doubles, random: np.random.Generator, /) -> Doubles:
-    """Return a value in [-1, 1] that varies slowly over the unit torus, at each point."""
+    """Return a value in [-1, 1] at each point that varies slowly over the unit torus."""
     waves = random.integers(-3, 4, (6, 2))
     phase = random.uniform(0.0, 2.0 * np.pi, 6)
     return np.asarray(np.clip(np.sin(2.0 * np.pi * place @ waves.T + phase).sum(axis=1) / 3.0, -1.0, 1.0))
@@ -179,35 +180,35 @@ def _clumps(place: Doubles, random: np.random.Generator, /) -> Doubles:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Tussocks:
-    """What the tussocks that blades stand in are like, each (n,)."""
+    """The tussock of each blade, shape (n,) each."""
 
     height: Doubles
-    """From 0 to 1."""
+    """Relative height of its blades, from 0 to 1."""
 
     away: Doubles
-    """Azimuth of the way from the middle [rad]."""
+    """Azimuth of the blade from the middle of the tussock [rad]."""
 
     facing: Doubles
     """Azimuth that its blades face [rad]."""
 
 
 def _tussocks(place: Doubles, patch: float, seed: int, /) -> _Tussocks:
-    """Return the tussocks that blades at places on the unit torus stand in, about `_TUSSOCK` wide.
+    """Return the tussocks of blades at places on the unit torus (n, 2), each about `_TUSSOCK` wide.
 
     They face all ways evenly, so that no patch as a whole has a tint of its own.
     """
     random = np.random.default_rng([seed, 0x74757373])
     count = max(round((patch / _TUSSOCK) ** 2), 1)
     centres = random.random((count, 2))
-    apart = place[:, None] - centres[None]
-    apart -= np.round(apart)
-    nearest = np.argmin((apart**2).sum(axis=2), axis=1)
-    own = apart[np.arange(len(place)), nearest]
+    offset = place[:, None] - centres[None]
+    offset -= np.round(offset)
+    nearest = np.argmin((offset**2).sum(axis=2), axis=1)
+    outward = offset[np.arange(len(place)), nearest]
     facing = random.permutation(count) * (np.pi / count) + random.uniform(0.0, np.pi)
-    return _Tussocks(random.random(count)[nearest], np.arctan2(own[:, 1], own[:, 0]), facing[nearest])
+    return _Tussocks(random.random(count)[nearest], np.arctan2(outward[:, 1], outward[:, 0]), facing[nearest])
 
 
 def _inside(root: Doubles, patch: float, /) -> NDArray[np.float32]:
-    """Return roots as float32 that stay in [0, patch) after rounding."""
+    """Return roots as float32, still in [0, patch) after rounding."""
     below = np.nextafter(np.float32(patch), np.float32(0.0))
     return np.clip(root.astype(np.float32), np.float32(0.0), below)

@@ -1,4 +1,4 @@
-"""How many rows a plant has: what is grown of it at a quality."""
+"""Layout of a patch model: numbers of plants, stems, leaves and organs of heads at a quality."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,27 +12,27 @@ FULL = 500
 """Blades per patch of the quality at which plants have all their petals and leaves."""
 
 FEWEST = 0.5
-"""Part of these that is left at the coarsest."""
+"""Fraction of these at the coarsest quality."""
 
 
 @dataclass(frozen=True, slots=True)
 class Habit:
-    """What goes without saying of a kind of plant."""
+    """Defaults of a sort of plant."""
 
     plants: float
-    """Plants on a square metre at full density."""
+    """Number of plants per square metre at full density."""
 
     branches: int
-    """Stems of one plant."""
+    """Number of stems of a plant."""
 
     leaves: int
-    """Leaves of one stem."""
+    """Number of leaves of a stem."""
 
     leaf: float
-    """Length of a leaf, as a part of its plant's height."""
+    """Length of a leaf, relative to the height of its plant."""
 
     heads: int = 1
-    """Heads that share the petals of one, as they are small."""
+    """Number of heads that share the petals of one, as they are small."""
 
 
 HABITS: Mapping[Plant, Habit] = {
@@ -41,47 +41,47 @@ HABITS: Mapping[Plant, Habit] = {
     "forb": Habit(8.0, 1, 8, 0.4),
     "shrub": Habit(5.0, 6, 3, 0.3, 2),
 }
-"""By plant."""
+"""Defaults of each sort of plant."""
 
 MIDDLES: Mapping[HeadForm, int] = {"disc": 1, "bell": 1, "spike": 0, "umbel": 0, "plume": 0}
-"""Rows of a head beside its petals."""
+"""Number of organs of a head beside its petals, by its form."""
 
 MANY = 9
-"""Petals from which on a disc has several whorls, as a dandelion."""
+"""Number of petals from which on a disc has several whorls, as a dandelion."""
 
 _STAMENS, _DISC = (3, 2), (5, 3)
-"""The same of one with an eye of a colour of its own: at full quality and at least, with few petals and with many."""
+"""Number of organs of an eye of its own colour, at full quality and at least: with few petals, and with many."""
 
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """What the rows of a patch model are."""
+    """Numbers of plants and organs of a patch model."""
 
     plants: int
     bearing: int
-    """Plants that bear heads."""
+    """Number of plants that bear heads."""
 
     branches: int
-    """Stems of each plant, all of which bear a head if it does."""
+    """Number of stems of each plant; all of them bear a head if the plant does."""
 
     leaves: int
-    """Leaves of each stem."""
+    """Number of leaves of each stem."""
 
     petals: int
-    """Petals of each head, 0 where there are none."""
+    """Number of petals of each head, 0 without heads."""
 
     middles: int
-    """Rows of each head beside its petals."""
+    """Number of organs of each head beside its petals."""
 
     @property
     def rows(self) -> int:
-        """How many rows a patch model has."""
+        """Number of rows of a patch model."""
         stems = self.plants * self.branches * (1 + self.leaves)
         return stems + self.bearing * self.branches * (self.petals + self.middles)
 
 
 def layout_of(kind: GrassKind, quality: Quality, /) -> Layout:
-    """Return what is grown of a kind on a patch: at a coarser quality no plant goes, but some petals and leaves do."""
+    """Return the layout of a kind at a quality: a coarser one has as many plants, but fewer petals and leaves."""
     habit = HABITS[kind.plant]
     part = min(max(sqrt(quality.blades / FULL), FEWEST), 1.0)
     plants = max(round(habit.plants * quality.patch**2), 1) if kind.plants is None else kind.plants
@@ -99,11 +99,12 @@ def layout_of(kind: GrassKind, quality: Quality, /) -> Layout:
 
 
 def has_few_petals(form: HeadForm, petals: int, /) -> bool:
-    """Return whether petals stand as those of a poppy do, and not as a dandelion's."""
+    """Return whether a head has one whorl of petals, as a poppy, and not several, as a dandelion."""
     return form == "bell" or petals < MANY
 
 
 def _middles(head: Head, petals: int, part: float) -> int:
+    """Return the number of organs of a head beside its petals."""
     if head.eye is None:
         return MIDDLES[head.form]
     most, least = _STAMENS if has_few_petals(head.form, petals) else _DISC

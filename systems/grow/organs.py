@@ -1,4 +1,4 @@
-"""The organs of plants: how wide each is along itself, where on its kind's ramp of pigment, and how it gives way."""
+"""The organs of plants: their widths, their tones between the kind's two colours, and how far wind bends them."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -11,31 +11,31 @@ from ...components.arrays import Doubles
 from .record import Blades, Growth
 
 KNOTS = 5
-"""Places along an organ, evenly from root to tip, at which its width is known."""
+"""Number of places along an organ, evenly from root to tip, at which its width is given."""
 
 
 @dataclass(frozen=True, slots=True)
 class Organ:
-    """What all organs of one sort have in common; each is a ribbon."""
+    """One sort of organ; each organ is a ribbon."""
 
     widths: tuple[float, ...]
-    """Width at `KNOTS` places from root to tip, relative to its own; none for a blade: it tapers as its kind says."""
+    """Relative width at `KNOTS` places from root to tip; empty for a blade, which tapers as its kind declares."""
 
     tones: tuple[float, float]
-    """Where its root and its tip are on the way from the kind's colour `root`, 0, to its colour `tip`, 1."""
+    """Tone at its root and at its tip: 0 is the kind's colour `root`, 1 its colour `tip`."""
 
     gives: float = 1.0
-    """How far the wind bends it by itself, of how far it bends a blade; what it stands on carries it besides."""
+    """Bending by the wind, relative to a blade's; it also moves with its stem."""
 
     teeth: int = 0
-    """How many small things stand along either side of it, as florets do, or the leaves of a twig: teeth of its
-    outline, which are drawn where they are seen. Far off and wherever it is painted it has their mean width."""
+    """Number of teeth of its outline on either side, such as florets or the leaves of a twig. They are drawn where they
+    are large enough to be seen; far off, and wherever it is painted, it has their mean width."""
 
     ligules: int = 0
-    """How many narrow petals it really is, side by side and of many lengths, as in a dandelion: likewise."""
+    """Number of narrow petals of many lengths that it stands for, as in a dandelion; seen from as near as teeth."""
 
     dyed: tuple[float, float] = (-2.0, -1.0)
-    """Up to which part of it, from its root, it has the colour of its head's eye, and from which on none of that."""
+    """Places along it up to which it has the full colour of its head's eye, and from which on none of it."""
 
 
 BLADE, STEM, LEAF, FROND, PETAL, EYE, BUD, RAY, TUFT, WITHERED, FLORETS, SPRIG, STRAP = range(13)
@@ -60,63 +60,63 @@ ORGANS: Final = (
     Organ((0.3, 0.65, 0.95, 1.0, 0.5), (1.0, 1.0), 0.35, dyed=(1.0, 2.0)),
     Organ((0.45, 0.8, 1.0, 1.0, 0.8), (0.02, 0.12), 0.35),
 )
-"""By number. `LEAF` belongs to a plant with a head, whose colour is the tip's, and `FROND` to one without. `EYE` is the
-middle of an open head, `RAY` one of an umbel's, whose florets are its end; plumes are made of `TUFT`. `WITHERED` grass
-is as pale as tips are, thinner, and stiffer. `FLORETS` are some of a spike's, one above another, and a `SPRIG`
-a shrub's short twig with its leaves. Both give way as what they stand on does, and so stay close to it. `STRAP` is
-what a disc of many petals is made of: some narrow ones beside one another, as in dandelions and daisies. Heads with an
-eye of a colour of its own have `BLOTCHED` petals about `STAMENS` and a `CAPSULE`, as poppies do; if they have many
-petals, these stand about a `DISC` of florets, as a daisy's."""
+"""Sorts of organs, by the numbers above. `LEAF` belongs to a plant with a head, whose colour is the tip's, `FROND` to
+one without. `EYE` is the middle of an open head, `RAY` a ray of an umbel with florets at its end, `TUFT` a part of a
+plume. `WITHERED` grass is as pale as tips, thinner, and stiffer. `FLORETS` are several of a spike, one above another;
+a `SPRIG` is a shrub's short twig with its leaves. The wind bends both as far as their stems, so that they stay close.
+`STRAP` is a group of narrow petals side by side, in discs of many petals, as of dandelions and daisies. Heads with an
+eye of its own colour have `BLOTCHED` petals about `STAMENS` and a `CAPSULE`, as poppies; with many petals, these stand
+about a `DISC` of florets, as a daisy's."""
 
 HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT, FLORETS, STRAP, BLOTCHED, DISC, STAMENS, CAPSULE)
-"""Those that heads are made of."""
+"""Organs of heads."""
 
 AT_TIPS: Final = (PETAL, EYE, BUD, RAY, STRAP, BLOTCHED, DISC, STAMENS, CAPSULE)
-"""Those of them that stand on the tip of a stem, over one another."""
+"""Organs of heads that stand together on the tip of a stem."""
 
 LEAVES: Final = (LEAF, FROND, WITHERED)
-"""Those that have a rib in their middle, as blades have."""
+"""Organs with a midrib, as blades have."""
 
 TONES: Final = np.array([organ.tones for organ in ORGANS])
-"""By organ: tone at its root and at its tip, shape (organs, 2)."""
+"""Tones of each organ at its root and at its tip, shape (organs, 2)."""
 
 TEETH: Final = np.array([organ.teeth for organ in ORGANS])
-"""By organ: how many teeth either side of it has, shape (organs,)."""
+"""Number of teeth on either side of each organ, shape (organs,)."""
 
 LIGULES: Final = np.array([organ.ligules for organ in ORGANS])
-"""By organ: how many narrow petals it is, shape (organs,)."""
+"""Number of narrow petals that each organ stands for, shape (organs,)."""
 
 GIVES: Final = np.array([organ.gives for organ in ORGANS])
-"""By organ: how far the wind bends it by itself, shape (organs,)."""
+"""Bending of each organ by the wind, relative to a blade's, shape (organs,)."""
 
 DYED: Final = np.array([organ.dyed for organ in ORGANS])
-"""By organ: up to where it has the colour of its head's eye, and from where on none of that, shape (organs, 2)."""
+"""Places along each organ where its eye's colour begins to fade, and where it ends, shape (organs, 2)."""
 
 WIDTHS: Final = np.array([organ.widths or (0.0,) * KNOTS for organ in ORGANS])
-"""By organ: width at `KNOTS` places; that of a blade is no row of it, shape (organs, KNOTS)."""
+"""Relative width of each organ at `KNOTS` places, shape (organs, KNOTS); the row of blades is unused."""
 
 
 def width_along(organ: NDArray[np.int32], place: Doubles, /) -> Doubles:
-    """Return the width of organs other than blades (n,) at places (points,) along them, shape (n, points)."""
-    at = place * (KNOTS - 1)
-    low = np.clip(at.astype(np.int64), 0, KNOTS - 2)
-    part = at - low
+    """Return the relative width of organs other than blades (n,) at places (points,) along them, shape (n, points)."""
+    knot = place * (KNOTS - 1)
+    low = np.clip(knot.astype(np.int64), 0, KNOTS - 2)
+    part = knot - low
     return np.asarray(WIDTHS[organ][:, low] * (1.0 - part) + WIDTHS[organ][:, low + 1] * part)
 
 
 def eyed_along(organ: NDArray[np.int32], place: Doubles, /) -> Doubles:
-    """Return how far organs (n,) have the colour of their head's eye at places (points,), shape (n, points)."""
-    to, none = DYED[organ].T[:, :, None]
-    return np.asarray(np.clip((none - place) / (none - to), 0.0, 1.0))
+    """Return the fraction of the eye's colour of organs (n,) at places (points,), shape (n, points)."""
+    fades, ends = DYED[organ].T[:, :, None]
+    return np.asarray(np.clip((ends - place) / (ends - fades), 0.0, 1.0))
 
 
 def has_eyes(blades: Blades, /) -> bool:
-    """Return whether the heads of blades have an eye of a colour of its own: each of these has a disc or a capsule."""
+    """Return whether heads have an eye of its own colour, as all with a disc or a capsule do."""
     return bool(np.isin(blades.organ, (DISC, CAPSULE)).any())
 
 
 def any_eyes(growths: Iterable[Growth], /) -> bool:
-    """Return whether the heads of any kind have eyes."""
+    """Return whether the heads of any kind have an eye of its own colour."""
     return any(has_eyes(growth.models[0].blades) for growth in growths)
 
 

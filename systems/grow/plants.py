@@ -14,13 +14,13 @@ from .layout import HABITS, Layout
 from .organs import FROND, LEAF, SPRIG, STEM
 from .postures import hanging_of
 from .record import Blades
-from .rows import GOLDEN, Rows, Stems, stood, together
+from .rows import GOLDEN, Rows, Stems, stand_organs, to_blades
 
 _STEM_WIDTH = 0.006
-"""Of its length."""
+"""Width of a stem, relative to its length."""
 
 _WOODY = 2.0
-"""How much wider those of shrubs are."""
+"""Factor on the width of shrubs' stems."""
 
 _LEAST_STEM_WIDTH = 0.003
 
@@ -28,9 +28,9 @@ _LEAST_STEM_WIDTH = 0.003
 def grow_patch(kind: GrassKind, layout: Layout, /, *, patch: float, variants: int, seed: int) -> Blades:
     """Return the rows of one patch model of a kind, `patch` metres wide, from a seed.
 
-    Plants stand where the blades of grass would, of which they have the root, the rank, and for a stem the height and
-    the lean. All rows of a plant have its root and its rank, and follow one another: of each branch the stem first, the
-    head last.
+    Each plant grows from a blade of grass: it has the blade's root and rank, and its stem the blade's height and lean.
+    The rows of a plant have the same root and rank and follow one another: of each branch the stem first, the head
+    last.
     """
     stand = grow_blades(kind, count=layout.plants, patch=patch, variants=variants, seed=seed)
     leaves = stand
@@ -41,20 +41,21 @@ def grow_patch(kind: GrassKind, layout: Layout, /, *, patch: float, variants: in
     if kind.plant == "grass" and kind.head is None:
         return leaves
     random = np.random.default_rng([seed, 0x706C616E])
-    return together(stand, *_parts(kind, layout, stand, leaves, variants, random))
+    return to_blades(stand, *_parts(kind, layout, stand, leaves, variants, random))
 
 
 def _parts(
     kind: GrassKind, layout: Layout, stand: Blades, leaves: Blades, variants: int, random: np.random.Generator, /
 ) -> list[Rows]:
+    """Return the blades, stems, leaves and heads of a patch model."""
     bears = _bearing(layout)
     if kind.plant == "grass":
         culms = _culms(kind, stand, np.flatnonzero(bears))
-        parts = [_blades(leaves, np.flatnonzero(~bears)), _stems(kind, culms)]
+        parts = [_blade_rows(leaves, np.flatnonzero(~bears)), _stem_rows(kind, culms)]
     else:
-        every = _BRANCHED[kind.plant](kind, layout, stand, random)
-        parts = [_stems(kind, every), _leaves(kind, layout, every, variants - hanging_of(variants), random)]
-        culms = every.of(np.flatnonzero(bears[every.plant]))
+        stems = _GROW_STEMS[kind.plant](kind, layout, stand, random)
+        parts = [_stem_rows(kind, stems), _leaf_rows(kind, layout, stems, variants - hanging_of(variants), random)]
+        culms = stems.take(np.flatnonzero(bears[stems.plant]))
     if kind.head is not None:
         arched = min(variants - hanging_of(variants), variants - 1)
         parts += grow_heads(kind.head, layout, culms, random, arched=arched)
@@ -62,30 +63,31 @@ def _parts(
 
 
 def _bearing(layout: Layout, /) -> NDArray[np.bool_]:
-    """Return which plants bear heads, shape (plants,): of every first few, the same share."""
+    """Return a mask of the plants that bear heads, (plants,): any number of first plants has the same share of them."""
     due = np.arange(layout.plants + 1) * layout.bearing // layout.plants
     return np.diff(due) > 0
 
 
-def _upright(stand: Blades, plant: NDArray[np.intp], /) -> Stems:
-    """Return a stem for each of some plants (m,), as high and as leaning as its blade."""
-    first = np.zeros(len(plant), np.intp)
-    return Stems(plant, first, stand.height[plant].astype(np.float64), stand.rest[plant].astype(np.float64))
+def _stems_of(stand: Blades, plant: NDArray[np.intp], /) -> Stems:
+    """Return one stem for each of some plants (m,), with the height and the lean of its blade."""
+    branch = np.zeros(len(plant), np.intp)
+    return Stems(plant, branch, stand.height[plant].astype(np.float64), stand.rest[plant].astype(np.float64))
 
 
 def _culms(kind: GrassKind, stand: Blades, plant: NDArray[np.intp], /) -> Stems:
-    """Return the stems of grasses that bear heads (m,): they overtop the leaves, and lean less."""
-    stems = _upright(stand, plant)
+    """Return the stems of grasses that bear heads (m,): they rise above the leaves and lean less."""
+    stems = _stems_of(stand, plant)
     return Stems(plant, stems.branch, 0.5 * (stems.height + kind.height[1]), 0.6 * stems.rest)
 
 
-def _alone(kind: GrassKind, layout: Layout, stand: Blades, random: np.random.Generator, /) -> Stems:
+def _single(kind: GrassKind, layout: Layout, stand: Blades, random: np.random.Generator, /) -> Stems:
+    """Return one stem for each plant."""
     del kind, random
-    return _upright(stand, np.arange(layout.plants))
+    return _stems_of(stand, np.arange(layout.plants))
 
 
 def _branched(kind: GrassKind, layout: Layout, stand: Blades, random: np.random.Generator, /) -> Stems:
-    """Return the branches of shrubs: they lean out all round, the shorter the farther."""
+    """Return the branches of shrubs: they lean outwards in all directions; those that lean farther are shorter."""
     count = layout.plants, layout.branches
     out = (np.arange(layout.branches) + random.uniform(0.2, 0.9, count)) / layout.branches
     toward = stand.facing[:, None] + GOLDEN * np.arange(layout.branches) + random.normal(0.0, 0.3, count)
@@ -96,16 +98,16 @@ def _branched(kind: GrassKind, layout: Layout, stand: Blades, random: np.random.
     return Stems(plant, branch, height.reshape(-1), rest.reshape(-1, 2))
 
 
-_BRANCHED: Mapping[Plant, Callable[[GrassKind, Layout, Blades, np.random.Generator], Stems]] = {
-    "flower": _alone,
-    "forb": _alone,
+_GROW_STEMS: Mapping[Plant, Callable[[GrassKind, Layout, Blades, np.random.Generator], Stems]] = {
+    "flower": _single,
+    "forb": _single,
     "shrub": _branched,
 }
-"""How the stems of each stand."""
+"""Function that grows the stems of each sort of plant."""
 
 
-def _blades(stand: Blades, plant: NDArray[np.intp], /) -> Rows:
-    """Return the plants that stay blades, as they are."""
+def _blade_rows(stand: Blades, plant: NDArray[np.intp], /) -> Rows:
+    """Return the rows of plants that are single blades."""
     return Rows(
         plant=plant, branch=np.zeros(len(plant), np.intp),
         height=stand.height[plant], width=stand.width[plant], facing=stand.facing[plant],
@@ -115,8 +117,8 @@ def _blades(stand: Blades, plant: NDArray[np.intp], /) -> Rows:
     )  # fmt: skip
 
 
-def _stems(kind: GrassKind, stems: Stems, /) -> Rows:
-    """Return the stems themselves."""
+def _stem_rows(kind: GrassKind, stems: Stems, /) -> Rows:
+    """Return the rows of the stems themselves."""
     count = len(stems.plant)
     width = np.maximum(_STEM_WIDTH * stems.height, _LEAST_STEM_WIDTH) * (_WOODY if kind.plant == "shrub" else 1.0)
     return Rows(
@@ -128,16 +130,16 @@ def _stems(kind: GrassKind, stems: Stems, /) -> Rows:
 
 @dataclass(frozen=True, slots=True)
 class _Foliage:
-    """How leaves stand on a stem."""
+    """Arrangement of leaves on a stem."""
 
     up_to: float
-    """Part of the stem that bears them, from below."""
+    """Fraction of the stem that bears leaves, from the ground on."""
 
     shrinks: float
-    """How much shorter the highest are than the lowest."""
+    """Fraction by which the highest leaf is shorter than the lowest."""
 
     spread: tuple[float, float]
-    """Posture indices that they hold at rest."""
+    """Least and largest posture index of leaves at rest."""
 
 
 _FOLIAGE: Mapping[Plant, _Foliage] = {
@@ -147,9 +149,9 @@ _FOLIAGE: Mapping[Plant, _Foliage] = {
 }
 
 
-def _leaves(kind: GrassKind, layout: Layout, stems: Stems, variants: int, random: np.random.Generator, /) -> Rows:
-    """Return the leaves of stems, one after another round each."""
-    form, count = _FOLIAGE[kind.plant], (len(stems.plant), layout.leaves)
+def _leaf_rows(kind: GrassKind, layout: Layout, stems: Stems, variants: int, random: np.random.Generator, /) -> Rows:
+    """Return the leaves of stems, at golden angles round each."""
+    foliage, count = _FOLIAGE[kind.plant], (len(stems.plant), layout.leaves)
     place = (np.arange(layout.leaves) + random.uniform(0.0, 0.8, count)) / max(layout.leaves, 1)
     if kind.leaf is None:
         length = HABITS[kind.plant].leaf * stems.height[:, None] * random.uniform(0.75, 1.1, count)
@@ -158,9 +160,9 @@ def _leaves(kind: GrassKind, layout: Layout, stems: Stems, variants: int, random
         length = random.uniform(short, long, count)
     toward = random.uniform(-np.pi, np.pi, (count[0], 1)) + GOLDEN * np.arange(layout.leaves)
     organ = FROND if kind.head is None else SPRIG if kind.plant == "shrub" else LEAF
-    return stood(
-        stems, organ, part=form.up_to * place,
-        height=length * (1.0 - form.shrinks * place), width=kind.width * random.uniform(0.75, 1.15, count),
-        toward=toward, spread=random.uniform(*form.spread, count),
+    return stand_organs(
+        stems, organ, part=foliage.up_to * place,
+        height=length * (1.0 - foliage.shrinks * place), width=kind.width * random.uniform(0.75, 1.15, count),
+        toward=toward, spread=random.uniform(*foliage.spread, count),
         variant=random.integers(0, variants, count, dtype=np.int32),
     )  # fmt: skip

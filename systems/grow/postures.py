@@ -1,4 +1,4 @@
-"""Postures and response of a kind of grass, taken from the simulation of its blades (paper, sections 3.2, 3.3)."""
+"""Postures and give of a kind of grass, taken from the simulation of its blades (paper, section 3.2)."""
 
 import numpy as np
 
@@ -11,31 +11,31 @@ NEAR_FLAT = np.radians(83.0)
 """Angle of the tip from the vertical at posture index 1 [rad]."""
 
 _CALM, _STORM = 0.02, 400.0
-"""Squared speeds of winds that bend blades, from the least to the most, in what their stiffness withstands."""
+"""Least and largest squared speed of winds, in units of a blade's stiffness over its drag."""
 
 HANGING = 2
-"""Variants of leaves that hang over, the last of all: one arches, the other is folded over."""
+"""Number of variants that are hanging leaves, the last ones: one arches, one is folded over."""
 
-_HEAVY_FROM, _HEAVY_TO, _SAGS = 0.02, 8.0, 60
-"""Weights of a leaf that sags, of what it carries, from the least to the most; how many between."""
+_LIGHTEST, _HEAVIEST, _WEIGHTS = 0.02, 8.0, 60
+"""Weight of a sagging leaf, relative to what it carries: least, largest, and number of steps."""
 
-_FOLDED_AT, _FOLD = 8, 0.12
-"""The joint at which a leaf is folded over, and how stiff that is, of what it would be."""
+_FOLDED_AT, _FOLD_STIFFNESS = 8, 0.12
+"""Joint at which a leaf is folded over, and its stiffness relative to an unbroken one."""
 
 _GOLDEN = 0.618
 _RESTS = 200
 _STEPS, _LONGEST_STEP, _ANGLE_STEP = 1200, 0.1, 0.15
-_HEAVY = 0.7
+_HEAVY_DAMPING = 0.7
 
 
 def grow_postures(kind: GrassKind, /, *, variants: int = 4, rows: int = 129, seed: int = 0) -> Postures:
     """Return the shapes of a kind's blades by posture index (paper, section 3.2).
 
-    A wind that grows slowly from nothing bends simulated blades until their tips lie near flat: index 1. The
-    index is the angle of the line from root to tip, as a fraction of that; 0 is upright, and a negative index
-    is the mirror image. Variant 0 has even links; in the others the springs, and so each segment's
-    orientation, are random (section 2.2). The last `hanging_of` variants are leaves too heavy for themselves: they
-    sag, and lie at index 1. Raises ValueError unless `rows` is odd and at least 3.
+    A wind that grows slowly from nothing bends simulated blades until their tips are near flat: index 1. The
+    index is the angle of the line from root to tip, as a fraction of the angle then; 0 is upright, and a negative
+    index is the mirror image. Variant 0 has even links; in the others the springs, and so each segment's
+    orientation, are random (section 2.2). The last `hanging_of` variants are leaves that sag under their own weight,
+    until the line from root to tip is near flat at index 1. Raises ValueError unless `rows` is odd and at least 3.
     """
     if rows < 3 or rows % 2 == 0:
         raise ValueError(f"postures need an odd number of rows, at least 3, not {rows}")
@@ -46,7 +46,7 @@ def grow_postures(kind: GrassKind, /, *, variants: int = 4, rows: int = 129, see
     sagged = np.moveaxis(_hang(kind), 1, 0)[:hanging]
     rising = np.stack(
         [_resample(angle[: flat_step(angle) + 1], level) for angle in bent]
-        + [_resample(angle[: _lies_from(angle) + 1], level) for angle in sagged]
+        + [_resample(angle[: _flat_chord_step(angle) + 1], level) for angle in sagged]
     )
     both = np.concatenate([-rising[:, :0:-1], rising], axis=1)
     index = np.concatenate([-level[:0:-1], level])
@@ -54,28 +54,28 @@ def grow_postures(kind: GrassKind, /, *, variants: int = 4, rows: int = 129, see
 
 
 def hanging_of(variants: int, /) -> int:
-    """Return how many of so many variants are leaves that hang over: two at least stand."""
+    """Return the number of hanging leaves among `variants`: at least two of these stand."""
     return min(HANGING, max(variants - 2, 0))
 
 
 def _hang(kind: GrassKind, /) -> Doubles:
-    """Return the angles of leaves that sag ever more, first one that arches, then one that is folded over.
+    """Return the angles of leaves under growing weight, one that arches and one that is folded over.
 
-    Shape (steps, HANGING, links); as leaves grow old they bend under their weight, or break at a weak place.
+    Shape (steps, HANGING, links). Old leaves bend under their weight, or break at a weak place.
     """
     factors = np.ones((HANGING, LINKS))
-    factors[1, _FOLDED_AT] = _FOLD
-    sagged = sag(kind, factors, np.geomspace(_HEAVY_FROM, _HEAVY_TO, _SAGS))
+    factors[1, _FOLDED_AT] = _FOLD_STIFFNESS
+    sagged = sag(kind, factors, np.geomspace(_LIGHTEST, _HEAVIEST, _WEIGHTS))
     return np.concatenate([np.zeros_like(sagged[:1]), sagged])
 
 
-def _lies_from(angle: Doubles, /) -> int:
+def _flat_chord_step(angle: Doubles, /) -> int:
     """Return the first step at which the line from root to tip of a leaf (steps, links) is near flat."""
     return int(np.argmax(chord_angle(angle) >= NEAR_FLAT))
 
 
 def rest_in_winds(chain: Chain, /) -> tuple[Doubles, Doubles]:
-    """Return the angles of one blade at rest in constant winds, from calm to storm, and the winds' speeds.
+    """Return the angles of one blade at rest in constant winds, from calm to storm, and the speeds of these winds.
 
     Shapes (winds, links) and (winds,).
     """
@@ -86,15 +86,15 @@ def rest_in_winds(chain: Chain, /) -> tuple[Doubles, Doubles]:
 def _bend_slowly(chain: Chain, /) -> Doubles:
     """Return the angles of blades under a slowly growing wind, shape (steps, batch, links).
 
-    It ends when every tip has been near flat. Joints are damped heavily, so that no blade swings on its way.
+    It ends when every tip has been near flat. Joints are damped heavily, so that no blade swings.
     """
     batch, links = chain.stiffness.shape
-    heavy = damp(chain, ratio=_HEAVY)
+    damped = damp(chain, ratio=_HEAVY_DAMPING)
     step = min(_ANGLE_STEP / float(lowest_swing(chain)[0]), _LONGEST_STEP)
     wind = _winds(chain, _STEPS)
     angle, rate = np.zeros((1, batch, links)), np.zeros((batch, links))
     for start in range(0, _STEPS, 100):
-        more, rate = simulate(heavy, angle[-1], rate, wind[start : start + 100], step=step)
+        more, rate = simulate(damped, angle[-1], rate, wind[start : start + 100], step=step)
         angle = np.concatenate([angle, more[1:]])
         if (angle[:, :, -1].max(axis=0) >= NEAR_FLAT).all():
             break
@@ -102,7 +102,7 @@ def _bend_slowly(chain: Chain, /) -> Doubles:
 
 
 def _winds(chain: Chain, count: int, /) -> Doubles:
-    """Return so many speeds of winds from calm to storm for each blade, shape (count, batch)."""
+    """Return `count` speeds of winds from calm to storm for each blade, shape (count, batch)."""
     scale = chain.stiffness[:, 0] / (chain.stiffness.shape[1] * chain.area.sum())
     return np.asarray(np.sqrt(np.geomspace(_CALM, _STORM, count)[:, None] * scale))
 
@@ -114,17 +114,17 @@ def chord_angle(angle: Doubles, /) -> Doubles:
 
 
 def flat_step(angle: Doubles, /) -> int:
-    """Return the first step at which a blade's tip is near flat, or else its flattest; angles (steps, links)."""
+    """Return the first step at which a blade's tip is near flat, else its flattest one; angles (steps, links)."""
     tip = angle[:, -1]
     return int(np.argmax(tip >= NEAR_FLAT)) or int(np.argmax(tip))
 
 
 def _resample(angle: Doubles, level: Doubles, /) -> Doubles:
-    """Return angles at evenly spaced deflections, shape (levels, links), exact 0 at the first."""
+    """Return angles at evenly spaced deflections, shape (levels, links), exactly 0 at the first."""
     chord = np.maximum.accumulate(chord_angle(angle))
-    fresh = np.concatenate([[True], np.diff(chord) > 1e-9])
-    wanted = level * min(chord[-1], NEAR_FLAT)
-    return np.stack([np.interp(wanted, chord[fresh], link) for link in angle[fresh].T], axis=1)
+    rises = np.concatenate([[True], np.diff(chord) > 1e-9])
+    deflection = level * min(chord[-1], NEAR_FLAT)
+    return np.stack([np.interp(deflection, chord[rises], link) for link in angle[rises].T], axis=1)
 
 
 def _random_factors(variants: int, seed: int, /) -> Doubles:
@@ -138,20 +138,19 @@ def _random_factors(variants: int, seed: int, /) -> Doubles:
 
 
 def grow_give(kind: GrassKind, /) -> Floats:
-    """Return the posture indices that messages of evenly spaced lengths from 0 to 1 bend a kind's blades to.
+    """Return the posture indices to which messages of evenly spaced lengths from 0 to 1 bend a kind's blades.
 
-    A message is a wind's force: the force that bends the same blade to that index when its stiffness is 1. So a blade
-    of stiffness 1 has the index of the message, a stiffer one a smaller, and a softer one a larger, up to 1, where it
-    lies flat already. Shape (GIVES,), rising from 0.
+    A message's length is the index to which its wind bends the same blade at stiffness 1. A stiffer blade gets a
+    smaller index, a softer one a larger, at most 1, where it lies flat. Shape (GIVES,), rising from 0.
     """
-    common = _rest_by_pressure(kind.model_copy(update={"stiffness": 1.0}))
-    own = _rest_by_pressure(kind) if kind.stiffness != 1.0 else common
-    pressure = np.interp(np.linspace(0.0, 1.0, GIVES), common[1], common[0])
+    usual = _rest_by_pressure(kind.model_copy(update={"stiffness": 1.0}))
+    own = _rest_by_pressure(kind) if kind.stiffness != 1.0 else usual
+    pressure = np.interp(np.linspace(0.0, 1.0, GIVES), usual[1], usual[0])
     return np.interp(pressure, *own).astype(np.float32)
 
 
 def _rest_by_pressure(kind: GrassKind, /) -> tuple[Doubles, Doubles]:
-    """Return squared speeds of constant winds, and the posture indices that they hold an even blade at, up to 1."""
+    """Return squared speeds of constant winds, and the posture indices up to 1 at which they hold an even blade."""
     angle, wind = rest_in_winds(build_chain(kind, np.ones((1, LINKS))))
     end = flat_step(angle) + 1
     chord = np.maximum.accumulate(chord_angle(angle[:end]))

@@ -10,29 +10,29 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles, Rows
 
 _CHUNK = 1 << 15
-"""Few enough that all that is worked on stays in the processor's own memory."""
+"""Number of fragments processed at a time: few enough for the processor's cache."""
 
 _SLIVER = 1e-9
 
 _STAGGER = np.array([0.125, 0.625, 0.375, 0.875])
-"""Where samples lie in their column, row by row: so that steep edges are met at more than one place."""
+"""Position of samples within their column, row by row: staggered, so that steep edges are sampled at several places."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fragments:
-    """The samples of an image that show a triangle, at most one for each, in rising order of `sample`."""
+    """The samples of an image that show a triangle, one fragment each, in rising order of `sample`."""
 
     sample: Rows
     """Flat index of the sample, row * columns + column, shape (f,)."""
 
     triangle: Rows
-    """The nearest triangle there, shape (f,)."""
+    """Index of the nearest triangle there, shape (f,)."""
 
     x: Doubles
-    """Where the triangle was met, before wrapping, shape (f,)."""
+    """x of the fragment in the triangle's own coordinates, before wrapping [samples], shape (f,)."""
 
     y: Doubles
-    """Shape (f,)."""
+    """y likewise, shape (f,)."""
 
 
 def rasterise(
@@ -45,27 +45,27 @@ def rasterise(
     shift: int = 0,
     chunk: int = _CHUNK,
 ) -> Fragments:
-    """Return what each sample of an image shows of triangles: the nearest one.
+    """Return the nearest triangle at each sample of an image.
 
     `corners` are (x, y) in samples, shape (n, 3, 2): sample (row, column) lies at y = row + 0.5 and somewhere
     between x = column and column + 1, staggered from row to row over every four rows. `nearness` is larger
-    nearer to the eye, shape (n, 3). With `wrap` the image is a torus, twisted by `shift` rows: what goes over its
-    last column comes back so many rows lower, at a smaller number. Without it, what lies outside is cut off. `chunk`
+    nearer to the eye, shape (n, 3). With `wrap` the image is a torus, twisted by `shift` rows: what leaves at the last
+    column enters at the first, with a row number smaller by `shift`. Without it, what lies outside is clipped. `chunk`
     bounds the fragments that are held at a time.
     """
     planes = plane_of(corners, nearness)
     low, high = (float(nearness.min()), float(nearness.max())) if nearness.size else (0.0, 0.0)
     scale = (2.0**32 - 1.0) / max(high - low, 1e-12)
-    seen = _Seen(shape, wrap=wrap, shift=shift)
+    depth = _DepthBuffer(shape, wrap=wrap, shift=shift)
     for triangle, row, column in _samples_inside(corners, shape, wrap=wrap, chunk=chunk):
-        x, y = _across(row, column), _centre(row)
+        x, y = _sample_x(row, column), _sample_y(row)
         steps = np.clip((_value(planes, triangle, x, y) - low) * scale, 0.0, 2.0**32 - 1.0).astype(np.uint64)
-        seen.show((steps << np.uint64(32)) | (triangle + 1).astype(np.uint64), row, column)
-    return seen.fragments()
+        depth.write((steps << np.uint64(32)) | (triangle + 1).astype(np.uint64), row, column)
+    return depth.fragments()
 
 
 def plane_of(corners: Doubles, values: Doubles, /) -> Doubles:
-    """Return (value at 0, slope in x, slope in y) of what is linear over each triangle, shape (3, n)."""
+    """Return (value at the origin, slope in x, slope in y) of values linear over each triangle, shape (3, n)."""
     (x0, y0), (x1, y1), (x2, y2) = (corners[:, k].T for k in range(3))
     area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)
     area = np.where(np.abs(area) < _SLIVER, np.inf, area)
@@ -76,11 +76,11 @@ def plane_of(corners: Doubles, values: Doubles, /) -> Doubles:
 
 
 def interpolate(corners: Doubles, values: Doubles, fragments: Fragments, /) -> Doubles:
-    """Return at each fragment what is given at the corners of the triangles, (n, 3); shape (f,)."""
-    at = _value(plane_of(corners, values), fragments.triangle, fragments.x, fragments.y)
+    """Return the values at the corners of triangles (n, 3), interpolated linearly at each fragment, shape (f,)."""
+    value = _value(plane_of(corners, values), fragments.triangle, fragments.x, fragments.y)
     lowest, highest = values.min(axis=1), values.max(axis=1)
-    np.clip(at, lowest.take(fragments.triangle), highest.take(fragments.triangle), out=at)
-    return at
+    np.clip(value, lowest.take(fragments.triangle), highest.take(fragments.triangle), out=value)
+    return value
 
 
 def ribbon_triangles(left: Doubles, right: Doubles, /) -> Doubles:
@@ -90,45 +90,47 @@ def ribbon_triangles(left: Doubles, right: Doubles, /) -> Doubles:
     return np.stack([lower, upper], axis=2).reshape(-1, 3, left.shape[2])
 
 
-class _Seen:
+class _DepthBuffer:
     """The nearest triangle at each sample so far."""
 
     def __init__(self, shape: tuple[int, int], *, wrap: bool, shift: int) -> None:
         self._shape, self._shift = shape, shift
         self._best = np.zeros(shape[0] * shape[1], np.uint64)
-        self._met = [np.empty(len(self._best), np.int32) for _ in shape] if wrap else None
+        """Largest key at each sample: nearness in the upper half, 1 + index of the triangle in the lower one."""
+        self._unwrapped = [np.empty(len(self._best), np.int32) for _ in shape] if wrap else None
+        """Row and column of that fragment before wrapping."""
 
-    def show(self, key: NDArray[np.uint64], row: Rows, column: Rows) -> None:
-        """Show triangles, by nearness and number, at some samples, which with wrapping may lie beyond the image."""
+    def write(self, key: NDArray[np.uint64], row: Rows, column: Rows) -> None:
+        """Write the keys of fragments at some samples, which with wrapping may lie beyond the image."""
         rows, columns = self._shape
-        if self._met is None:
+        if self._unwrapped is None:
             np.maximum.at(self._best, row * columns + column, key)
             return
-        round_it = column // columns
-        wrapped = row - self._shift * round_it
-        sample = (wrapped - wrapped // rows * rows) * columns + (column - round_it * columns)
+        turns = column // columns
+        wrapped = row - self._shift * turns
+        sample = (wrapped - wrapped // rows * rows) * columns + (column - turns * columns)
         np.maximum.at(self._best, sample, key)
-        wins = np.flatnonzero(self._best.take(sample) == key)
-        where = sample.take(wins)
-        for met, at in zip(self._met, (row, column), strict=True):
-            met[where] = at.take(wins)
+        nearest = np.flatnonzero(self._best.take(sample) == key)
+        written = sample.take(nearest)
+        for kept, given in zip(self._unwrapped, (row, column), strict=True):
+            kept[written] = given.take(nearest)
 
     def fragments(self) -> Fragments:
-        """Return what is seen in the end."""
+        """Return the fragments seen in the end."""
         sample = np.flatnonzero(self._best != 0)
         triangle = (self._best.take(sample) & np.uint64(0xFFFFFFFF)).astype(np.int64) - 1
-        if self._met is None:
+        if self._unwrapped is None:
             row = sample // self._shape[1]
             column = sample - row * self._shape[1]
         else:
-            row, column = (met.take(sample).astype(np.int64) for met in self._met)
-        return Fragments(sample, triangle, _across(row, column), _centre(row))
+            row, column = (kept.take(sample).astype(np.int64) for kept in self._unwrapped)
+        return Fragments(sample, triangle, _sample_x(row, column), _sample_y(row))
 
 
 def _samples_inside(
     corners: Doubles, shape: tuple[int, int], /, *, wrap: bool, chunk: int
 ) -> Iterator[tuple[Rows, Rows, Rows]]:
-    """Yield the samples inside all triangles, some at a time: triangle, row and column, shape (m,) each."""
+    """Yield the samples inside all triangles, about `chunk` at a time: triangle, row and column, shape (m,) each."""
     halves = _halves(corners, shape, wrap=wrap)
     for start, stop in _chunks(halves.count, chunk):
         half, row = _expand(halves.count[start:stop], halves.low[start:stop])
@@ -143,7 +145,7 @@ def _samples_inside(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Edges:
-    """Lines that rise in y, one for each of the things that they bound."""
+    """Edges that rise in y: lower ends, and the way to the upper ends, shape (n,) each."""
 
     x: Doubles
     y: Doubles
@@ -152,18 +154,18 @@ class _Edges:
 
     @classmethod
     def between(cls, start: Doubles, end: Doubles, /) -> "_Edges":
-        """Return the lines from `start` to `end`, (n, 2)."""
+        """Return the edges from `start` to `end`, shape (n, 2) each."""
         rise = end[:, 1] - start[:, 1]
         columns = start[:, 0], start[:, 1], end[:, 0] - start[:, 0], np.where(rise > 0.0, rise, 1.0)
         return cls(*(np.ascontiguousarray(column) for column in columns))
 
-    def at(self, number: Rows, y: Doubles, /) -> Doubles:
-        """Return where some of the lines cross constant y."""
-        part = (y - self.y.take(number)) / self.rise.take(number)
-        np.clip(part, 0.0, 1.0, out=part)
-        part *= self.run.take(number)
-        part += self.x.take(number)
-        return part
+    def x_at(self, number: Rows, y: Doubles, /) -> Doubles:
+        """Return x of some edges (m,) at heights y (m,), shape (m,)."""
+        x = (y - self.y.take(number)) / self.rise.take(number)
+        np.clip(x, 0.0, 1.0, out=x)
+        x *= self.run.take(number)
+        x += self.x.take(number)
+        return x
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -171,21 +173,21 @@ class _Halves:
     """Triangles, each cut at the height of its middle corner into a lower half and an upper one."""
 
     bent: _Edges
-    """What bounds each half on the side of the middle corner."""
+    """Edge of each half on the side of the middle corner."""
 
     straight: _Edges
-    """What bounds each triangle on the other side."""
+    """Edge of each triangle on the other side, from its lowest to its highest corner."""
 
     low: Rows
     """First row of each half."""
 
     count: Rows
-    """Rows of each half."""
+    """Number of rows of each half."""
 
     def row_spans(self, half: Rows, row: Rows, /) -> tuple[Rows, Rows, Rows]:
-        """Return the triangles of halves, and their first columns on rows and those after their last."""
-        triangle, y, shift = half >> 1, _centre(row), _STAGGER.take(row & 3)
-        bent, straight = self.bent.at(half, y), self.straight.at(triangle, y)
+        """Return the triangle of each half, its first column on a row and the one after its last, shape (m,) each."""
+        triangle, y, shift = half >> 1, _sample_y(row), _STAGGER.take(row & 3)
+        bent, straight = self.bent.x_at(half, y), self.straight.x_at(triangle, y)
         first, last = np.minimum(bent, straight) - shift, np.maximum(bent, straight) - shift
         return triangle, np.ceil(first).astype(np.int64), np.ceil(last).astype(np.int64)
 
@@ -204,10 +206,10 @@ def _halves(corners: Doubles, shape: tuple[int, int], /, *, wrap: bool) -> _Halv
 
 
 def _expand(length: Rows, first: Rows, /) -> tuple[Rows, Rows]:
-    """Return, for runs of integers from `first` on, one after another, each element's run and its number."""
-    owner = np.repeat(np.arange(length.shape[0]), length)
+    """Return the run of each element of runs of `length` integers from `first` on, laid end to end, and the element."""
+    run = np.repeat(np.arange(length.shape[0]), length)
     start = first - np.cumsum(length) + length
-    return owner, np.arange(owner.shape[0]) + start.take(owner)
+    return run, np.arange(run.shape[0]) + start.take(run)
 
 
 def _chunks(length: Rows, chunk: int, /) -> list[tuple[int, int]]:
@@ -226,9 +228,9 @@ def _value(planes: Doubles, triangle: Rows, x: Doubles, y: Doubles, /) -> Double
     return value
 
 
-def _centre(row: Rows, /) -> Doubles:
+def _sample_y(row: Rows, /) -> Doubles:
     return np.asarray(row + 0.5, np.float64)
 
 
-def _across(row: Rows, column: Rows, /) -> Doubles:
+def _sample_x(row: Rows, column: Rows, /) -> Doubles:
     return np.asarray(column + _STAGGER.take(row & 3))

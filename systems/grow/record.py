@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from ...components.arrays import Floats
 
 GIVES = 17
-"""Lengths of messages, evenly spaced from 0 to 1, for which it is known how far a kind gives way."""
+"""Number of message lengths at which a kind's give is tabulated, evenly spaced from 0 to 1."""
 
 LENGTHS = np.linspace(0.0, 1.0, GIVES)
-"""These lengths, shape (GIVES,)."""
+"""Message lengths at which a kind's give is tabulated, shape (GIVES,)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,11 +29,11 @@ class Postures:
     shape (variants, rows, links + 1, 2). Variant 0 has even links; the others have random ones."""
 
     give: Floats = field(default_factory=lambda: np.linspace(0.0, 1.0, GIVES, dtype=np.float32))
-    """Posture index that messages of evenly spaced lengths from 0 to 1 bend a blade to, shape (GIVES,): a stiff kind
-    gives way less than the message says, a soft one more, and one of stiffness 1 as far."""
+    """Posture index to which messages of `LENGTHS` bend a blade, shape (GIVES,): less than the length for a stiff kind,
+    more for a soft one, the same at stiffness 1."""
 
     def bent_by(self, length: NDArray[np.float64] | float, /) -> NDArray[np.float64]:
-        """Return the posture indices that messages of these lengths bend a blade to, of the same shape."""
+        """Return the posture indices to which messages of these lengths bend a blade, same shape."""
         return np.asarray(np.interp(length, LENGTHS, self.give))
 
 
@@ -55,7 +55,7 @@ class Response:
 class Blades:
     """The blades of one patch model, one row per blade (paper, section 2.2).
 
-    A plant other than grass is several rows of the same root and rank: its stem, its leaves, what its head is made of.
+    A plant other than grass is several rows of the same root and rank: its stems, its leaves, and organs of its heads.
     """
 
     root: Floats
@@ -71,26 +71,26 @@ class Blades:
     """Azimuth of the blade's face normal, from +x towards +z [rad], shape (n,)."""
 
     rest: Floats
-    """The blade's own lean: bending direction times posture index at rest, (x, z), shape (n, 2)."""
+    """Lean of the blade at rest: bending direction times posture index, (x, z), shape (n, 2)."""
 
     variant: NDArray[np.int32]
     """Row of `Postures.shape` that the blade takes its shapes from, shape (n,)."""
 
     rank: Floats
-    """Order of disappearance in [0, 1): a blade is there where the density exceeds it, shape (n,)."""
+    """Rank in [0, 1): the blade grows where the density is above it, shape (n,)."""
 
     organ: NDArray[np.int32] = field(default_factory=lambda: np.zeros(1, np.int32))
-    """What it is, a number of `ORGANS`, shape (n,), or (1,) for all."""
+    """Index of its organ in `ORGANS`, shape (n,), or (1,) for all."""
 
     stem: Floats = field(default_factory=lambda: np.zeros(1, np.float32))
     """Length of the stem that it stands on, 0 for the ground [m], shape (n,), or (1,) for all. The stem is a row of its
     own, of variant 0, with the same root."""
 
     part: Floats = field(default_factory=lambda: np.ones(1, np.float32))
-    """Where along its stem it stands, from 0 at the root to 1 at the top, shape (n,), or (1,) for all."""
+    """Place along its stem, from 0 at the root to 1 at the top, shape (n,), or (1,) for all."""
 
     stem_rest: Floats = field(default_factory=lambda: np.zeros((1, 2), np.float32))
-    """The lean of its stem, as `rest` is its own, shape (n, 2), or (1, 2) for all."""
+    """Lean of its stem at rest, in the form of `rest`, shape (n, 2), or (1, 2) for all."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -99,7 +99,7 @@ class PatchModel:
 
     blades: Blades
     pictures: Mapping[str, tuple[Any, ...]]
-    """By representation, the records that it has grown, in its own order."""
+    """Records that each representation has grown, by its name."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
@@ -113,20 +113,20 @@ class Growth:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Form:
-    """What one kind of grass has grown to, or is to become."""
+    """What one kind of grass is now, or is to become."""
 
     number: int
-    """Which form it is: that of kind k is k, and what it is to become is k plus as many as there are kinds."""
+    """Index of the form: k for what kind k is now, k plus the number of kinds for what it is to become."""
 
     kind: int
     growth: Growth
 
 
 NOTHING: Mapping[int, Growth] = MappingProxyType({})
-"""Where no kind is to become anything else."""
+"""Growths to come where no kind is to become another."""
 
 
 def forms_of(growths: Sequence[Growth], coming: Mapping[int, Growth] = NOTHING, /) -> tuple[Form, ...]:
-    """Return the forms of all kinds, and after them what some are to become, by kind."""
-    own = [Form(kind, kind, growth) for kind, growth in enumerate(growths)]
-    return *own, *(Form(len(growths) + kind, kind, coming[kind]) for kind in sorted(coming))
+    """Return what all kinds are now, then what the kinds of `coming` are to become, by kind."""
+    now = [Form(kind, kind, growth) for kind, growth in enumerate(growths)]
+    return *now, *(Form(len(growths) + kind, kind, coming[kind]) for kind in sorted(coming))

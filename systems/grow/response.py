@@ -13,7 +13,7 @@ from .simulate import LINKS, Chain, build_chain, lowest_swing, settle, simulate
 SAMPLES = 256
 
 _FINAL = 0.55
-"""Posture index that the wind ends at: a gust that shows."""
+"""Posture index at rest in the wind: that of a visible gust."""
 
 _REST = 0.01
 _CYCLES, _LONGEST, _STILL = 4.0, 16.0, 3.0
@@ -23,24 +23,24 @@ _STEPS_PER_SWING = 120
 def grow_response(kind: GrassKind, /) -> Response:
     """Return the posture index over time of a kind's blade when a constant wind starts, and when it stops.
 
-    Both are the simulation's own: index over the wind's final index. The time covered is what the blade needs
-    to come within a hundredth of rest, between 4 and 16 of its swings; whatever swing is left then is faded
-    out over the last eighth, so that a gust begins and ends with still grass.
+    Both are simulated, as index over the wind's final index. They last until the blade stays within a hundredth
+    of rest, between 4 and 16 of its swings; the remaining swing is faded out over the last eighth, so that a gust
+    begins and ends with still grass.
     """
     chain = build_chain(kind, np.ones((1, LINKS)))
     step = 2.0 * np.pi / float(lowest_swing(chain)[0]) / _STEPS_PER_SWING
-    bent, speed = _bent(chain)
-    index = _swung(chain, bent, speed, step)
+    bent, speed = _bent_by_wind(chain)
+    index = _swings(chain, bent, speed, step)
     length = _length(index)
     time = np.linspace(0.0, length, SAMPLES)
     rise, fall = (np.interp(time, np.arange(len(index)), index[:, k]) for k in range(2))
     return Response(
-        step=length * step / chain.second / (SAMPLES - 1), rise=_settled(rise, 1.0), fall=_settled(fall, 0.0)
+        step=length * step / chain.second / (SAMPLES - 1), rise=_faded_to(rise, 1.0), fall=_faded_to(fall, 0.0)
     )
 
 
-def _bent(chain: Chain, /) -> tuple[Doubles, float]:
-    """Return the blade at rest in the constant wind that bends it to `_FINAL`, shape (links,), and the wind's speed."""
+def _bent_by_wind(chain: Chain, /) -> tuple[Doubles, float]:
+    """Return the angles at rest in the constant wind that bends a blade to `_FINAL`, (links,), and the wind's speed."""
     angle, wind = rest_in_winds(chain)
     chord = np.maximum.accumulate(chord_angle(angle))
     final = _FINAL * chord[flat_step(angle)]
@@ -49,10 +49,10 @@ def _bent(chain: Chain, /) -> tuple[Doubles, float]:
     return settle(chain, np.append(wind[:number], speed))[-1, 0], speed
 
 
-def _swung(chain: Chain, bent: Doubles, speed: float, step: float, /) -> Doubles:
-    """Return the index over time of a blade that the wind begins to bend, and of a bent one let go, shape (steps, 2).
+def _swings(chain: Chain, bent: Doubles, speed: float, step: float, /) -> Doubles:
+    """Return the index over time of a blade when the wind starts, and when it stops, shape (steps, 2).
 
-    A swing only ever dies down: once both have been at rest for `_STILL` swings, nothing more is to come.
+    A swing only dies down: the simulation ends when both have been at rest for `_STILL` swings.
     """
     twice = replace(chain, stiffness=np.repeat(chain.stiffness, 2, 0), damping=np.repeat(chain.damping, 2, 0))
     angle = np.stack([np.zeros(LINKS), bent])[None]
@@ -68,16 +68,17 @@ def _swung(chain: Chain, bent: Doubles, speed: float, step: float, /) -> Doubles
 
 
 def _last_away(index: Doubles, /) -> int:
-    """Return the last step at which one of both curves is not near rest."""
+    """Return the last step at which one of both curves is away from rest."""
     return int(np.flatnonzero((np.abs(index - [1.0, 0.0]) > _REST).any(axis=1))[-1])
 
 
 def _length(index: Doubles, /) -> int:
-    """Return the steps after which both curves stay near rest, within the bounds."""
+    """Return the number of steps until both curves stay near rest, within the bounds."""
     return int(np.clip(_last_away(index) * 1.15, _STEPS_PER_SWING * _CYCLES, index.shape[0] - 1))
 
 
-def _settled(curve: Doubles, rest: float, /) -> np.ndarray[tuple[int], np.dtype[np.float32]]:
+def _faded_to(curve: Doubles, rest: float, /) -> np.ndarray[tuple[int], np.dtype[np.float32]]:
+    """Return a curve that fades to `rest` over its last eighth."""
     part = np.linspace(0.0, 8.0, curve.shape[0]) - 7.0
     weight = np.clip(part, 0.0, 1.0)
     weight = weight * weight * (3.0 - 2.0 * weight)

@@ -1,4 +1,4 @@
-"""The rows of plants while they are grown: stems, what stands on them, and how they come together."""
+"""Rows of plants while they grow: stems, the organs on them, and their order in a patch model."""
 
 from dataclasses import dataclass, fields
 from typing import Any
@@ -16,34 +16,34 @@ GOLDEN = np.pi * (3.0 - np.sqrt(5.0))
 
 _MOST_SPREAD = 0.98
 
-WHOLE = "variant", "organ"
-"""What of rows is whole numbers."""
+INTEGERS = "variant", "organ"
+"""Columns of `Rows` that hold integers."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stems:
-    """Stems that leaves and heads stand on."""
+    """Stems of leaves and heads."""
 
     plant: Numbers
-    """The plant of each, shape (m,)."""
+    """Plant of each stem, shape (m,)."""
 
     branch: Numbers
-    """Its number on its plant, shape (m,)."""
+    """Number of the stem on its plant, shape (m,)."""
 
     height: Doubles
     """Length [m], shape (m,)."""
 
     rest: Doubles
-    """Lean, as `Blades.rest`, shape (m, 2)."""
+    """Lean at rest, in the form of `Blades.rest`, shape (m, 2)."""
 
-    def of(self, rows: Numbers, /) -> "Stems":
-        """Return some of them, (k,)."""
+    def take(self, rows: Numbers, /) -> "Stems":
+        """Return the stems of some rows (k,)."""
         return Stems(self.plant[rows], self.branch[rows], self.height[rows], self.rest[rows])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Rows:
-    """Rows of `Blades`, with the plant that each belongs to in place of root and rank, (k,) or (k, 2) each."""
+    """Rows of `Blades` with plant and branch in place of root and rank, shape (k,) or (k, 2) each."""
 
     plant: Numbers
     branch: Numbers
@@ -58,7 +58,7 @@ class Rows:
     stem_rest: NDArray[np.floating]
 
 
-def stood(
+def stand_organs(
     stems: Stems,
     organ: ArrayLike,
     /,
@@ -71,10 +71,10 @@ def stood(
     tilt: Doubles | None = None,
     variant: NDArray[np.int32] | None = None,
 ) -> Rows:
-    """Return organs on stems, of which `height` has as many as each bears: shape (m, each), as all are or become.
+    """Return the organs of stems; the shape of `height`, to which the others are broadcast, is (m, organs of a stem).
 
-    They stand at `part` of their stem, and reach out `toward` an azimuth [rad] at the posture index `spread`; what all
-    of a stem lean together is its `tilt`, shape (m, 2). They face to where they reach.
+    They stand at the place `part` along their stem, lean `toward` an azimuth [rad] at the posture index `spread`, and
+    face that azimuth. The `tilt` of a stem, shape (m, 2), is added to the lean of all its organs.
     """
     height = np.asarray(height, np.float64)
     shape = height.shape
@@ -83,34 +83,34 @@ def stood(
     if tilt is not None:
         rest = rest + tilt[:, None]
         rest = rest * np.minimum(1.0, _MOST_SPREAD / np.maximum(np.linalg.norm(rest, axis=-1, keepdims=True), 1e-9))
-    each = shape[1]
+    count = shape[1]
     return Rows(
-        plant=np.repeat(stems.plant, each),
-        branch=np.repeat(stems.branch, each),
+        plant=np.repeat(stems.plant, count),
+        branch=np.repeat(stems.branch, count),
         height=height.reshape(-1),
         width=np.broadcast_to(width, shape).reshape(-1),
         facing=toward.reshape(-1),
         rest=rest.reshape(-1, 2),
         variant=np.zeros(height.size, np.int32) if variant is None else variant.reshape(-1),
         organ=np.broadcast_to(np.asarray(organ, np.int32), shape).reshape(-1),
-        stem=np.repeat(stems.height, each),
+        stem=np.repeat(stems.height, count),
         part=np.broadcast_to(part, shape).reshape(-1),
-        stem_rest=np.repeat(stems.rest, each, axis=0),
+        stem_rest=np.repeat(stems.rest, count, axis=0),
     )
 
 
-def together(stand: Blades, /, *parts: Rows) -> Blades:
-    """Return rows as blades, plant after plant: each has the root and the rank of its plant's blade in `stand`.
+def to_blades(stand: Blades, /, *parts: Rows) -> Blades:
+    """Return rows as blades, plant after plant; each has the root and the rank of its plant's blade in `stand`.
 
-    In this order they are drawn, as all rows of a plant are as far away as its root. So they come branch after branch:
-    were all heads the last, they would cover the leaves of branches that stand before them.
+    The rows of a plant are drawn in this order, as all are as far away as its root. So they come branch after branch:
+    if all heads came last, they would cover the leaves of branches in front of them.
     """
-    whole = {each.name: np.concatenate([getattr(rows, each.name) for rows in parts]) for each in fields(Rows)}
-    order = np.lexsort((whole.pop("branch"), whole["plant"]))
-    plant = whole.pop("plant")[order]
-    kept: dict[str, Any] = {
-        name: values[order].astype(np.int32 if name in WHOLE else np.float32) for name, values in whole.items()
+    columns = {column.name: np.concatenate([getattr(rows, column.name) for rows in parts]) for column in fields(Rows)}
+    order = np.lexsort((columns.pop("branch"), columns["plant"]))
+    plant = columns.pop("plant")[order]
+    ordered: dict[str, Any] = {
+        name: values[order].astype(np.int32 if name in INTEGERS else np.float32) for name, values in columns.items()
     }
-    facing = kept.pop("facing").astype(np.float64)
-    kept["facing"] = ((facing + np.pi) % (2.0 * np.pi) - np.pi).astype(np.float32)
-    return Blades(root=stand.root[plant], rank=stand.rank[plant], **kept)
+    facing = ordered.pop("facing").astype(np.float64)
+    ordered["facing"] = ((facing + np.pi) % (2.0 * np.pi) - np.pi).astype(np.float32)
+    return Blades(root=stand.root[plant], rank=stand.rank[plant], **ordered)

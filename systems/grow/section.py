@@ -1,4 +1,4 @@
-"""Sections: what a blade is like across, by the profile that its kind declares."""
+"""Sections: a blade's cross section, by the profile that its kind declares."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,20 +10,20 @@ from ...engine.declared.grass import Profile
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """What a profile makes of a blade."""
+    """The cross section of a blade, as numbers."""
 
     waist: float = 0.45
-    """Width where it leaves the ground, as a part of that above."""
+    """Width at the ground, as a fraction of the width above."""
 
     is_round: bool = False
-    """Whether it is as wide from all sides: then it has no face."""
+    """Whether the blade is as wide from all sides; then it has no face."""
 
     folded: float = 0.0
-    """Angle by which each of its two faces is turned away from where the blade faces [rad]."""
+    """Angle between the normals of its two faces and the direction that the blade faces [rad]."""
 
 
 FLAT: Final = Section()
-"""A blade that is a ribbon."""
+"""The section of a plain ribbon."""
 
 SECTIONS: Mapping[Profile, Section] = {
     "blade": FLAT,

@@ -15,10 +15,10 @@ GRAVITY = 9.81
 LINKS = 16
 
 _MARGIN = 1.2
-"""How far a common blade's stiffness lies above what it needs to carry itself, as a fraction of that."""
+"""Stiffness of a common blade beyond the least that carries its own weight, as a fraction of that."""
 
 _DAMPING_RATIO = 0.08
-"""Share of critical damping in the lowest swing of a common blade, without the air's."""
+"""Fraction of critical damping in the slowest swing of a common blade, without that of the air."""
 
 _AREAL_DENSITY = 0.32
 """Mass per area of a common blade half a metre long [kg/m2]."""
@@ -30,16 +30,15 @@ _SLENDERNESS = 0.022
 """Width over length of a common blade."""
 
 _MOST_TRIES, _LONGEST_TURN, _AT_REST = 60, 0.2, 1e-9
-"""Newton's steps to a blade's rest at most; how far one turns a link, and below which no other follows [rad]."""
-
+"""Newton's method for a blade at rest: most steps; largest turn of a link in a step; turn at which it ends [rad]."""
 
 _BREATH = 0.12
-"""Wind on a blade that sags, of its weight: enough that it gives way to one side, and not all at once."""
+"""Force of the wind on a sagging blade, relative to its weight: it hangs to one side, and sags gradually."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Chain:
-    """A batch of blades, each a chain of links that stands clamped at its root."""
+    """A batch of blades, each a chain of links clamped at its root."""
 
     mass: Doubles
     """Mass of each link, shape (links,)."""
@@ -54,54 +53,54 @@ class Chain:
     """Viscous damping of the joint below each link, shape (batch, links)."""
 
     second: float
-    """Units of time in a second."""
+    """Number of units of time in a second."""
 
 
 def build_chain(kind: GrassKind, factors: Doubles, /) -> Chain:
     """Return the chains of a kind of grass whose joints are stiffer by `factors`, shape (batch, links).
 
-    A plant grows as thick as its height demands: stiffness is measured from the least with which the blade
-    still carries its own weight, so every kind stands. Width decides how thick the blade is for its height.
+    A plant grows as thick as its height demands: stiffness is a multiple of the least that carries the blade's
+    own weight, so every kind stands. Width decides how thick the blade is for its height.
     """
     length = 0.5 * (kind.height[0] + kind.height[1])
     thickness = np.sqrt(np.clip(kind.width / (length * _SLENDERNESS), 0.25, 4.0))
     density = _AREAL_DENSITY * (length / 0.5) ** 1.5 * thickness
-    mass, least = _least(kind, factors)
+    mass, least = _least_stiffness(kind, factors)
     stiffness = least * (1.0 + _MARGIN * kind.stiffness * thickness**2)
     chain = Chain(mass, mass * _DRAG * length / density, stiffness, stiffness, float(np.sqrt(GRAVITY / length)))
     return damp(chain, ratio=_DAMPING_RATIO * kind.damping)
 
 
-def _least(kind: GrassKind, factors: Doubles, /) -> tuple[Doubles, Doubles]:
-    """Return the mass of each link, shape (links,), and the least stiffness with which a blade still carries itself.
+def _least_stiffness(kind: GrassKind, factors: Doubles, /) -> tuple[Doubles, Doubles]:
+    """Return the mass of each link, shape (links,), and the least stiffness of joints that carries the blade.
 
-    That is of joints that are stiffer by `factors`, both of shape (batch, links).
+    Joints are stiffer by `factors`; both have the shape (batch, links).
     """
     links = factors.shape[1]
     breadth = (1.0 - (np.arange(links) + 0.5) / links) ** kind.taper
     mass = breadth / breadth.sum()
     along = np.arange(links) / links
     profile = ((1.0 - along) ** kind.taper * (1.0 - 0.7 * along) ** 2) * factors
-    return mass, np.asarray(profile / _least_load(profile, mass)[:, None])
+    return mass, np.asarray(profile / _buckling_load(profile, mass)[:, None])
 
 
-def sag(kind: GrassKind, factors: Doubles, heavy: Doubles, /) -> Doubles:
-    """Return the angles of blades that no longer carry themselves, shape (weights, batch, links).
+def sag(kind: GrassKind, factors: Doubles, weights: Doubles, /) -> Doubles:
+    """Return the angles of blades that sag under their weight, shape (weights, batch, links).
 
-    Their weight, shape (weights,), rises from a part of what they carry to more than that, and a breath of wind says
-    to which side they hang. Joints are stiffer by `factors`, shape (batch, links).
+    `weights` (weights,) rise from a fraction of what the blades carry to more than that; a breath of wind decides to
+    which side they hang. Joints are stiffer by `factors`, shape (batch, links).
     """
-    mass, least = _least(kind, factors)
+    mass, least = _least_stiffness(kind, factors)
     load, stiff, reach = _load(mass), _joint_matrix(least), _reach(len(mass))
     angle, push = np.zeros(factors.shape), _BREATH * mass
-    sagged = np.empty((len(heavy), *factors.shape))
-    for number, weight in enumerate(heavy):
+    sagged = np.empty((len(weights), *factors.shape))
+    for number, weight in enumerate(weights):
         sagged[number] = angle = _rest(angle, stiff / weight, load, reach, push)
     return sagged
 
 
 def damp(chain: Chain, /, *, ratio: float) -> Chain:
-    """Return the chains with joints that give the slowest swing this share of critical damping."""
+    """Return the chains with joints that give the slowest swing this `ratio` of critical damping."""
     return replace(chain, damping=chain.stiffness * (2.0 * ratio / lowest_swing(chain))[:, None])
 
 
@@ -138,7 +137,7 @@ def simulate(chain: Chain, angle: Doubles, rate: Doubles, wind: Doubles, /, *, s
 
 
 class _Motion:
-    """The equations of motion of a batch of chains, with what never changes worked out once."""
+    """The equations of motion of a batch of chains, with their constant matrices."""
 
     def __init__(self, chain: Chain) -> None:
         links = chain.mass.shape[0]
@@ -153,25 +152,25 @@ class _Motion:
         """Return the change of the rates over one step, shape (batch, links)."""
         middle = angle + 0.5 * step * rate
         sine, cosine = np.sin(middle), np.cos(middle)
-        even = cosine[:, :, None] * cosine[:, None, :] + sine[:, :, None] * sine[:, None, :]
-        odd = sine[:, :, None] * cosine[:, None, :] - cosine[:, :, None] * sine[:, None, :]
-        across = self._reach * even
+        cosine_between = cosine[:, :, None] * cosine[:, None, :] + sine[:, :, None] * sine[:, None, :]
+        sine_between = sine[:, :, None] * cosine[:, None, :] - cosine[:, :, None] * sine[:, None, :]
+        across = self._reach * cosine_between
         speed = wind[:, None] * cosine - _times(across, rate)
         push = self._area * np.abs(speed)
-        turned = np.swapaxes(across, 1, 2)
-        force = _times(turned, push * speed) + self._load * sine
-        force -= _times(self._inertia * odd, rate * rate)
-        force -= _times(self._stiff, middle) + _times(self._damp, rate)
-        brake = self._damp + (turned * (2.0 * push)[:, None, :]) @ across
-        left = self._inertia * even + (0.5 * step) * brake + (0.25 * step * step) * self._stiff
-        return np.asarray(np.linalg.solve(left, step * force[:, :, None])[:, :, 0])
+        transposed = np.swapaxes(across, 1, 2)
+        torque = _times(transposed, push * speed) + self._load * sine
+        torque -= _times(self._inertia * sine_between, rate * rate)
+        torque -= _times(self._stiff, middle) + _times(self._damp, rate)
+        brake = self._damp + (transposed * (2.0 * push)[:, None, :]) @ across
+        left = self._inertia * cosine_between + (0.5 * step) * brake + (0.25 * step * step) * self._stiff
+        return np.asarray(np.linalg.solve(left, step * torque[:, :, None])[:, :, 0])
 
 
 def settle(chain: Chain, wind: Doubles, /) -> Doubles:
     """Return the angles of blades at rest in constant winds, shape (winds, batch, links).
 
-    `wind` is the horizontal wind's speed, rising from near nothing, shape (winds,); each rest is looked for from the
-    one before it.
+    `wind` is the horizontal wind's speed, rising from near nothing, shape (winds,); each rest is the start of the
+    search for the next.
     """
     links = chain.mass.shape[0]
     load, stiff = _load(chain.mass), _joint_matrix(chain.stiffness)
@@ -184,27 +183,27 @@ def settle(chain: Chain, wind: Doubles, /) -> Doubles:
 
 
 def _rest(angle: Doubles, stiff: Doubles, load: Doubles, reach: Doubles, pressure: Doubles, /) -> Doubles:
-    """Return the angles at which blades rest, (batch, links), looked for from others near by."""
+    """Return the angles at which blades rest, shape (batch, links), by Newton's method from `angle`."""
     for _ in range(_MOST_TRIES):
-        step = _towards_rest(angle, stiff, load, reach, pressure)
+        step = _newton_step(angle, stiff, load, reach, pressure)
         angle = angle + np.clip(step, -_LONGEST_TURN, _LONGEST_TURN)
         if np.abs(step).max() < _AT_REST:
             break
     return angle
 
 
-def _towards_rest(angle: Doubles, stiff: Doubles, load: Doubles, reach: Doubles, pressure: Doubles, /) -> Doubles:
-    """Return Newton's step to where springs, weight and the wind's pressure on each link hold one another."""
+def _newton_step(angle: Doubles, stiff: Doubles, load: Doubles, reach: Doubles, pressure: Doubles, /) -> Doubles:
+    """Return Newton's step towards the balance of springs, weight and the wind's `pressure` on each link."""
     sine, cosine = np.sin(angle), np.cos(angle)
-    apart = angle[:, :, None] - angle[:, None, :]
-    even, odd = reach * np.cos(apart), reach * np.sin(apart)
+    between = angle[:, :, None] - angle[:, None, :]
+    across, along = reach * np.cos(between), reach * np.sin(between)
     push = pressure * cosine * np.abs(cosine)
-    less = -2.0 * pressure * np.abs(cosine) * sine
-    turned = np.swapaxes(even, 1, 2)
-    torque = _times(turned, push) + load * sine - _times(stiff, angle)
-    slope = turned * less[:, None, :] - np.swapaxes(odd * push[:, :, None], 1, 2) - stiff
-    here = np.arange(angle.shape[1])
-    slope[:, here, here] += load * cosine + (odd * push[:, :, None]).sum(axis=1)
+    push_slope = -2.0 * pressure * np.abs(cosine) * sine
+    transposed = np.swapaxes(across, 1, 2)
+    torque = _times(transposed, push) + load * sine - _times(stiff, angle)
+    slope = transposed * push_slope[:, None, :] - np.swapaxes(along * push[:, :, None], 1, 2) - stiff
+    diagonal = np.arange(angle.shape[1])
+    slope[:, diagonal, diagonal] += load * cosine + (along * push[:, :, None]).sum(axis=1)
     return np.asarray(np.linalg.solve(slope, -torque[:, :, None])[:, :, 0])
 
 
@@ -213,7 +212,7 @@ def _times(matrix: Doubles, vector: Doubles, /) -> Doubles:
 
 
 def _reach(links: int, /) -> Doubles:
-    """Return how far the middle of each link (a row) moves when a link turns, straight rods."""
+    """Return the shift of each link's middle (row) per turn of each link (column) of a straight blade."""
     return np.asarray((np.tri(links, k=-1) + 0.5 * np.eye(links)) / links)
 
 
@@ -223,10 +222,10 @@ def _above(mass: Doubles, /) -> Doubles:
 
 
 def _inertia(mass: Doubles, /) -> Doubles:
-    """Return the inertia of straight rods: entry (i, j) goes with cos(angle i - angle j)."""
+    """Return the inertia matrix of links as thin rods; entry (i, j) is multiplied by cos(angle i - angle j)."""
     links = mass.shape[0]
-    later = np.maximum.outer(np.arange(links), np.arange(links))
-    inertia = (_above(mass) + 0.5 * mass)[later]
+    upper = np.maximum.outer(np.arange(links), np.arange(links))
+    inertia = (_above(mass) + 0.5 * mass)[upper]
     np.fill_diagonal(inertia, _above(mass) + mass / 3.0)
     return np.asarray(inertia / links**2)
 
@@ -237,17 +236,17 @@ def _load(mass: Doubles, /) -> Doubles:
 
 
 def _joint_matrix(joint: Doubles, /) -> Doubles:
-    """Return the matrices that turn angles into the torques of springs, shape (batch, links, links)."""
+    """Return the matrices that map angles to the torques of springs (batch, links), shape (batch, links, links)."""
     batch, links = joint.shape
     matrix = np.zeros((batch, links, links))
-    here = np.arange(links)
-    matrix[:, here, here] = joint
-    matrix[:, here[:-1], here[:-1]] += joint[:, 1:]
-    matrix[:, here[1:], here[:-1]] = matrix[:, here[:-1], here[1:]] = -joint[:, 1:]
+    link = np.arange(links)
+    matrix[:, link, link] = joint
+    matrix[:, link[:-1], link[:-1]] += joint[:, 1:]
+    matrix[:, link[1:], link[:-1]] = matrix[:, link[:-1], link[1:]] = -joint[:, 1:]
     return matrix
 
 
-def _least_load(profile: Doubles, mass: Doubles, /) -> Doubles:
-    """Return the reciprocal of the least multiple of `profile` that carries the weight, shape (batch,)."""
+def _buckling_load(profile: Doubles, mass: Doubles, /) -> Doubles:
+    """Return the largest weight that joints of stiffness `profile` carry, relative to the blade's, shape (batch,)."""
     values = np.linalg.eigvals(np.linalg.solve(_joint_matrix(profile), np.diag(_load(mass))[None]))
     return np.asarray(1.0 / values.real.max(axis=1))

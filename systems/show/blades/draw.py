@@ -79,7 +79,7 @@ class Ribbons:
         parted: bool = False,
         record: np.dtype[np.void] = RIBBON,
         defines: Defines | None = None,
-        tell: Callable[[moderngl.Program], None] = lambda _: None,
+        set_uniforms: Callable[[moderngl.Program], None] = lambda _: None,
     ) -> None:
         finest = parted or not soft
         own = int(block.defines.get("MOST_OWN_SEGMENTS", 0)) if finest else 0
@@ -91,18 +91,18 @@ class Ribbons:
         plain = {**shaded, "PLAIN": 1}
         deep = {name: value for name, value in plain.items() if name != "PARTED"} | {"DEEP": 1}
         self._make, self._defines = partial(joined, ctx, block, units, *FILES), (plain, shaded, deep)
-        self._texts, self._tell, self._counts = partial(block.texts, *FILES), tell, counts
+        self._texts, self._set_uniforms, self._counts = partial(block.texts, *FILES), set_uniforms, counts
         self._block, self.stream = block, Stream(ctx, record)
         self._arrays: dict[int, moderngl.VertexArray] = {}
 
     def array(self, sort: int) -> moderngl.VertexArray:
         """Return the vertex array of one of `SORTS`, made when first needed; `DEEP` needs a coverage of a half."""
         if sort not in self._arrays:
-            made = self._make(self._defines[sort])
-            made["segments"], made["counts"] = self.segments, len(self._counts)
-            made["segments_of"] = filled(self._counts, room_for(len(self._counts)))
-            self._tell(made)
-            self._arrays[sort] = made.ctx.vertex_array(made, [self.stream.binding(made)])
+            program = self._make(self._defines[sort])
+            program["segments"], program["counts"] = self.segments, len(self._counts)
+            program["segments_of"] = filled(self._counts, room_for(len(self._counts)))
+            self._set_uniforms(program)
+            self._arrays[sort] = program.ctx.vertex_array(program, [self.stream.binding(program)])
         return self._arrays[sort]
 
     def texts(self) -> Iterator[Texts]:
@@ -118,10 +118,10 @@ class Ribbons:
                 self.array(sort)
                 yield
 
-    def tell_again(self) -> None:
+    def update_uniforms(self) -> None:
         """Set the uniforms of the programs made so far anew."""
         for array in self._arrays.values():
-            self._tell(array.program)
+            self._set_uniforms(array.program)
 
     def fill(self, blades: moderngl.VertexArray, count: int, *, first: int = 0) -> int:
         """Compute the stream of `count` blades from `first` on; return the number of draw calls."""

@@ -109,13 +109,13 @@ class BladesPainter(RepresentationPainter):
         self._fade, self._patch, self._near = canvas.transitions.fade, quality.patch, PARTED * quality.patch
         defines = {**self.store.defines, "STORED": 1, "RINGS": room_for(len(quality.strip_rings))}
         hiding = {"HIDING": 1} if quality.blades >= HIDING else {}
-        self.hearing = Hearing(canvas, "systems/show/blades/receivers.frag", defines, self._tell)
+        self.hearing = Hearing(canvas, "systems/show/blades/receivers.frag", defines, self._set_uniforms)
         self.passes = [
             blade_program(ctx, block, units, record, defines | hiding | morph)
             for record, morph in ((RIBBON, {}), (PAINTED, {"MORPH": 1}))
         ]
         for program in self.passes:
-            self._tell(program)
+            self._set_uniforms(program)
         self._rows = 64
         self.shelves = Shelves(lambda: _Shelf(ctx, self.passes, self._rows))
         segments = [ring.segments for ring in rings]
@@ -127,12 +127,12 @@ class BladesPainter(RepresentationPainter):
         ]
         self.morph = Ribbons(
             ctx, block, segments[-1:], units, soft=True, record=PAINTED, defines={**defines, "MORPH": 1},
-            tell=self._tell,
+            set_uniforms=self._set_uniforms,
         )  # fmt: skip
         self._orders, self._uploads = Remembered[_Order](), Remembered[_Upload]()
         self._first_receiver = self._receiver_count = 0
 
-    def _tell(self, program: moderngl.Program) -> None:
+    def _set_uniforms(self, program: moderngl.Program) -> None:
         """Set a program's uniforms about blades and strips."""
         for name, value in (("near", self._near), ("models", self._models), ("each", self.store.count)):
             set_uniform(program, name, value)
@@ -170,9 +170,9 @@ class BladesPainter(RepresentationPainter):
         self.store.release()
         (self._stock, self._strips, self.store), self._staged = self._staged, None
         self.hearing.update_uniforms()
-        self.morph.tell_again()
+        self.morph.update_uniforms()
         for program in self.passes:
-            self._tell(program)
+            self._set_uniforms(program)
         self._orders, self._uploads = Remembered[_Order](), Remembered[_Upload]()
 
     def making_for_winds(self) -> Iterator[None]:
