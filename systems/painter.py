@@ -102,7 +102,7 @@ class Painter(Holding):
         for part in self._parts_with["send"]:
             part.send(outlook, self.record)
         counts = {name: painter.receivers(outlook) for name, painter in self.painters.items()}
-        laid = iter(self.received.lay([count for each in counts.values() for count in each]))
+        laid = iter(self.received.allocate([count for each in counts.values() for count in each]))
         self._first = {name: [next(laid) for _ in each] for name, each in counts.items()}
         self._outlook = outlook
         self.blades = 0

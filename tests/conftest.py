@@ -291,7 +291,7 @@ def on_card() -> Callable[[Prairie], OnCard]:
         drawn_by, outlook = prairie.painter, prairie.viewers["main"]
         assert drawn_by is not None
         counts = {name: each.receivers(outlook) for name, each in drawn_by.painters.items()}
-        numbers = iter(drawn_by.received.lay([count for each in counts.values() for count in each]))
+        numbers = iter(drawn_by.received.allocate([count for each in counts.values() for count in each]))
         texels = np.frombuffer(drawn_by.received.texture.read(), np.float32).reshape(-1, 4)
         found: OnCard = []
         for name, each in counts.items():

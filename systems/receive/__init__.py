@@ -1,1 +1,1 @@
-"""Receivers on the graphics card: what the wind tells those that are seen in a frame."""
+"""Receivers on the graphics card: the messages of the wind in a frame."""

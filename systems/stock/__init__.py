@@ -1,1 +1,1 @@
-"""Patch models: grown, kept on disk, and made ready to be stood on the terrain."""
+"""Patch models: grown, and kept on disk."""

@@ -1,4 +1,4 @@
-"""Growth as bytes, and back: only what is whole, ours and of the right shapes is ever believed."""
+"""Growths as bytes, and back. Bytes are accepted only if checksum, types and shapes are right."""
 
 import io
 import zipfile
@@ -23,7 +23,7 @@ Record = TypeVar("Record")
 
 
 def pack(growth: Growth, /, *, key: str) -> bytes:
-    """Return a growth as bytes that begin with a checksum over the rest and `key`."""
+    """Return a growth as bytes: a checksum over the rest and `key`, then a file of numpy's `savez`."""
     buffer = io.BytesIO()
     np.savez(buffer, allow_pickle=False, **_flatten(growth, "growth"))
     data = buffer.getvalue()
@@ -31,15 +31,15 @@ def pack(growth: Growth, /, *, key: str) -> bytes:
 
 
 def unpack(data: bytes, /, *, key: str, quality: Quality, blades: int) -> Growth | None:
-    """Return the growth that was packed with `key`, or None unless it is whole and fits.
+    """Return the growth that was packed with `key`; None if the bytes are damaged or do not fit the quality.
 
-    Nothing is parsed before the checksum holds, and nothing is ever unpickled.
+    Nothing is parsed before the checksum is found right, and nothing is ever unpickled.
     """
-    told = memoryview(data)[DIGEST:]
-    if data[:DIGEST] != checksum(told, key):
+    body = memoryview(data)[DIGEST:]
+    if data[:DIGEST] != checksum(body, key):
         return None
     try:
-        with np.load(io.BytesIO(told), allow_pickle=False) as archive:
+        with np.load(io.BytesIO(body), allow_pickle=False) as archive:
             growth = _rebuild({name: archive[name] for name in archive.files}, quality)
     except (OSError, ValueError, KeyError, zipfile.BadZipFile):
         return None
@@ -47,7 +47,7 @@ def unpack(data: bytes, /, *, key: str, quality: Quality, blades: int) -> Growth
 
 
 def _flatten(record: Any, name: str, /) -> Arrays:
-    """Return every array and number of a record under its dotted name."""
+    """Return all arrays and numbers of a record, by their dotted names."""
     if isinstance(record, np.ndarray | float):
         return {name: np.asarray(record)}
     if isinstance(record, Mapping):
@@ -74,18 +74,18 @@ def _rebuild(arrays: Arrays, quality: Quality, /) -> Growth:
 
 
 def _pictures(arrays: Arrays, name: str, /) -> dict[str, tuple[Any, ...]]:
-    """Return what each representation has grown of a model: as many records as there are."""
+    """Return a patch model's pictures by representation, as many as the arrays hold."""
     pictures: dict[str, tuple[Any, ...]] = {}
     for each in REPRESENTATIONS:
         if each.record is not None:
-            head = f"{name}.{each.name}."
-            numbers = {int(key[len(head) :].partition(".")[0]) for key in arrays if key.startswith(head)}
-            pictures[each.name] = tuple(_record(each.record, arrays, f"{head}{number}") for number in sorted(numbers))
+            prefix = f"{name}.{each.name}."
+            numbers = {int(key[len(prefix) :].partition(".")[0]) for key in arrays if key.startswith(prefix)}
+            pictures[each.name] = tuple(_record(each.record, arrays, f"{prefix}{number}") for number in sorted(numbers))
     return pictures
 
 
 def _record(kind: type[Record], arrays: Arrays, name: str, /) -> Record:
-    """Return a record from its arrays; raises KeyError or ValueError unless all are there, of their types."""
+    """Return a record made of its arrays; raises KeyError or ValueError if one is missing or of a wrong type."""
     values: dict[str, Any] = {}
     for field, wanted, is_array in _fields(kind):  # type: ignore[arg-type]  # a class can be hashed
         value = arrays[f"{name}.{field}"]
@@ -97,17 +97,17 @@ def _record(kind: type[Record], arrays: Arrays, name: str, /) -> Record:
 
 @cache
 def _fields(kind: type, /) -> tuple[tuple[str, np.dtype[Any], bool], ...]:
-    """Return the name of each of a record's fields, what it is made of, and whether it is an array or one number."""
+    """Return each field of a record: its name, its dtype, and whether it is an array."""
     found = []
     for field, hint in get_type_hints(kind).items():
         last = get_args(hint)[-1:] or (np.float64,)  # from numpy 2.5 on, NDArray[T] is an alias
-        (wanted,) = get_args(*last) or last
-        found.append((field, np.dtype(wanted), hint is not float))
+        (dtype,) = get_args(*last) or last
+        found.append((field, np.dtype(dtype), hint is not float))
     return tuple(found)
 
 
 def _fits(growth: Growth, quality: Quality, blades: int, /) -> bool:
-    """Tell whether every array has the shape that its record and the quality promise."""
+    """Return whether every array has the shape that its record and the quality prescribe."""
     postures, response = growth.postures, growth.response
     return (
         postures.index.shape == (ROWS,)

@@ -1,4 +1,4 @@
-"""What was grown once, kept on disk under a hash of everything that it depends on."""
+"""The cache of growths on disk, under a hash of everything that a growth depends on."""
 
 import json
 from collections.abc import Iterator
@@ -23,13 +23,14 @@ from .models import blade_count, grow
 
 _SUFFIX = ".growth"
 _MOST = 48
+"""Number of growths kept in a folder."""
 
 
 def cached_growth(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Path | None = None) -> Growth:
-    """Return what `grow` returns, from the disk where it was grown before.
+    """Return what `grow` returns, from the disk if it was grown before.
 
-    `folder` is `cache_folder()` unless given. A file that is broken, or is not ours, is grown again and
-    replaced; where the folder cannot be read or written, growing just takes its time.
+    `folder` is `cache_folder()` by default. A file that is damaged or foreign is replaced by a new growth. If the
+    folder cannot be read or written, each growth is grown anew.
     """
     folder = cache_folder() if folder is None else folder
     if folder is None:
@@ -47,17 +48,17 @@ def cached_growth(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Pa
 
 
 def is_kept(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Path) -> bool:
-    """Return whether `cached_growth` would find a growth in a folder; it counts as used then."""
+    """Return whether `cached_growth` would find a growth in a folder; if so, mark it as used."""
     return _kept(kind, quality, growth_key(kind, quality, seed=seed), folder) is not None
 
 
 def packed_growth(kind: GrassKind, quality: Quality, /, *, seed: int) -> bytes:
-    """Return what `grow` returns as the bytes that the cache keeps of it: the same wherever it is grown."""
+    """Return what `grow` returns as bytes, as the cache keeps it; they are the same on all machines."""
     return pack(grow(kind, quality, seed=seed), key=growth_key(kind, quality, seed=seed))
 
 
 def keep(data: bytes, key: str, folder: Path, /) -> None:
-    """Keep a packed growth in a folder for `cached_growth`; raises OSError where that cannot be written."""
+    """Write a packed growth into a folder for `cached_growth`; raises OSError if the folder cannot be written."""
     write_whole(folder / (key + _SUFFIX), data)
     forget_oldest(folder, _SUFFIX, _MOST)
 
@@ -73,7 +74,7 @@ def _kept(kind: GrassKind, quality: Quality, key: str, folder: Path) -> Growth |
 
 
 def growth_key(kind: GrassKind, quality: Quality, /, *, seed: int) -> str:
-    """Return a name for what `grow` returns, in hexadecimal: of colours and places it knows nothing."""
+    """Return a hexadecimal hash of all that the result of `grow` depends on: not of colours or places."""
     depends = {
         "version": _version(),
         "seed": seed,
@@ -86,7 +87,7 @@ def growth_key(kind: GrassKind, quality: Quality, /, *, seed: int) -> str:
 
 
 def _grown_by(kind: GrassKind) -> dict[str, object]:
-    """Return what of a kind something else grows by; of an eye, whether there is one."""
+    """Return the values of a kind that growing depends on; of an eye, only whether there is one."""
     keys = {
         "plant", "height", "width", "stiffness", "damping", "lean", "taper", "profile", "clumping", "withered", "leaf",
         "head",
@@ -99,7 +100,7 @@ def _grown_by(kind: GrassKind) -> dict[str, object]:
 
 @cache
 def _version() -> str:
-    """Return a hash of the code that grows, so that nothing grown by other code is ever taken for its own."""
+    """Return a hash of the code that grows, so that a growth of other code is never used."""
     digest = blake2b(np.__version__.encode(), digest_size=16)
     for name, source in sorted(_sources(files("tallgrass.systems"))):
         digest.update(name.encode() + b"\0" + source.read_bytes())
@@ -107,7 +108,7 @@ def _version() -> str:
 
 
 def _sources(folder: Traversable, path: str = "") -> Iterator[tuple[str, Traversable]]:
-    """Yield the code that grows, by its path: all of `grow` and `stock`, and each representation's own `grow.py`."""
+    """Yield the path and file of all code that grows: `grow`, `stock`, and each representation's `grow.py`."""
     for entry in folder.iterdir():
         name = f"{path}/{entry.name}"
         if entry.is_dir():

@@ -1,4 +1,4 @@
-"""Everything that is grown for one kind of grass, from the finest to the coarsest (paper, sections 2.2, 3.2)."""
+"""Growing a kind of grass: postures, response, and patch models with all their pictures (paper, sections 2.2, 3.2)."""
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields, is_dataclass, replace
@@ -19,26 +19,30 @@ from ..show.registry import REPRESENTATIONS
 from ..show.representation import Seedling
 
 VARIANTS = 6
+"""Number of shapes of a blade in each posture."""
+
 ROWS = 129
+"""Number of posture indices with a simulated posture."""
 
 _MIPMAPS = 4.0 / 3.0
+"""Size of a texture with its mip levels, over that of the finest level."""
 
 _REMEMBERED = 64
-"""Simulations of grass that are remembered: where its quality, density or form alone changes, it bends as it did."""
+"""Number of remembered simulations. Where only the quality, density or form of grass changes, it bends as before."""
 
-_HANDS = 2
-"""Threads that draw patch models: more of them would wait for Python, not for a processor."""
+_THREADS = 2
+"""Number of threads that draw patch models: more would wait for Python, not for a processor."""
 
 
 def grow(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
-    """Return all that is precomputed for a kind of grass at a quality: the same for the same seed.
+    """Return all that is precomputed for a kind of grass at a quality; the same seed gives the same result.
 
-    The textures of all patch models have the same size, height and margin, so that they can be layers of one. They
-    are drawn on several threads: each is a function of its own patch model alone.
+    The textures of all patch models have the same size, height and margin, so that they can be layers of one texture.
+    They are drawn on several threads: each depends on its own patch model alone.
     """
-    bends = _Bends.of(kind)
-    give, response = _answers(bends)
-    postures = replace(_postures(bends, seed), give=give)
+    mechanics = _Mechanics.of(kind)
+    give, response = _give_and_response(mechanics)
+    postures = replace(_postures(mechanics, seed), give=give)
     layout = layout_of(kind, quality)
     patches = [
         grow_patch(kind, layout, patch=quality.patch, variants=VARIANTS, seed=_mixed(seed, number))
@@ -50,20 +54,20 @@ def grow(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
 
 
 def blade_count(kind: GrassKind, quality: Quality, /) -> int:
-    """Return the rows per patch at full density: of grass the kind's own number of blades, or else the quality's."""
+    """Return the rows per patch at full density: for grass, the kind's own number of blades or else the quality's."""
     return layout_of(kind, quality).rows
 
 
 def precompute_bytes(growth: Growth, /) -> int:
-    """Return the memory of all that is grown for a kind [bytes], textures with their mip-maps."""
+    """Return the memory that a kind's growth takes [bytes], textures with their mip levels."""
     seen: dict[int, int] = {}
     _gather(growth, seen)
     return sum(seen.values())
 
 
 @dataclass(frozen=True, slots=True)
-class _Bends:
-    """All of a kind that its simulation depends on."""
+class _Mechanics:
+    """The values of a kind that its simulation depends on."""
 
     height: tuple[float, ...]
     width: float
@@ -72,36 +76,36 @@ class _Bends:
     damping: float
 
     @classmethod
-    def of(cls, kind: GrassKind, /) -> "_Bends":
+    def of(cls, kind: GrassKind, /) -> "_Mechanics":
         return cls(tuple(kind.height), kind.width, kind.taper, kind.stiffness, kind.damping)
 
     @property
     def kind(self) -> GrassKind:
-        """A kind that bends so."""
+        """A kind with these values, and defaults otherwise."""
         return GrassKind(
             height=[*self.height], width=self.width, taper=self.taper, stiffness=self.stiffness, damping=self.damping
         )
 
 
 @lru_cache(maxsize=_REMEMBERED)
-def _answers(bends: _Bends, /) -> tuple[Floats, Response]:
-    """Return how far grass that bends so gives way, and how it answers over time."""
-    return grow_give(bends.kind), grow_response(bends.kind)
+def _give_and_response(mechanics: _Mechanics, /) -> tuple[Floats, Response]:
+    """Return the give and the response of grass with these values."""
+    return grow_give(mechanics.kind), grow_response(mechanics.kind)
 
 
 @lru_cache(maxsize=_REMEMBERED)
-def _postures(bends: _Bends, seed: int, /) -> Postures:
-    """Return the shapes of grass that bends so."""
-    return grow_postures(bends.kind, variants=VARIANTS, rows=ROWS, seed=seed)
+def _postures(mechanics: _Mechanics, seed: int, /) -> Postures:
+    """Return the postures of grass with these values."""
+    return grow_postures(mechanics.kind, variants=VARIANTS, rows=ROWS, seed=seed)
 
 
 def _models(seedlings: list[Seedling], /) -> tuple[PatchModel, ...]:
-    """Return patch models; large arrays leave Python to other threads while they are worked on."""
+    """Return patch models, drawn on several threads: numpy releases Python's lock while it computes large arrays."""
     drawn = [each for each in REPRESENTATIONS if each.record is not None]
-    hands = ThreadPoolExecutor(_HANDS)
+    threads = ThreadPoolExecutor(_THREADS)
     try:
         pieces = {
-            (number, each.name): hands.submit(each.grow, seedling)
+            (number, each.name): threads.submit(each.grow, seedling)
             for number, seedling in enumerate(seedlings)
             for each in drawn
         }
@@ -110,11 +114,11 @@ def _models(seedlings: list[Seedling], /) -> tuple[PatchModel, ...]:
             for number, seedling in enumerate(seedlings)
         )
     finally:
-        hands.shutdown(cancel_futures=True)  # who is interrupted waits for what is being drawn, and not for all
+        threads.shutdown(cancel_futures=True)  # an interrupt waits for the pictures being drawn, not for all
 
 
 def _extent(patches: list[Blades], postures: Postures, patch: float, /) -> tuple[float, float]:
-    """Return the height of the highest tip and how far blades lean over the patch's edge, to the centimetre [m]."""
+    """Return the height of the highest tip and the overhang of blades at the patch's edge, to the centimetre [m]."""
     points = postures.shape.shape[2]
     places = np.concatenate([spine(blades, postures, (0.0, 0.0), points=points).reshape(-1, 3) for blades in patches])
     beyond = max(-float(places[:, ::2].min()), float(places[:, ::2].max()) - patch)
@@ -127,12 +131,12 @@ def _centimetres(length: float, /) -> float:
 
 
 def _mixed(seed: int, number: int, /) -> int:
-    """Return the seed of one of several patch models."""
+    """Return the seed of the patch model of this number."""
     return int(np.random.SeedSequence([seed, number]).generate_state(1, np.uint64)[0])
 
 
 def _gather(record: object, seen: dict[int, int], /) -> None:
-    """Add the size of every array in a record, each once, by its identity."""
+    """Add the size of every array in a record to `seen`, by the array's identity, so that each counts once."""
     if isinstance(record, np.ndarray):
         seen[id(record)] = int(record.nbytes * (_MIPMAPS if record.dtype == np.uint8 else 1.0))
     elif isinstance(record, dict):

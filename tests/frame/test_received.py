@@ -321,7 +321,7 @@ def test_f8_every_representation_feels_turbulence_alike_even_after_hours(
 @given(st.lists(st.integers(0, 3 * ROW), max_size=8))
 def test_pools_never_overlap_and_each_starts_a_row(ctx: moderngl.Context, counts: list[int]) -> None:
     received = Received(ctx)
-    first = received.lay(counts)
+    first = received.allocate(counts)
     assert len(first) == len(counts)
     assert all(number % ROW == 0 for number in first)
     end = 0
@@ -335,13 +335,13 @@ def test_pools_never_overlap_and_each_starts_a_row(ctx: moderngl.Context, counts
 def test_the_texture_grows_where_receivers_are_many_and_holds_the_last_of_them(ctx: moderngl.Context) -> None:
     received = Received(ctx)
     counts = [40_000, 1, 90_000]
-    *_, last = received.lay(counts)
+    *_, last = received.allocate(counts)
     assert received.texture.height * ROW >= last + counts[-1] > 64 * ROW
     texels = np.arange(4 * 2500, dtype=np.float32).reshape(-1, 4)
     received.write(last + 1000, texels)
     found = np.frombuffer(received.texture.read(), np.float32).reshape(-1, 4)
     np.testing.assert_array_equal(found[last + 1000 :][: len(texels)], texels)
     height = received.texture.height
-    assert received.lay([10])[0] == 0
+    assert received.allocate([10])[0] == 0
     assert received.texture.height == height, "it never shrinks"
     received.release()

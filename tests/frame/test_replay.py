@@ -44,7 +44,7 @@ for receiving in (*outlook.kept["blades"].receiving, *outlook.kept["strips"].rec
     told.update(slots.tobytes() + receiving.pool.places(slots).tobytes() + receiving.letters.heard(slots).tobytes())
 counts = [count for each in painter.painters.values() for count in each.receivers(outlook)]
 texels = np.frombuffer(painter.received.texture.read(), np.float32).reshape(-1, 4)
-for first, count in zip(painter.received.lay(counts), counts[:-1], strict=False):
+for first, count in zip(painter.received.allocate(counts), counts[:-1], strict=False):
     told.update(texels[first : first + count].tobytes())
 told.update(carpet_painter(painter).air.texture.read())
 patches = outlook.patches

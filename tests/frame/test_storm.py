@@ -42,7 +42,7 @@ def received():
     # By its places what each patch's receivers hold: what numpy says, and what the graphics card does.
     outlook, painter, told = prairie.viewers["main"], prairie.painter, {}
     counts = [count for each in painter.painters.values() for count in each.receivers(outlook)]
-    first = iter(painter.received.lay(counts))
+    first = iter(painter.received.allocate(counts))
     texels = np.frombuffer(painter.received.texture.read(), np.float32).reshape(-1, 4)
     for receiving in (*outlook.kept["blades"].receiving, *outlook.kept["strips"].receiving):
         slots, each = receiving.slots, int(np.prod(receiving.pool.shape))

@@ -278,7 +278,7 @@ class BladesPainter(RepresentationPainter):
         """Write the wind's messages to all blades; return the number of draw calls."""
         self.store.blades.texture.use(self._units["blades"])
         self.shelves.now.standing.texture.use(self._units["standing"])
-        return self._received.ask(self.hearing.array(), first=self._first_receiver, count=self._receiver_count)
+        return self._received.compute(self.hearing.array(), first=self._first_receiver, count=self._receiver_count)
 
     def look_anew(self) -> int:
         """Run the pass over blades, which computes what is the same along a ribbon; return the number of draw calls."""

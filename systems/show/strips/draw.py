@@ -202,7 +202,7 @@ class StripPainter:
         self.shelves.now.placements.texture.use(self.units["placements"])
         array = self.hearing.array()
         set_uniform(array.program, "of_ring", ring, patch)
-        return self.received.ask(array, first=first, count=count)
+        return self.received.compute(array, first=first, count=count)
 
     @property
     def patch(self) -> float:

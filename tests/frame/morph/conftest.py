@@ -168,7 +168,7 @@ class Scene:
         pools, rings = outlook.keeps(StripsKept).pools, outlook.shows(StripsShown).rings
         appears = replace(self.appears, handed=np.ones_like(self.appears.handed))
         counts = {name: each.receivers(outlook) for name, each in self.painter.painters.items()}
-        first = self.painter.received.lay([count for each in counts.values() for count in each])[1:]
+        first = self.painter.received.allocate([count for each in counts.values() for count in each])[1:]
         numbered = [(start, int(np.prod(pool.shape))) for start, pool in zip(first, pools, strict=False)]
         placements = gather_strips(rings, numbered, appears, outlook.patches, outlook.viewer.centre)
         fineness, present = (

@@ -129,11 +129,11 @@ def test_growing_is_the_same_in_every_process(growth: Growth) -> None:
     assert run.stdout.strip() == digest(growth)
 
 
-@pytest.mark.parametrize("hands", [1, 5])
+@pytest.mark.parametrize("threads", [1, 5])
 def test_growing_is_the_same_on_any_number_of_threads(
-    growth: Growth, hands: int, monkeypatch: pytest.MonkeyPatch
+    growth: Growth, threads: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(models, "_HANDS", hands)
+    monkeypatch.setattr(models, "_THREADS", threads)
     assert digest(grow(KIND, SMALL, seed=11)) == digest(growth)
 
 
@@ -151,7 +151,7 @@ def test_who_is_interrupted_while_grass_grows_waits_for_none_that_has_not_begun(
             return told.wait(0.1)
 
     monkeypatch.setattr(models, "REPRESENTATIONS", (Slow,))
-    monkeypatch.setattr(models, "_HANDS", 1)
+    monkeypatch.setattr(models, "_THREADS", 1)
     with pytest.raises(KeyboardInterrupt):
         grow(KIND, SMALL.model_copy(update={"models": 6}), seed=11)
     assert len(begun) <= 3
@@ -168,7 +168,7 @@ def test_grass_is_simulated_again_only_where_what_bends_it_changed(
 
     monkeypatch.setattr("tallgrass.systems.stock.models.grow_response", response)
     monkeypatch.setattr("tallgrass.systems.stock.models.grow_give", lambda _: growth.postures.give)
-    models._answers.cache_clear()  # noqa: SLF001
+    models._give_and_response.cache_clear()  # noqa: SLF001
     few = SMALL.model_copy(update={"blades": 9, "models": 1})
     grow(KIND, SMALL, seed=11)
     for same in ({"lean": 0.9}, {"tip": "#ffffff"}, {"clumping": 0.1}):
@@ -180,7 +180,7 @@ def test_grass_is_simulated_again_only_where_what_bends_it_changed(
         assert build_chain(simulated[-1], EVEN).stiffness == pytest.approx(build_chain(kind, EVEN).stiffness, rel=1e-12)
         assert simulated[-1].damping == kind.damping
     assert len(simulated) == 6
-    models._answers.cache_clear()  # noqa: SLF001
+    models._give_and_response.cache_clear()  # noqa: SLF001
 
 
 def test_another_seed_is_another_field(growth: Growth) -> None:
