@@ -1,4 +1,4 @@
-"""What every program knows of a frame, in one uniform block."""
+"""The frame block: a uniform block with the numbers of a frame, which all programs share."""
 
 from collections.abc import Mapping, Sequence
 from typing import TypeVar
@@ -18,98 +18,98 @@ from ..around.asked import Asked
 from ..grow.record import GIVES
 
 BODIES = 8
-"""How many flying bodies cast shadows at most."""
+"""Most flying bodies that cast shadows."""
 
 MAPS = 4
-"""How many shadow maps of a game's count at most."""
+"""Most shadow maps that a game may give."""
 
 GROUPS = -(-MOST_KINDS // 4)
-"""Vectors of four that a figure takes for each kind that there can be."""
+"""Number of vec4 that hold one number for each of the most kinds."""
 
 EVERYWHERE = 1e9
-"""Farther than any ground is [m]."""
+"""Distance beyond all ground [m]."""
 
 BODY = np.dtype([("middle", "3f4"), ("radius", "f4"), ("axis", "3f4"), ("pressed", "f4")])
-"""A body that casts a shadow: middle, radius [m], 0 where there is none; its axis, a unit vector, and how much longer
-it would have to be along that to be a ball."""
+"""A body that casts a shadow: middle and radius [m], 0 for none; its axis, a unit vector, and the factor that stretches
+the body along it into a ball."""
 
 MAP = np.dtype([("clip_of", "16f4"), ("bias", "f4"), ("apart", "V12")])
-"""A shadow map: world to its clip space; how much nearer to the sun places are taken than they are [m]."""
+"""A shadow map: matrix from the world to its clip space; bias, by which places are moved towards the sun [m]."""
 
 KIND = np.dtype(
     [
-        ("root", "3f4"), ("gloss", "f4"),  # pigment at the root; what it mirrors
+        ("root", "3f4"), ("gloss", "f4"),  # pigment at the root; gloss of the scene
         ("tip", "3f4"), ("taper", "f4"),  # pigment at the tip
-        ("through", "3f4"), ("bloom", "f4"),  # light that leaves let through, of what they send back
+        ("through", "3f4"), ("bloom", "f4"),  # transmittance of leaves, relative to their albedo
         ("grain_c", "3f4"), ("apart", "f4"),  # change of pigment with the cosine of twice the face normal's azimuth
         ("grain_s", "3f4"), ("narrowed", "f4"),  # the same with the sine
-        ("head", "3f4"), ("eyed", "f4"),  # what a head is like: `Headed`; whether it has an eye of its own
-        ("eye_pigment", "3f4"), ("pad_eye", "V4"),  # that of a head's eye
+        ("head", "3f4"), ("eyed", "f4"),  # a head's numbers, as `Headed`; bit mask of eyes, see below
+        ("eye_pigment", "3f4"), ("pad_eye", "V4"),  # pigment of a head's eye
     ]
 )  # fmt: skip
-"""A kind of grass. `apart` is how far a face's sides are lit apart, and `narrowed` how much narrower a blade is at its
-root, below 0 where it is round; `bloom` is how much of it has the pigment of tips. `eyed` is 1 where what has grown has
-eyes, and 2 more where what it is to be has."""
+"""A kind of grass. `apart` is the contrast of light on a face's two sides; `narrowed` the part of its width that a
+blade lacks at its root, below 0 if it is round; `bloom` the part of it with the pigment of tips. `eyed` is the sum of 1
+if its heads have eyes of a colour of their own, and 2 if those of its replacement have."""
 
 FRAME = np.dtype(
     [
         ("clip", "16f4"),  # world to clip space
-        # Along the line of sight at a corner of the picture, each from -1 to 1: ahead, more across, and more up.
-        ("ray_ahead", "3f4"), ("anything_sown", "f4"),  # 1 where a game has sown or cleared anything
-        ("ray_across", "3f4"), ("anything_open", "f4"),  # 1 where grass is missing that is dense on the map
-        ("ray_up", "3f4"), ("anything_cut", "f4"),  # 1 where any grass has been cut
-        ("eye", "3f4"), ("writes_raw", "f4"),  # [m]; 1 where raw radiance is written
-        # Direction to the sun; radiance in the picture, of that of the scene, where the sun before the air sends `SUN`.
+        # Line of sight through (x, y) of the picture, each in [-1, 1]: ahead + x * across + y * up.
+        ("ray_ahead", "3f4"), ("anything_sown", "f4"),  # 1 if a game has sown or cleared anything
+        ("ray_across", "3f4"), ("anything_open", "f4"),  # 1 if grass is missing anywhere that is dense on the map
+        ("ray_up", "3f4"), ("anything_cut", "f4"),  # 1 if any grass has been cut
+        ("eye", "3f4"), ("writes_raw", "f4"),  # [m]; 1 if raw radiance is written, without the tone curve
+        # Direction to the sun; factor from the scene's radiance, with `SUN` above the air, to the picture's.
         ("sun", "3f4"), ("exposure", "f4"),
-        # Radiance of a cloud's underside in full shade; where clouds begin on their map, above 1 for none.
+        # Radiance of a cloud's underside in full shade; threshold of clouds in their map, above 1 for none.
         ("cloudlight", "3f4"), ("cloud_edge", "f4"),
         ("sunlight", "3f4"), ("haze_density", "f4"),  # radiance of a white leaf in full sun; 1 / haze distance [1/m]
-        ("skylight", "3f4"), ("tallest_grass", "f4"),  # that under the whole sky; height that no blade comes to [m]
+        ("skylight", "3f4"), ("tallest_grass", "f4"),  # under the whole sky; bound of blades' height [m]
         ("zenith", "3f4"), ("patch_side", "f4"),  # radiance overhead; [m]
         ("soil", "3f4"), ("terrain_cell", "f4"),  # pigment of bare ground; [m]
-        ("horizon", "(4,4)f4"),  # radiance of horizon and haze, by the ways in which `scattered` has it
-        ("clouds_drift", "2f4"),  # where the clouds have drifted to, in their own sides
-        ("toward_sun", "2f4"),  # the sun's azimuth, as a direction (x, z)
+        ("horizon", "(4,4)f4"),  # radiance of horizon and haze, in the directions of `scattered`
+        ("clouds_drift", "2f4"),  # drift of the clouds, in sides of their map
+        ("toward_sun", "2f4"),  # azimuth of the sun as a direction (x, z)
         ("terrain_origin", "2f4"), ("terrain_size", "2f4"),  # x, z [m]
         ("lie_origin", "2f4"),  # where the map of how it lies begins, x, z [m]
-        ("half_screen", "2f4"),  # pixels from the middle to the edge, across and up
-        ("posture_links", "f4"), ("posture_rows", "f4"), ("posture_variants", "f4"),  # the last of each kind
-        ("over_hosts", "f4"),  # 1 where grass is laid over ground that is the game's own
-        ("lamplight", "f4"),  # as `exposure`, of what lamps send
-        ("beside_sun", "f4"),  # 1 where anything shines beside sun and sky
-        ("mesh_low", "2f4"), ("mesh_high", "2f4"),  # x, z [m]: no ground is drawn beyond
-        ("patches_a_metre", "f4"), ("windows_a_patch", "f4"),  # inverse of a patch's side, of the carpet's window
-        ("lamps_grid", "4f4"),  # cells that lamps shine on: corner (x, z) [m]; cells a metre; along a side, 0 for none
-        ("shades_grid", "4f4"),  # the same, of cells that lie in the shadow of shades
-        # Where the carpet's shares are told: the viewer's cell; half the window's side; how much it shows beyond that.
+        ("half_screen", "2f4"),  # half the picture's size, across and up [pixels]
+        ("posture_links", "f4"), ("posture_rows", "f4"), ("posture_variants", "f4"),  # size of a kind's texture of postures
+        ("over_hosts", "f4"),  # 1 if grass is blended over the game's own ground
+        ("lamplight", "f4"),  # factor like `exposure`, for lamps
+        ("beside_sun", "f4"),  # 1 if anything shines beside sun and sky
+        ("mesh_low", "2f4"), ("mesh_high", "2f4"),  # x, z [m]: corners of the drawn ground
+        ("patches_a_metre", "f4"), ("windows_a_patch", "f4"),  # 1 / patch side [1/m]; 1 / side of the carpet's window
+        ("lamps_grid", "4f4"),  # grid of lamps: corner (x, z) [m]; cells a metre; cells along a side, 0 for none
+        ("shades_grid", "4f4"),  # grid of shadows of shades, with the same numbers
+        # Window of the carpet's shares: the viewer's cell; half its side [cells]; share of the carpet beyond it.
         ("carpet_window", "4f4"),
-        ("plots_half", "2f4"),  # plots of the terrain that there may be, from its middle to its edges
-        ("earth_side", "f4"), ("earth_power", "f4"),  # how often a game's ground comes again [m]; its texels' pigment
-        ("haze_given", "(5,4)f4"),  # a game's own, radiance by 1, x, z, x^2, xz of the direction; 1 where there is one
-        ("crown", f"({GROUPS},4)f4"),  # by kind, four in each: height of the canopy [m]
-        ("leaf", f"({GROUPS},4)f4"),  # leaf area seen from the side, of the ground's area
-        ("lying", f"({GROUPS},4)f4"),  # leaf area seen from above, of that from the side
-        ("understorey", f"({GROUPS},4)f4"),  # how much of the ground low leaves cover, of what they cover at most
-        ("undertone", f"({GROUPS},4)f4"),  # how much of the colour of tips low leaves have
-        ("steepest", f"({GROUPS},4)f4"),  # how fast the ground rises where a kind ends
-        ("came", f"({GROUPS},4)f4"),  # how many of its plants have become what it is to be, where it is to be another
-        ("thins", f"({GROUPS},4)f4"),  # how much it thins out by such a rise
-        ("bears", f"({GROUPS},4)f4"),  # 1 where it bears heads
-        # The maps of what trees leave of the light: which way they go across and up; how much of those of the sun a
-        # metre is; their middles, near by and far off; middle of that of the sky, and how much of it a metre is.
+        ("plots_half", "2f4"),  # half the number of plots along the terrain's sides
+        ("earth_side", "f4"), ("earth_power", "f4"),  # a game's ground: period [m]; exponent to pigment
+        ("haze_given", "(5,4)f4"),  # a game's haze: radiance by 1, x, z, x^2, xz of the direction; 1 if given
+        ("crown", f"({GROUPS},4)f4"),  # by kind, four in a vector: height of the canopy [m]
+        ("leaf", f"({GROUPS},4)f4"),  # leaf area projected sideways, over the ground's area
+        ("lying", f"({GROUPS},4)f4"),  # leaf area projected from above, over that projected sideways
+        ("understorey", f"({GROUPS},4)f4"),  # coverage of the ground by low leaves, of the largest
+        ("undertone", f"({GROUPS},4)f4"),  # tone of low leaves: part of the tips' colour
+        ("steepest", f"({GROUPS},4)f4"),  # slope of the ground at which a kind ends
+        ("came", f"({GROUPS},4)f4"),  # fraction of plants replaced, where a kind is becoming another
+        ("thins", f"({GROUPS},4)f4"),  # loss of density per slope before that
+        ("bears", f"({GROUPS},4)f4"),  # 1 if it bears heads
+        # Shade maps of trees: axes across and up of the sun's two maps, near and far; their middles on these axes [m];
+        # middle (x, z) [m] of the sky's map and 1 / its side; 1 / sides of the sun's maps [1/m].
         ("trees_across", "3f4"), ("pad_c", "V4"), ("trees_up", "3f4"), ("pad_d", "V4"),
         ("trees_middle", "4f4"), ("trees_sky", "3f4"), ("pad_e", "V4"), ("trees_spans", "2f4"),
-        ("depth_ends", "2f4"),  # of clip space: how deep its near and its far end is
-        # How far the mean wind blows the crown of a tree aside (x, z) [m]; where its two tones are, in turns.
+        ("depth_ends", "2f4"),  # clip depth at the near and the far end
+        # Displacement of a tree's crown by the mean wind (x, z) [m]; phases of its two modes of swing [turns].
         ("trees_aside", "2f4"), ("trees_tones", "2f4"),
         ("kinds", KIND, (MOST_KINDS,)),
         ("bodies", BODY, (BODIES,)),
-        ("maps", MAP, (MAPS,)), ("maps_shown", "f4"), ("pad_maps", "V12"),  # how many of them there are
-        # By four kinds, by length of a message, evenly from 0 to 1: posture index that it bends the kinds to.
+        ("maps", MAP, (MAPS,)), ("maps_shown", "f4"), ("pad_maps", "V12"),  # number of shadow maps
+        # For each four kinds, a lookup table from a message's length, 0 to 1, to the posture index.
         ("give", f"({GROUPS * GIVES},4)f4"),
     ]
 )  # fmt: skip
-"""The block's fields, as std140 lays them out; shaders have them by the same names."""
+"""Fields of the block in the layout std140; shaders use the same names."""
 
 
 GLSL = emitted({"BODIES": BODIES, "EVERYWHERE": EVERYWHERE}) + block("Frame", FRAME)
@@ -117,22 +117,23 @@ GLSL = emitted({"BODIES": BODIES, "EVERYWHERE": EVERYWHERE}) + block("Frame", FR
 
 @by_identity(most=16)
 def rays(view: View, /) -> Doubles:
-    """Return the line of sight ahead, and what is added to it across and up the picture, each from -1 to 1: (3, 3).
+    """Return the line of sight ahead, and its changes across and up the picture, each for x, y in [-1, 1], (3, 3).
 
-    They come from the rows of the projection that say where on the picture a place is, and not from any plane of depth:
-    it may be tilted, or infinitely far.
+    They come from the projection's rows for x, y and w, and not from a plane of depth, which may be tilted or
+    infinitely far.
     """
-    one = view.clip[[0, 1, 3], :3]
-    other = one[[1, 2, 0]]
-    made = one[:, [1, 2, 0]] * other[:, [2, 0, 1]] - one[:, [2, 0, 1]] * other[:, [1, 2, 0]]
-    ahead = made[0] @ view.view[2, :3]
-    return np.asarray(made * (-np.sign(ahead) / np.sqrt(made[0] @ made[0])), np.float64)
+    rows = view.clip[[0, 1, 3], :3]
+    others = rows[[1, 2, 0]]
+    # Cross products, written out.
+    normals = rows[:, [1, 2, 0]] * others[:, [2, 0, 1]] - rows[:, [2, 0, 1]] * others[:, [1, 2, 0]]
+    ahead = normals[0] @ view.view[2, :3]
+    return np.asarray(normals * (-np.sign(ahead) / np.sqrt(normals[0] @ normals[0])), np.float64)
 
 
 def aim(
     record: NDArray[np.void], view: View, size: tuple[int, int], /, *, ends: tuple[float, float] = (-1.0, 1.0)
 ) -> None:
-    """Write the frame's matrices, eye and picture size [pixels] into the block, and depth at its near and far end."""
+    """Write the frame's matrices, eye and picture size [pixels] into the block, and clip depth at both ends."""
     row = record[0]
     row["clip"] = view.clip.T.reshape(16)
     row["ray_ahead"], row["ray_across"], row["ray_up"] = rays(view)
@@ -142,7 +143,10 @@ def aim(
 
 
 def confine(record: NDArray[np.void], asked: Asked, /) -> None:
-    """Write how far ground and carpet go, and what they are laid over, once the terrain is written."""
+    """Write the limits of ground and carpet, and whether they are blended over a game's ground.
+
+    The terrain's fields must have been written before.
+    """
     row = record[0]
     row["over_hosts"] = asked.over_hosts
     row["mesh_low"], row["mesh_high"] = -EVERYWHERE, EVERYWHERE
@@ -155,54 +159,54 @@ class FrameBlock:
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.defines: dict[str, str | int] = {}
-        """What every program is told that is made from now on."""
+        """Defines of every program that is compiled from now on."""
         self.record = np.zeros(1, FRAME)
-        """What it says by now."""
+        """Record uploaded last."""
         self.buffer = ctx.buffer(reserve=FRAME.itemsize, dynamic=True)
         self.binding = block_binding(ctx)
         self.casts = False
-        """Whether a game has shadow maps or shades: programs that are told PLAIN ask for none."""
+        """Whether a game has shadow maps or shades; programs with the define PLAIN read none."""
         self.earth = 0
-        """The texture of a game's own ground, by its number in GL; 0 for none."""
+        """GL name of the texture of a game's own ground; 0 for none."""
 
     def texts(self, vertex: str, fragment: str, defines: Mapping[str, str | int]) -> Texts:
-        """Return what a driver is given of a program that knows the block."""
+        """Return the sources of a program with the block's defines."""
         return texts(vertex, fragment, {**self.defines, **defines})
 
     def join(self, program: moderngl.Program) -> None:
-        """Tell a program where the block is."""
+        """Set a program's binding of the block."""
         program["Frame"].binding = self.binding  # type: ignore[union-attr]
 
     def write(self, record: NDArray[np.void]) -> None:
-        """Send the block and bind it."""
+        """Upload a record and bind the block."""
         self.record, row = record, record[0]
         self.casts = bool(row["maps_shown"] or row["shades_grid"][3])
         self.buffer.write(record)
         self.buffer.bind_to_uniform_block(self.binding)
 
     def release(self) -> None:
-        """Give the buffer back."""
+        """Release the buffer."""
         self.buffer.release()
 
 
-Told = TypeVar("Told")
+Value = TypeVar("Value")
 
 ROOM = 8
-"""Arrays in shaders have room for a multiple of so many: programs are the same then for most scenes."""
+"""Arrays in shaders have a multiple of this length, so that most scenes share their programs."""
 
 
 def room_for(count: int, /) -> int:
-    """Return how many of something shaders have room for."""
+    """Return the length of a shader's array for `count` values."""
     return -(-count // ROOM) * ROOM
 
 
-def filled(values: Sequence[Told], count: int, /) -> list[Told]:
-    """Return what an array of a shader is told, which has room for `count`."""
+def filled(values: Sequence[Value], count: int, /) -> list[Value]:
+    """Pad values to the length `count` of a shader's array by repeating the last one."""
     return [*values, *[values[-1]] * (count - len(values))]
 
 
 def by_kind(values: Sequence[float], /) -> tuple[float, ...] | list[tuple[float, ...]]:
-    """Return a figure per kind as a shader's `ByKind` takes it: four to a vector, and of one vector that alone."""
+    """Return a number per kind as a shader's uniform `ByKind`: one vec4, or a list of them for more than four kinds."""
     padded = (*values, *[0.0] * (-len(values) % 4))
     groups = [padded[start : start + 4] for start in range(0, len(padded), 4)]
     return groups if len(groups) > 1 else groups[0]
@@ -218,16 +222,16 @@ def joined(
     *,
     varyings: tuple[str, ...] = (),
 ) -> moderngl.Program:
-    """Return a program that knows where the block and the textures are; `units` gives each sampler its unit.
+    """Compile a program with the block's defines; bind the block, and each sampler to its unit in `units`.
 
-    Without a fragment shader, the outputs that `varyings` names are written into a buffer.
+    Without a fragment shader, the outputs named in `varyings` are captured into a buffer.
     """
     made = program(ctx, vertex, fragment, defines={**block.defines, **defines}, varyings=varyings)
     return wired(made, block, units)
 
 
 def wired(made: moderngl.Program, block: FrameBlock, units: Mapping[str, int], /) -> moderngl.Program:
-    """Tell a program where the block and the textures are, and return it; `units` gives each sampler its unit."""
+    """Bind a program's block, and each sampler to its unit in `units`; return the program."""
     block.join(made)
     for name, unit in units.items():
         if name in made:

@@ -38,7 +38,7 @@ from .twin import (
 
 Rows = NDArray[np.intp]
 
-SAMPLERS = ("winds", "wind_sheets", "wind_curves", "wind_told")
+SAMPLERS = ("winds", "wind_sheets", "wind_curves", "wind_messages")
 """Samplers of `hear.glsl`; the maker of a `CardWinds` assigns each a texture unit."""
 
 HEAD, SHARE, SHEET = 16, 8, 12
@@ -303,7 +303,7 @@ class CardWinds:
         """Bind the winds' textures."""
         self._records.use(self._units["winds"])
         self._curves.use(self._units["wind_curves"])
-        self._messages.texture.use(self._units["wind_told"])
+        self._messages.texture.use(self._units["wind_messages"])
         self._sheets.texture.use(self._units["wind_sheets"])
 
     # ---- Twins -----------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-// What receivers hear, given back as numbers: for those who compare a wind's twin with its numpy.
+// Messages to receivers, captured into a buffer: to compare a wind's twin with its numpy.
 #include "systems/wind/hear.glsl"
 
 in vec2 place;      // ground position [m]

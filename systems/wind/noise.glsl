@@ -2,8 +2,8 @@
 
 const int PERIOD = 128;
 
-// Four channels in [-1, 1] at a place in lattice units, of a table of a side that is a power of two.
-// Shifts are reduced by the side before they come here.
+// Four channels in [-1, 1] at a place in lattice units; the table's side is a power of two.
+// Shifts must be within one period of the table, as single precision is lost in large ones.
 vec4 smooth_noise(Wind wind, int number, vec2 place, int side) {
     vec2 low = floor(place), part = place - low;
     part = smoothstep(0.0, 1.0, part);

@@ -1,6 +1,6 @@
 // Soft edges of masks: the twin of systems/wind/shape.py.
 
-// 0 below 0, 1 above 1, and a smooth step between.
+// The smoothstep of a value, which is clamped to [0, 1].
 float eased(float value) {
     return smoothstep(0.0, 1.0, value);
 }

@@ -247,8 +247,8 @@ _BLOW = "void blow(inout Claims claims, vec2 place, int kind, int receiver) {"
 
 def _run(run: int, number: int, twins: Sequence[Twin]) -> list[str]:
     """Return the GLSL of a run: a loop over its winds."""
-    loop = f"    for (int end = end_of({run}); row < end && claims.left > 0.0; ++row) {{"
-    untwinned = "        lay_told(claims, row, receiver);"
+    loop = f"    for (int end = end_of({run}); row < end && claims.unclaimed > 0.0; ++row) {{"
+    untwinned = "        lay_untwinned(claims, row, receiver);"
     if number == NO_TWIN:
         return [loop, untwinned, "    }"]
     if number != ANY:
@@ -261,19 +261,19 @@ def _run(run: int, number: int, twins: Sequence[Twin]) -> list[str]:
 def _call(number: int, twin: Twin) -> list[str]:
     """Return GLSL that calls a twin for a wind and lays its message."""
     record = "Wind" if twin.record is None else f"{twin.record}_{number}"
-    read = "one.wind" if twin.record is None else f"read_{record}(one.wind)"
+    read = "query.wind" if twin.record is None else f"read_{record}(query.wind)"
     return [
-        "        Asked one = asked(row, place, kind);",
+        "        Query query = query_of(row, place, kind);",
         "        vec2 message = vec2(0.0);",
         "        float weight = 0.0;",
-        "        if (one.held) {",
+        "        if (query.inside) {",
         f"            {record} record = {read};",
-        f"            weight = mask_{number}(one.own, record);",
+        f"            weight = mask_{number}(query.place, record);",
         "            if (weight > 0.0) {",
-        f"                message = action_{number}(one.own, record);",
+        f"                message = action_{number}(query.place, record);",
         "            }",
         "        }",
-        "        lay_sent(claims, one, weight, message);",
+        "        lay_twin(claims, query, weight, message);",
     ]
 
 

@@ -1,4 +1,4 @@
-// No wind at all: `systems/wind/twin.py` puts what blows in a prairie in place of this.
+// A placeholder without wind: `systems/wind/twin.py` replaces this file by the twins of a prairie's winds.
 
 void blow(inout Claims claims, vec2 place, int kind, int receiver) {
 }

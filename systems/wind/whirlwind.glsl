@@ -8,10 +8,10 @@ float mask(vec2 place, Whirlwind whirl) {
 
 vec2 action(vec2 place, Whirlwind whirl) {
     float away = max(length(place), LEAST_AWAY), part = min(away / whirl.radius, 1.0);
-    vec2 out_there = place / away;
-    // The cosine of twice the angle around, less the phase, whose cosine and sine come along.
-    vec2 twice = vec2(out_there.x * out_there.x - out_there.y * out_there.y, 2.0 * out_there.x * out_there.y);
+    vec2 outward = place / away;
+    // Cosine of twice the angle around the middle minus the phase, by the difference formula.
+    vec2 twice = vec2(outward.x * outward.x - outward.y * outward.y, 2.0 * outward.x * outward.y);
     float uneven = 1.0 - UNEVEN + UNEVEN * dot(twice, whirl.turned);
     float index = whirl.strength * (1.0 - part * part * FALLS) * uneven * eased(away / EYE);
-    return whirl.sign * index * vec2(-out_there.y, out_there.x);
+    return whirl.sign * index * vec2(-outward.y, outward.x);
 }
