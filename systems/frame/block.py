@@ -73,7 +73,7 @@ FRAME = np.dtype(
         ("terrain_origin", "2f4"), ("terrain_size", "2f4"),  # x, z [m]
         ("lie_origin", "2f4"),  # where the map of how it lies begins, x, z [m]
         ("half_screen", "2f4"),  # half the picture's size, across and up [pixels]
-        ("posture_links", "f4"), ("posture_rows", "f4"), ("posture_variants", "f4"),  # size of a kind's texture of postures
+        ("posture_links", "f4"), ("posture_rows", "f4"), ("posture_variants", "f4"),  # of a kind's posture texture
         ("over_hosts", "f4"),  # 1 if grass is blended over the game's own ground
         ("lamplight", "f4"),  # factor like `exposure`, for lamps
         ("beside_sun", "f4"),  # 1 if anything shines beside sun and sky
