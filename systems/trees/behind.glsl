@@ -1,7 +1,7 @@
-// Where soft edges of leaves are: as far behind as other leaves are like them, so that only what sticks out of a crown has them.
+// Depth of soft edges: leaves up to `behind` deeper have the same colour, so only what sticks out of a crown needs soft edges.
 uniform float behind;  // [m]
 
-// Where a place is in the picture, as deep as one that is so far behind it [m].
+// Clip position of a place with the depth of one `off` behind it [m].
 vec4 as_deep(vec3 place, float off) {
     vec4 at = clip * vec4(place, 1.0), back = clip * vec4(place + off * normalize(place - eye), 1.0);
     at.z = back.z / back.w * at.w;
@@ -16,12 +16,12 @@ vec4 stood(vec3 place) {
 #endif
 }
 
-// Length of leaves up to which hardly any pixel is all leaf, and edges are most of them [pixels]: of longer ones, edges that are a
-// pixel wide are a part that falls as their length rises.
+// Length of leaves up to which hardly any pixel is all leaf [pixels]. Of longer ones, edges a pixel wide are a part that falls as
+// their length rises.
 const float ALL_EDGES = 4.0;
 
-// Where wood is among leaves that are so long [pixels], as far as any stand about it. Thin stems are as far behind as the soft edges
-// of leaves, or as far as these are a part of them: so as much as is in front of stems hides them. They are no farther behind than
+// Clip position of wood among leaves of a length [pixels]; `leafy` is 1 where leaves surround it. Thin stems are as far behind as the
+// soft edges of leaves, or as far as these are a part of them, so that leaves in front hide as much. They are no farther behind than
 // high over the ground, which would hide them.
 vec4 stood_among_leaves(vec3 place, float leafy, float leaf, float high) {
 #ifdef SAMPLED
@@ -31,8 +31,8 @@ vec4 stood_among_leaves(vec3 place, float leafy, float leaf, float high) {
 #endif
 }
 
-// How much deeper, of the usual depths, lie the soft edges of what is drawn as it is: what is opaque there hides what would be
-// left out of them, before pixels are asked. It is a few steps of 24 bits.
+// Depth offset of soft edges, of the usual depths: opaque pixels hide what soft ones would discard, before they are shaded. It is a
+// few steps of 24 bits.
 const float JUST_BEHIND = 4e-7;
 
 vec4 just_behind(vec4 at) {

@@ -1,4 +1,4 @@
-// A twig on its card, in the colours that it has as a whole, brighter or darker by how its leaves lie.
+// A twig on its card: its mean colour, brighter or darker by the normals of its leaves.
 #include "lib/light.glsl"
 #include "systems/trees/leaf.glsl"
 #include "systems/trees/shown.glsl"
@@ -14,7 +14,7 @@ out vec4 pixel;
 
 void main() {
     Pictured leaf = pictured(on, picture);
-    float own = step(max(abs(on.x), abs(2.0 * on.y - 1.0)), 1.0), cover = own * leaf.cover;  // its corners may lie beyond it
+    float own = step(max(abs(on.x), abs(2.0 * on.y - 1.0)), 1.0), cover = own * leaf.cover;  // its outline may reach beyond the card
     must_cover(cover);
     float brighter = dot(leaf.lies, relief.xyz) + relief.w;
     pixel = covered(max(brighter, 0.0) * mix(darkest, brightest, leaf.tone), cover);

@@ -1,21 +1,21 @@
-// Twigs on their cards, as far as their outline goes.
+// Twigs on cards, within their outlines.
 #include "lib/frame.glsl"
 #include "systems/trees/leaf_sends.glsl"
 #include "systems/trees/hung.glsl"
 #include "systems/trees/behind.glsl"
 #include "systems/trees/outline.py"
 
-in vec4 hung_at;      // as hang.vert has it
+in vec4 hung_at;      // outputs of hang.vert
 in uvec4 hung_axes;
 in uvec4 hung_light;
 
-uniform vec2 corners[CARD_CORNERS];  // of its outline: across from -1 to 1, and up from 0 to 1, but for what lies beyond the card
-uniform vec4 card;                   // as twig.glsl has it
+uniform vec2 corners[CARD_CORNERS];  // of its outline: across from -1 to 1, and up from 0 to 1, more beyond the card
+uniform vec4 card;                   // as in twig.glsl
 
 out vec2 on;
-flat out float picture;   // which one its card shows
-flat out vec4 relief;     // by how much it is brighter where leaves lie that way, in the card's own axes, and anyway
-flat out vec3 darkest;    // the colours of what it shows: of its darkest and brightest leaves
+flat out float picture;   // index of the card's picture
+flat out vec4 relief;     // brightness linear in the normal, in the card's own axes, and constant
+flat out vec3 darkest;    // displayed colours of its darkest and brightest leaves
 flat out vec3 brightest;
 
 void main() {

@@ -7,19 +7,19 @@
 #include "systems/trees/noise.py"
 #include "systems/trees/shown.glsl"
 
-uniform sampler2DArray tree_far;  // tone, wood, how thick that is, cover
-uniform sampler2DArray tree_met;  // how many leaves light has met, by direction and in all, with larger texels
+uniform sampler2DArray tree_far;  // tone, wood, its radius, coverage
+uniform sampler2DArray tree_met;  // optical depths, by direction and in the mean, with larger texels
 #ifndef CAST
-uniform sampler2DArray tree_cards;  // in place of twigs' cards: noise that repeats
+uniform sampler2DArray tree_cards;  // in place of twigs' cards: tileable noise
 #endif
 
-in vec3 on;            // as far.vert has it
+in vec3 on;            // outputs of far.vert
 flat in vec4 tiles;
 flat in vec2 mixed;
 flat in vec2 row_told;
 flat in float texel_side;
 #ifdef CAST
-flat in vec4 shades;   // as far.vert has it
+flat in vec4 shades;   // outputs of far.vert
 flat in vec3 foot;
 #else
 flat in vec4 meets;
@@ -39,12 +39,12 @@ flat in vec4 told;
 
 out vec4 pixel;
 
-const float SHIMMER_TURNS = 15.0;  // how much their swing changes over a crown [rad]
-const float HIDES_MOST = 0.96;  // of the sun's light, where leaves cover a texel wholly
+const float SHIMMER_TURNS = 15.0;  // change of the swing's phase over a crown [rad]
+const float HIDES_MOST = 0.96;  // greatest opacity of a texel of leaves to the sun
 
 const float COARSER_BY = log2(float(COARSER));
 
-// What the pictures show together that are mixed by these parts, two in a row: in most places, it is one of them alone.
+// Mix the pictures by these shares, two in a row: in most places, one of them alone.
 void mix_pictures(vec2 at, vec2 parts, out vec4 texel, out vec4 shading) {
     ivec2 first = ivec2(greaterThanEqual(parts, vec2(1.0))), last = ivec2(greaterThan(parts, vec2(0.0)));
     texel = shading = vec4(0.0);
@@ -58,24 +58,24 @@ void mix_pictures(vec2 at, vec2 parts, out vec4 texel, out vec4 shading) {
         }
 }
 
-// A place on one that is nowhere its neighbours'.
+// Position within a picture that reads nothing of its neighbours.
 vec2 within(vec2 at) {
     vec2 edge = TILE_EDGE * texel_side * vec2(slim, 1.0);
     return clamp(at, edge, 1.0 - edge);
 }
 
-// How much of what is read there is its own: beyond its edge there is nothing, as if texels of nothing lay there.
+// Coverage by the picture itself: beyond its edge texels are empty.
 float own_of(vec2 at) {
     vec2 inside = clamp((0.5 - abs(at - 0.5)) / (texel_side * vec2(slim, 1.0)) + TILE_EDGE, 0.0, 1.0);
     return inside.x * inside.y;
 }
 
 #ifdef IN_ROWS
-const vec3 APART = vec3(0.618, 0.755, 0.57);  // how far trees of a row are apart by their numbers: in height, place, and side
-const vec3 ROWS_APART = vec3(7.0, 11.0, 13.0);  // and rows, by what tells them from others
-const vec2 LOWER = vec2(1.0, 0.35);  // how many times as high a picture is as one of its trees, and how much more it may be
+const vec3 APART = vec3(0.618, 0.755, 0.57);  // steps of the random height, place and side from tree to tree in a row
+const vec3 ROWS_APART = vec3(7.0, 11.0, 13.0);  // and from row to row
+const vec2 LOWER = vec2(1.0, 0.35);  // height of a row's picture, of its trees' least, and range of it
 
-// Where a pixel is on the picture of its tree, of those that stand side by side.
+// Position of a pixel on the picture of its tree in the row.
 vec2 on_own() {
     if (row_told.x <= 1.0)
         return on.xy;
@@ -101,7 +101,7 @@ void main() {
     pixel = vec4(leaves, mix(leaves * shades.w, above, shades.z), 0.0, 0.0);
 }
 #else
-// Where the wind has blown what a pixel shows of a picture.
+// Position on the picture before the wind displaced it.
 vec2 blown_from(vec2 at) {
     vec2 aside = told.y * at.y * sin(waves + SHIMMER_TURNS * at.yx);
     float high = clamp(on.z, 0.0, 1.0);
@@ -109,30 +109,30 @@ vec2 blown_from(vec2 at) {
     return at + vec2(slim, 1.0) * aside;
 }
 
-const float PLAINER = 2.0;     // how much less is seen of what bark has on it on each coarser level, which is read sharper than pixels are,
-const float PLAIN_FROM = 0.5;  // from where on that is so: there, pictures have 180 texels up
-const float CLUMP = 7.0;       // a clump of leaves across [texels]
-const mat2 CLUMPS = mat2(0.857, 0.515, -0.515, 0.857) / CLUMP;  // of noise over texels: they lie askew, cells two ways
+const float PLAINER = 2.0;     // loss of bark's detail with each coarser level, which is read sharper than pixels are,
+const float PLAIN_FROM = 0.5;  // from this level on: there, pictures have 180 texels up
+const float CLUMP = 7.0;       // width of a clump of leaves [texels]
+const mat2 CLUMPS = mat2(0.857, 0.515, -0.515, 0.857) / CLUMP;  // matrix from texels to noise: it lies askew, so that cells are cut both ways
 const float CLUMPS_FINER = log2(CLUMP / NOISE_FINER);  // levels by which texels of noise are larger than a picture's
-const float EVENLY = 1.6;      // how far noise is spread, whose values lie about the middle: as many clumps give way at each step
+const float EVENLY = 1.6;      // contrast of noise, whose values lie about the middle: equally many clumps give way at each step
 
-// A number from 0 to 1 that a clump of leaves has.
+// Random number from 0 to 1 of a clump of leaves.
 float clump_at(vec2 at) {
     vec2 cell = CLUMPS / NOISE_CELLS * (at * sides) + told.x;
     float noise = textureLod(tree_cards, vec3(cell, 0.0), max(told.w - CLUMPS_FINER, 0.0)).r;
     return clamp(0.5 - 0.5 * EVENLY + EVENLY * noise, 0.0, 1.0);
 }
 
-// How much of the second picture a clump shows: they give way one after another, as two views blended are a blur.
+// Share of the second picture in a clump: they give way one after another, as two views blended are a blur.
 vec2 gives_way(float clump) {
     return clamp(gives.xy - gives.z * clump, 0.0, 1.0);
 }
 
-const float BARE = 0.15;  // how much of a crown is covered where clumps have gone, by stems that those hid, of what those cover
+const float BARE = 0.15;  // coverage by stems where clumps are gone that hid them, of the clumps'
 
-const float UNCLUMPED = 2.5;  // where a clump is seen, so many times as many leaves are behind its first as light meets: 1 / CLUMPING
+const float UNCLUMPED = 2.5;  // leaves behind the first of a clump that is seen, of the optical depth: 1 / CLUMPING
 
-// How much of a clump there is where a tree has few of its leaves: where many stand behind one another, one of them is seen.
+// Share of a clump that is left where a tree has few leaves: of many behind one another, one is seen.
 float left_of(float clump, vec4 shading) {
     float meets_all = max(UNCLUMPED * sun_meets(shading, behind_meets), LEAST_PART);
     float left = (1.0 - comes_through(foliage_of(meets) * meets_all)) / (1.0 - comes_through(meets_all));
@@ -151,7 +151,7 @@ void main() {
     shading *= whole;
     float gone = 1.0 - left_of(clump, shading);
     float leaves = texel.a - texel.g, stems = texel.g + BARE * gone * leaves, all = leaves * (1.0 - gone) + stems;
-    float cover = 1.0 - pow(max(1.0 - all, 0.0), sunlit.a), wood = stems / max(all, LEAST_COVER);  // twigs that are left cover the rest
+    float cover = 1.0 - pow(max(1.0 - all, 0.0), sunlit.a), wood = stems / max(all, LEAST_COVER);  // twigs that are still drawn cover the rest
     must_cover(cover);
     float seen = comes_through(sun_meets(shading, meets)), open = comes_through(sky_meets(shading, meets));
     vec3 sky = sky_on(skylit.rgb, below, open, skylit.a * (1.0 - wood));

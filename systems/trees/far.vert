@@ -1,5 +1,4 @@
-// A tree far off: a picture that faces the eye, and shows it as its model is seen from there. With CAST it faces the sun, for the
-// map of what trees leave of its light.
+// A tree far off: the picture of its model from the eye's direction. With CAST it is seen from the sun, for the shade maps.
 #include "systems/trees/tree.glsl"
 #include "systems/trees/leaf_sends.glsl"
 #include "systems/trees/behind.glsl"
@@ -11,55 +10,55 @@
 #include "systems/trees/normals.glsl"
 #endif
 
-in float columns;   // of a forest far off, how many trees stand side by side in its place
-in float shows;     // how much of it is shown
+in float columns;   // number of trees in the row that it stands for
+in float shows;     // opacity
 
-uniform float lines; // texels of its model's pictures up
+uniform float lines; // height of its model's pictures [texels]
 #ifdef CAST
-uniform vec4 tile;  // of the map: middle (across, up) [m], half the side [m], which one it is
-uniform vec3 lawn_shade; // of its model: how far it shades grass [m]; leaves that light meets, times area [m²]; at its foot
+uniform vec4 tile;  // of the map: middle (across, up) [m], half the side [m], index
+uniform vec3 lawn_shade; // of its model: radius of its shade on grass [m]; optical depth times squared radius [m²]; depth at its foot
 
-flat out vec4 shades;  // how far it shades the grass, of that half; leaves met in the middle; 1 in the map from above; how far
-                       // it is along the sun's rays [m]
-flat out vec3 foot;    // how far its foot does; leaves met there; how many of its leaves it has
+flat out vec4 shades;  // radius of its shade, of half its picture; optical depth in the middle; 1 in the map from above; position along the sun's
+                       // rays [m]
+flat out vec3 foot;    // radius of its foot's shade; optical depth there; its foliage
 #else
-uniform vec4 high;     // of the corners about what its pictures show: how high they are, -1 to 1, from its foot to its top
-uniform vec4 reaches[2 * COLUMNS * ROWS];  // by picture: how far out they are left and right, of half their height
+uniform vec4 high;     // heights of its outline's corners, -1 to 1, from foot to top
+uniform vec4 reaches[2 * COLUMNS * ROWS];  // by picture: distances of the corners left and right, of half their height
 
-flat out vec4 meets;   // by how much of what pictures tell of light's way its leaves meet, along its axes and in all
-flat out vec4 behind_meets; // and by how much of that all leaves would which it may have are met behind what is seen of it
-out vec4 sunlit;       // what its leaves send of the sun's light; the share of them that is drawn so
-out vec4 wooden;       // how much more its wood sends of that; how thick THICKEST is, of it [m]
-flat out vec4 skylit;  // the sky's light; and how far up what is seen of its leaves looks, -1 to 1
+flat out vec4 meets;   // weights of the pictures' optical depths for the sun, along its axes and in all
+flat out vec4 behind_meets; // and for the ray from the eye behind what is seen, with all its leaves
+out vec4 sunlit;       // radiance of its leaves under the sun; opacity
+out vec4 wooden;       // what its wood has more; radius that THICKEST stands for, on it [m]
+flat out vec4 skylit;  // radiance of the sky; mean of its leaves' normals' y
 flat out vec3 below;
 flat out vec3 hazy;
-flat out vec3 old_bark; // its pigment, in the mean
-flat out vec2 sides;   // of its pictures, across and up [texels]
-flat out vec2 waves;   // how its limbs swing just now, along and across its picture [rad]
-flat out vec3 gives;   // how far clumps of leaves have given way to those of the second, both ways, and by how much they do so apart
-flat out float grasses; // how many times as high as the grass about its foot it is
+flat out vec3 old_bark; // mean pigment of its old bark
+flat out vec2 sides;   // size of its pictures, across and up [texels]
+flat out vec2 waves;   // phases of its limbs' swing, along and across its picture [rad]
+flat out vec3 gives;   // progress of clumps of leaves from the first picture to the second, both ways, and their spread
+flat out float grasses; // its height, of that of the grass about its foot
 #endif
 
-out vec3 on;           // where on its picture, each way from 0 to 1, or across a row, with CAST of half its height; and how high over
-                       // its foot, of the tree's height
-flat out vec4 tiles;   // where on their texture the pictures begin that are mixed, the first and the second
-flat out vec2 mixed;   // how much of the second
-flat out vec4 told;    // what tells it from others; how far its limbs seem to swing, and how far aside its top is, of its picture; its level
-flat out vec2 row_told; // how many stand side by side; from one to the next, of a picture
-flat out float texel_side; // how large the coarser texels are that are read, of a picture
+out vec3 on;           // position on its picture, each way from 0 to 1, or across a row, with CAST of half its height; height over its foot, of
+                       // the tree's
+flat out vec4 tiles;   // corners of the mixed pictures in their texture, the first and the second
+flat out vec2 mixed;   // share of the second
+flat out vec4 told;    // its random number; amplitude of its limbs and displacement of its top, of its picture; mip level
+flat out vec2 row_told; // number of trees in a row; distance between them, of a picture
+flat out float texel_side; // size of the coarser texels that are read, of a picture
 
-const vec2 MIXES = vec2(0.3, 0.7);  // between which parts of the way from one picture to the next they are mixed
-const float ASKEW_ROWS = 2.0;  // by how much of an angle rows of trees are turned from one another: else all would be parallel [rad]
+const vec2 MIXES = vec2(0.3, 0.7);  // parts of the angle from one picture to the next between which they are mixed
+const float ASKEW_ROWS = 2.0;  // range of the yaws of rows of trees: else all would be parallel [rad]
 const float OVERHEAD = 0.999;  // sine of the elevation from which on a tree counts as seen from straight above
 
-const vec2 SHIMMER_HERTZ = vec2(1.7, 1.3);  // how fast limbs swing, along and across a picture [Hz]
-const float GIVES_WAY = 0.25;  // part of the way from one picture to the next on which a clump of leaves gives way to another
-const float BLENDS = 2.0;      // how many times as much more that is on each level, until a pixel is many clumps
-const float SHIMMER = 0.12;  // how far its limbs seem to swing, of how far they do, of a picture
-const float UPRIGHT_SENDS = 0.25;  // what an upright stem sends of level light from behind the eye, of what faces it, over half a turn [1/rad]
+const vec2 SHIMMER_HERTZ = vec2(1.7, 1.3);  // frequencies of limbs along and across a picture [Hz]
+const float GIVES_WAY = 0.25;  // part of the angle from one picture to the next over which a clump of leaves gives way
+const float BLENDS = 2.0;      // growth of that part with each mip level, until a pixel is many clumps
+const float SHIMMER = 0.12;  // apparent amplitude of limbs, of their own, on a picture
+const float UPRIGHT_SENDS = 0.25;  // radiance of an upright stem under level light from behind the eye, per half turn of its side [1/rad]
 
 #ifdef CAST
-// How large a pixel is there [m].
+// Size of a pixel there [m].
 float pixel_at(vec3 place) {
     return 2.0 * tile.z / SHADE_SIDE;
 }
@@ -72,17 +71,16 @@ float pixel_at(vec3 place) {
     return (clip * vec4(place, 1.0)).w / pixels_a_metre();
 }
 
-// How far out a corner is of what these show together.
+// Distance of a corner that encloses all these pictures.
 float reach_of(ivec4 pictures, int side, int corner) {
     vec4 lower = max(reaches[2 * pictures.x + side], reaches[2 * pictures.y + side]);
     return max(lower, max(reaches[2 * pictures.z + side], reaches[2 * pictures.w + side]))[corner];
 }
 
-const float SPREADS = 2.0;  // texels of a coarser picture that what is there spreads over, and as many pixels
-const float LEANS_OFF = 0.2;  // how far a bent trunk is from a line to its top, of how far that is aside: most at 0.42 of its height
+const float SPREADS = 2.0;  // spread of a coarser picture [texels], and in pixels
+const float LEANS_OFF = 0.2;  // greatest distance of a bent trunk from a line to its top, of the top's displacement: at 0.42 of its height
 
-// A corner of its outline, where a pixel is so many texels: as far out as what is there may spread, and the wind moves it. Rows of
-// trees have none.
+// A corner of its outline, where a pixel is so many texels, widened by mip levels and the wind. Rows of trees have none.
 vec2 corner_here(ivec4 pictures, float texels) {
     int side = gl_VertexID % 2, corner = gl_VertexID / 2;
     vec2 to = vec2(side == 1 ? 1.0 : -1.0, corner == 0 ? -1.0 : corner < OUTLINE / 2 - 1 ? 0.0 : 1.0);
@@ -92,14 +90,14 @@ vec2 corner_here(ivec4 pictures, float texels) {
     return vec2(to.x * (reach_of(pictures, side, corner) + 2.0 * moved), high[corner]) + to * (SPREADS * 2.0 * texels / lines);
 }
 
-// What white wood sends to the eye of the sun's light: the mean over the side of an upright stem that is seen.
+// Radiance of white wood under the sun: the mean over the visible side of an upright stem.
 float wood_sends(vec3 ray) {
     float level = length(sun.xz), apart = acos(clamp(-dot(ray.xz, sun.xz) / max(length(ray.xz) * level, LEAST_PART), -1.0, 1.0));
     return SENDS * level * UPRIGHT_SENDS * (sin(apart) + (0.5 * AROUND - apart) * cos(apart));
 }
 #endif
 
-// Which pictures show it from a direction of its own axes; returned are those that are mixed, or one of them several times.
+// Choose the pictures that show it from a direction in its own axes; return those mixed, perhaps one of them several times.
 ivec4 choose(vec3 from) {
     float column = atan(from.x, from.z) / AROUND * float(COLUMNS);
     column = column < 0.0 ? column + float(COLUMNS) : column;
@@ -114,9 +112,9 @@ ivec4 choose(vec3 from) {
 }
 
 #ifndef CAST
-// Where a corner is in the picture that lies so far under the ground. Its crown is nearer to the eye than the square, whose lower part
-// the ground would hide from above: so is the depth of that corner, as far as over the ground, or the crown's front. The flatter it is
-// seen, the less: level, what is lowest in it is the trunk's foot, which grass in front of it hides.
+// Clip position of a corner that lies `under` the ground. The crown is nearer to the eye than the picture's square, whose lower part
+// the ground would hide from above: so the corner's depth is as far as that of a place over the ground, or the crown's front. Seen
+// flatter, it is less: seen level, the lowest part is the trunk's foot, which grass in front hides.
 vec4 over_ground(vec3 seen_at, float under, float front) {
     vec4 at = clip * vec4(seen_at, 1.0);
     vec3 ray = normalize(eye - seen_at);
@@ -125,7 +123,7 @@ vec4 over_ground(vec3 seen_at, float under, float front) {
     return vec4(at.xy, nearer.z / nearer.w * at.w, at.w);
 }
 
-// What its pixels ask that is the same for all of them.
+// Write what is constant over its pixels.
 void tell_pixels() {
     float way = GIVES_WAY + GIVES_WAY * BLENDS * told.w;
     gives = vec3((1.0 + way) * mixed, 1.0) / way;
@@ -136,7 +134,7 @@ void tell_pixels() {
     on.xy = 0.5 + 0.5 * vec2(columns > 1.0 ? 1.0 : slim, 1.0) * on.xy;
 }
 
-// What light comes there past other trees: to the top of its crown, more.
+// Write the light on it past other trees: more at the top of its crown.
 void light_up(vec3 place, vec3 ray) {
     Light light = light_in_crown(vec3(place.x, max(place.y, root.y), place.z), vec4(0.0), 1.0);
     meets = meets_by(turned_back(sun), foliage);
@@ -149,7 +147,7 @@ void light_up(vec3 place, vec3 ray) {
     hazy = light.haze;
 }
 #else
-// Where it lies in the map.
+// Write its place in the map.
 void cast_at(vec3 middle_of, vec3 across, vec3 up, float half_tall) {
     bool from_above = tile.w > 1.0;
     float reach = max(scale * lawn_shade.x, LEAST_SHADE);
@@ -197,9 +195,9 @@ void main() {
     float under = root.y - seen_at.y;
     vec3 lit_at = mix(middle_of + half_tall * on.y * up, seen_at, 0.5);
     if (columns > 1.0)
-        seen_at.y += height_at(seen_at.xz) - root.y;  // a row of trees goes up and down with the ground
+        seen_at.y += height_at(seen_at.xz) - root.y;  // a row of trees follows the ground
     on.z = (seen_at.y - root.y) / (tall * scale);
-    seen_at.xz += sways * (seen_at.y - root.y);  // its corners go along a line, and pixels from that to the trunk's
+    seen_at.xz += sways * (seen_at.y - root.y);  // corners are displaced linearly, and pixels from there to the trunk's curve
     light_up(lit_at, -to);
     tell_pixels();
     gl_Position = just_behind(over_ground(seen_at, under, half_tall));

@@ -1,19 +1,19 @@
-// What is the same all over a twig, on its card or with LEAVES leaf by leaf: where it hangs in the wind, and what light comes to it.
+// A twig on its card, or with LEAVES leaf by leaf: its position in the wind, and its light.
 #include "systems/trees/twig.glsl"
 #include "systems/trees/hung.glsl"
 #include "systems/trees/leaf_sends.glsl"
 #include "systems/trees/pigment.glsl"
 
-out vec4 hung_at;        // its foot [m]; how long it is, 0 where it is left out [m]
+out vec4 hung_at;        // its foot [m]; its length, 0 where it is left out [m]
 flat out uvec4 hung_axes;
 flat out uvec4 hung_light;
 #ifdef LEAVES
 flat out uvec2 hung_haze;
 #endif
 
-uniform bool whole;  // whether all its twigs are drawn: they are told from near to far then, so that they hide one another
+uniform bool whole;  // whether all its twigs are drawn: they are sorted from near to far then, so that they hide one another
 
-// The twig that is the next in its order, or by how far off it is.
+// Index of the twig in its order, or by distance.
 int next_twig() {
     if (!whole)
         return gl_VertexID;
@@ -25,7 +25,7 @@ int next_twig() {
 }
 
 #ifdef LEAVES
-in float first;  // the twig that is drawn, or the first of those
+in float first;  // index of the twig, or of the first of them
 const bool LEAF_BY_LEAF = true;
 
 void tell_leaves(int number, vec3 along, vec3 aside, float turns, Light above, vec3 below) {
@@ -73,7 +73,7 @@ void main() {
         one.face = face_of(one);
     vec3 aside = cross(one.along, one.face);
     float turns = flutter(chance), length_of = size * one.span;
-    one.foot -= 0.5 * max(length_of - one.span, 0.0) * one.along;  // it is larger about its middle: a crown stays as wide
+    one.foot -= 0.5 * max(length_of - one.span, 0.0) * one.along;  // it grows about its middle: a crown stays as wide
     hung_at = vec4(swayed(one.foot, one.pivot, one.limb, one.hertz, message), scale * length_of);
     vec3 facing = normalize(turned(one.face + turned_by(one.along, aside, turns)));
     vec3 along = turned(LEAF_BY_LEAF ? one.along : one.along + fluttered(one.face, aside, turns));

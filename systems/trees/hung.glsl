@@ -1,8 +1,8 @@
-// What is told of a twig's card, in few bytes: numbers of 16 bits, two in one of 32.
-const float IN_HALF = 65535.0;  // the greatest number of 16 bits
-const float LONGEST = 2.0;  // how long an axis is at most, of the twig
-const float BRIGHTEST = 64.0;  // radiance that is told at most; its root is told, as dark ones are to differ in less
-const float IN_REST = 16383.0;  // the greatest number of 14 bits, which are left beside the number of a picture
+// Values of a twig packed in few bytes: two numbers of 16 bits in one of 32.
+const float IN_HALF = 65535.0;  // greatest number of 16 bits
+const float LONGEST = 2.0;  // greatest length of an axis, of the twig's
+const float BRIGHTEST = 64.0;  // greatest radiance; its root is packed, as dark ones need finer steps
+const float IN_REST = 16383.0;  // greatest number of 14 bits, which are left beside a picture's index
 const int PICTURE_BITS = 2;
 const uint PICTURE_MASK = 3u;
 const uint LOW = 65535u;
@@ -33,7 +33,7 @@ vec3 light_of(vec3 told) {
     return told * told * BRIGHTEST;
 }
 
-// What is the same all over a twig's card, as card.vert has it.
+// Values of a twig on its card; card.vert describes them.
 struct HungCard {
     vec3 along;
     vec3 aside;
@@ -61,16 +61,16 @@ HungCard hung_card(uvec4 axes, uvec4 colors) {
     return HungCard(along, aside, relief, dark, bright, float(both & PICTURE_MASK));
 }
 
-// What is the same all over a twig whose leaves are drawn each by itself.
+// Values of a twig drawn leaf by leaf.
 struct HungLeaves {
     vec3 along;
     vec3 aside;
-    vec3 sun;     // light on it, of the sun; on what looks up, and on what looks down; and haze before it
+    vec3 sun;     // radiance from the sun; on faces up and down; haze in front
     vec3 above;
     vec3 below;
     vec3 haze;
-    float turns;  // by how much of an angle leaves are turned just now [rad]
-    int number;   // of the twig
+    float turns;  // rotation of leaves by the wind [rad]
+    int number;   // index of the twig
 };
 
 void pack(HungLeaves told, out uvec4 axes, out uvec4 light, out uvec2 haze) {

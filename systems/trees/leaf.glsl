@@ -1,4 +1,4 @@
-// Leaves: their outlines, and how they send light.
+// Leaves: outlines and light.
 #include "lib/least.glsl"
 #include "systems/trees/habit.py"
 #include "systems/trees/leaf_sends.glsl"
@@ -7,11 +7,11 @@
 
 uniform int form;
 
-// Outlines: powers of the way from the foot and of that from the tip; how broad a leaf is, of its quad.
+// Outlines: powers of the distance from the foot and from the tip; width, of the quad's.
 const vec3 OVATE_OUTLINE = vec3(0.55, 0.8, 1.95), LOBED_OUTLINE = vec3(0.55, 0.35, 1.38);
-const vec2 LOBES = vec2(0.2, 26.0);  // how deeply lobes are cut; how fast they follow one another [rad]
+const vec2 LOBES = vec2(0.2, 26.0);  // depth of lobes; their frequency [rad]
 const vec2 DELTOID_FOOT = vec2(-0.02, 0.2), DELTOID_TIP = vec2(0.85, 1.12);  // where it widens; as of outlines, without the foot
-const float LANCE_FOOT = 0.8;  // a sine, over this power of the way
+const float LANCE_FOOT = 0.8;  // power of the distance from the foot, in a sine
 
 float outline(float along, vec3 shape) {
     return shape.z * pow(along, shape.x) * pow(1.0 - along, shape.y);
@@ -29,12 +29,12 @@ float half_width(float along) {
 }
 
 const float TUFT_NEEDLES = 3.5;  // to either side of the middle of a tuft
-const float TUFT_FOOT = 0.25;  // how broad it is at its foot, of its tip
-const float TUFT_ROUNDED = 0.18;  // how much shorter its outermost needles are
-const float NEEDLE_TAPERS = 0.2;  // how much narrower they are at their tip, of the way from one to the next
-const vec2 NEEDLES_BLUR = vec2(0.8, 0.45);  // pixel from which on they blur, of the way from one to its gap; coverage of such
+const float TUFT_FOOT = 0.25;  // width at its foot, of that at its tip
+const float TUFT_ROUNDED = 0.18;  // shortening of its outermost needles
+const float NEEDLE_TAPERS = 0.2;  // narrowing of needles towards their tip, of their spacing
+const vec2 NEEDLES_BLUR = vec2(0.8, 0.45);  // pixel size from which needles blur, of their spacing; coverage when blurred
 
-// How much of a pixel is needles, which part from their foot.
+// Coverage by needles, which fan out from their foot.
 float needles_cover(vec2 on) {
     float fan = on.x / (TUFT_FOOT + (1.0 - TUFT_FOOT) * on.y), each = abs(fract(fan * TUFT_NEEDLES) - 0.5) * 2.0;
     float needle = each - 0.5 - NEEDLE_TAPERS * on.y, short_of = 1.0 - TUFT_ROUNDED * abs(fan) - on.y;
@@ -48,8 +48,8 @@ float needles_cover(vec2 on) {
 #endif
 }
 
-// How much of a pixel is leaf, at a place on its quad: across from -1 to 1, and along from 0 to 1. A sample is on it or not: edges as
-// wide as a sample would go beyond the quad of a leaf that is narrower, and such leaves would hide too little.
+// Coverage by a leaf at a position on its quad: across from -1 to 1, along from 0 to 1. A sample is in or out: an edge as wide as a
+// sample would reach beyond the quad of a narrower leaf, and such leaves would hide too little.
 float leaf_cover(vec2 on) {
     if (form == NEEDLES)
         return needles_cover(on);

@@ -1,20 +1,20 @@
-// How leaves that lie in several ways look together.
+// Mean look of leaves with many normals.
 #include "systems/trees/leaf_sends.glsl"
 #include "systems/trees/normals.py"
 #include "systems/trees/pigment.glsl"
 
-uniform vec4 leaf_normals[NORMALS];  // as normals.py has it
+uniform vec4 leaf_normals[NORMALS];  // as in normals.py
 
-// What is seen of leaves of which each lies another way.
+// What is seen of such leaves.
 struct Seen {
-    vec3 sends;     // of the sun's light, in the mean
-    float up;       // how far up they look, in the mean
-    float darker;   // the mean of their colours as shown, of that of their mean radiance: a dark and a bright leaf together are darker
-    float turns;    // how much brighter those are that turn to the sun as its card does, by how far they do
-    vec3 faces;     // which way they lie in its picture, in the mean
+    vec3 sends;     // mean radiance under the sun
+    float up;       // mean of the normals' y, towards the eye
+    float darker;   // mean of the displayed colours, of that of the mean radiance: a dark and a bright leaf together look darker
+    float turns;    // relative gain in brightness of leaves that face the sun, by how much they do
+    vec3 faces;     // mean normal in its picture
 };
 
-// Those of what has these axes, a card or a tree, under this light on what looks up and on what looks down.
+// Return that of a card or a tree with the axes `own`, under light from above and below.
 Seen seen_of(mat3 own, vec3 ray, Light above, vec3 below) {
     vec3 to_sun = sun * own, to_eye = -ray * own, strewn = strewn_send(ray), pigment = pigment_of(0.5, 0.0, 0.0), albedo = pigment * pigment;
     float side = to_eye.z < 0.0 ? -1.0 : 1.0, shown = LEAST_PART, pictured = LEAST_PART, root_of = 0.0;

@@ -1,13 +1,13 @@
-// How many leaves light meets on its way to a place in a crown, by direction and in all, as pictures have it.
+// Optical depth at a place in a crown, linear in direction, as pictures pack it.
 #include "systems/trees/motion.py"
 
-const vec2 SHADING = vec2(3.0, 6.0);  // by how much of light's way in the crown textures' bytes count, to either side and in all
+const vec2 SHADING = vec2(3.0, 6.0);  // scale of a picture's values: of the directional parts, and of the mean
 
 vec4 packed_shading(vec4 shading) {
     return clamp(vec4(0.5 + 0.5 * shading.xyz / SHADING.x, shading.w / SHADING.y), 0.0, 1.0);
 }
 
-// By how much of that a ray from there meets leaves, along each axis of a tree and in all, where it has so many of its leaves.
+// Weights of a picture's values for the optical depth of a ray `from` a direction in the tree's axes, and in all.
 vec4 meets_by(vec3 from, float foliage) {
     return foliage * vec4(2.0 * SHADING.x * from, SHADING.y);
 }
@@ -16,7 +16,7 @@ float foliage_of(vec4 meets) {
     return meets.w / SHADING.y;
 }
 
-// How many leaves of it the sun's light meets, as `through_crown` has it, and how many the sky's does.
+// Optical depth of the sun's light, as in `through_crown`, and of the sky's.
 float sun_meets(vec4 shading, vec4 meets) {
     return max(dot(shading, meets) - 0.5 * (meets.x + meets.y + meets.z), 0.0);
 }

@@ -1,17 +1,16 @@
-// What the picture of a twig shows at a place of its card.
-uniform sampler2DArray tree_cards;  // of each picture tone, the normal across and along in the card's own axes, cover
+// The picture of a twig on its card.
+uniform sampler2DArray tree_cards;  // layers of tone, normal across and along in the card's own axes, coverage
 
-// Level of a card's picture, beside that of its longer axis: cards face all ways, so the other axis is shorter by 0.7 of a level in the
-// mean of what is seen of them.
+// Bias of the mip level from the card's longer axis: cards face all ways, so the other axis is shorter by 0.7 of a level in the mean.
 const float FINER_BY = -0.7;
 
 struct Pictured {
     float tone;
     float cover;
-    vec3 lies;  // how its leaves lie, in the card's own axes
+    vec3 lies;  // normal of its leaves, in the card's own axes
 };
 
-// `on` is across from -1 to 1, and up from 0 to 1. Leaves are thinner than a pixel: an edge around them would make one leaf of all.
+// `on` is across from -1 to 1, and up from 0 to 1. Leaves are thinner than a pixel: a sharpened edge would merge them into one leaf.
 Pictured pictured(vec2 on, float picture) {
     vec2 at = vec2(0.5 + 0.5 * on.x, on.y);
     vec4 texel = texture(tree_cards, vec3(at, picture), FINER_BY);

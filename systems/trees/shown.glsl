@@ -1,30 +1,29 @@
-// How much of a pixel a tree covers, and the ways in which what covers it in part is drawn: opaque where it covers nearly all of
-// it, and blended over that and all else where it covers less; or with SAMPLED, and as textures have it, opaque in as many samples of
-// a pixel as it covers.
+// Coverage of pixels: opaque where it is nearly whole, and blended where it is less; or with SAMPLED and in baked pictures, opaque in
+// as many samples of a pixel as are covered.
 
 #include "systems/trees/packed.glsl"
 #include "systems/trees/wood.py"
 
-const float LEAST_COVER = 0.01;  // coverage that divides what is multiplied by it at least
+const float LEAST_COVER = 0.01;  // least coverage, as a divisor
 
-// The coverage of what lies within an edge, which is a pixel wide however large it is; `least` is how fast it changes at least.
+// Coverage within an edge one pixel wide, however large it is; `least` is the least slope.
 float sharpened(float cover, float edge, float least) {
     return clamp((cover - edge) / max(fwidth(cover), least) + 0.5, 0.0, 1.0);
 }
 
-uniform float solid_from;  // coverage from which on what is there is opaque
+uniform float solid_from;  // coverage from which on pixels are opaque
 
 const vec4 BAYER = vec4(0.125, 0.625, 0.875, 0.375);  // thresholds of two by two samples of a pixel
 
-// Coverage from which on a sample is covered: those side by side have different ones, and each thing has its own order of them.
+// Threshold of coverage of this sample: neighbours have different ones, and each object has its own order.
 float threshold_of(float own) {
     ivec2 sample_at = ivec2(gl_FragCoord.xy) & 1;
     return fract(BAYER[2 * sample_at.y + sample_at.x] + own);
 }
 
-const float OWN_ORDER = 0.618034;  // golden section: by it, numbers one after another are spread evenly
+const float OWN_ORDER = 0.618034;  // golden section: successive multiples are evenly spread
 
-// Leaves out what the other way draws.
+// Discards what the other pass draws.
 void must_cover(float cover) {
 #ifdef SOFT
     if (cover >= solid_from || cover < FAINTEST)
@@ -38,7 +37,7 @@ void must_cover(float cover) {
 #endif
 }
 
-// What is drawn of a colour as it is shown.
+// Colour to output for a displayed colour.
 vec4 covered(vec3 shown, float cover) {
 #ifdef SOFT
     return vec4(shown, 1.0) * cover;

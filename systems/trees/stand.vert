@@ -1,37 +1,36 @@
-// What is the same all over a tree: what the wind tells it, how much of the sun is seen past all but trees, the haze before it, the
-// grass that it stands in, how far its trunk is bent.
+// A tree: its message of the wind, the sun past all but trees, the haze in front, the grass about it, and its trunk's displacement.
 #include "systems/trees/tree.glsl"
 
-uniform sampler2D tree_air;   // by patch around the viewer, wrapping round: what the wind tells it
+uniform sampler2D tree_air;   // messages of the patches around the viewer, wrapping round
 uniform sampler2D tree_mean;  // their mean
-uniform vec2 middle;          // of the patch that the viewer stands on [m]
+uniform vec2 middle;          // of the viewer's patch [m]
 in float crown_at;            // height of its crown's middle over its root [m]
-in float hertz;               // how fast its trunk swings [Hz]
+in float hertz;               // frequency of its trunk [Hz]
 
-out vec4 moved;  // as tree.glsl has all of it
+out vec4 moved;  // inputs of tree.glsl
 out vec4 veil;
 out vec4 among;
 out vec3 sent_up;
 
-const vec3 TRUNK_ASIDE = vec3(0.5, TRUNK_ACROSS, 0.37);  // across the wind: how far it swings and how fast, of along it; turns apart
-const vec2 LAWN = vec2(0.5, 0.55);  // what grass sends up of the sun's light on it and of the sky's, with its gaps
-const float LAWN_AT = 0.7;  // the part of its blades whose pigment is seen from above
-const float LOWEST_LIGHT = 0.12;  // sine of the sun's elevation that counts at least for it
+const vec3 TRUNK_ASIDE = vec3(0.5, TRUNK_ACROSS, 0.37);  // of the trunk across the wind: amplitude and frequency, of those along it; phase
+const vec2 LAWN = vec2(0.5, 0.55);  // part of the sun's and of the sky's light that grass reflects, with its gaps
+const float LAWN_AT = 0.7;  // height on its blades whose pigment is seen from above
+const float LOWEST_LIGHT = 0.12;  // least sine of the sun's elevation for that light
 
-// How far the trunk's top is blown aside, of its height.
+// Displacement of the trunk's top, of its height.
 vec2 trunk_sways(vec2 message) {
     vec2 aside = vec2(-message.y, message.x);
     float across = swing(hertz * TRUNK_ASIDE.y, phase + TRUNK_ASIDE.z);
     return message * (TRUNK_LEANS + TRUNK_SWINGS * swing(hertz, phase)) + aside * (TRUNK_ASIDE.x * TRUNK_SWINGS * across);
 }
 
-// The light that the grass about a tree sends up, as radiance of a white face that looks down.
+// Light reflected by the grass about a tree, as radiance of a white face that looks down.
 vec3 from_below() {
     vec3 grass = pigment_at(0, LAWN_AT);
     return grass * grass * (LAWN.x * sunlight * max(sun.y, LOWEST_LIGHT) + LAWN.y * skylight);
 }
 
-// What the wind tells the place where it stands, as the carpet is told.
+// Message of the wind where it stands, as the carpet receives it.
 vec2 message_here() {
     float side = float(textureSize(tree_air, 0).x) * patch_side;
     vec2 apart = abs(root.xz - middle) / side;

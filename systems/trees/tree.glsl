@@ -1,25 +1,25 @@
-// What is the same of all that is drawn of a tree: where it stands, how the wind sways it, and what light comes to it.
+// A tree: its instance, its motion in the wind, and the light in its crown.
 #define OF_TREES
 #include "lib/light.glsl"
 #include "systems/trees/crown.glsl"
 #include "systems/trees/motion.py"
 #include "systems/trees/parameter.py"
 
-in vec3 root;     // where it stands [m]
-in float scale;   // how much larger it is than its model
-in vec2 turn;     // cosine and sine of the angle that it is turned by
-in float phase;   // what sets it apart from others, 0 to 1
-in float tint;    // how much brighter it is than its kind, as a factor
-in float keep;    // share of its twigs that are drawn, each as much larger as to hide as much together
-in float gone;    // share of those that are left to what is drawn of it far off
-in float foliage; // how many of its leaves it has
+in vec3 root;     // place [m]
+in float scale;   // size, of its model's
+in vec2 turn;     // cosine and sine of its yaw
+in float phase;   // random number, 0 to 1
+in float tint;    // brightness, of its kind's
+in float keep;    // share of its twigs that are drawn, each larger so that together they hide as much
+in float gone;    // fade from these to its picture far off, 0 to 1
+in float foliage; // share of its leaves
 #ifdef STANDS
-// What is made out of them once a tree.
-in vec4 blown;    // what the wind tells it; how far that blows its trunk's top aside, of its height
-in vec4 misty;    // radiance of the haze before it, and how much that hides
-in vec4 stands_in; // of the grass about its foot: how high it stands [m], its leaf area, how many of its leaves the sun's light meets, of
-                   // those above; and how much of the sun is seen past all but trees
-in vec3 lawn_sends; // the light that grass sends up, as radiance of a white face that looks down
+// Outputs of stand.vert.
+in vec4 blown;    // message of the wind; displacement of the trunk's top, of its height
+in vec4 misty;    // radiance of the haze in front, and its opacity
+in vec4 stands_in; // of the grass about its foot: height [m], leaf area, optical depth of sunlight, of that straight down; and sun seen past all
+                   // but trees
+in vec3 lawn_sends; // light reflected by the grass, as radiance of a white face that looks down
 vec2 message = blown.xy, sways = blown.zw;
 #else
 const vec2 message = vec2(0.0);
@@ -31,12 +31,13 @@ const vec3 lawn_sends = vec3(0.0);
 
 uniform float moment;  // time, within PERIOD [s]
 
-const vec3 LIMB_ASIDE = vec3(0.7, LIMB_ACROSS, 1.7);  // across the wind: how far limbs swing and how fast, of along it; turns apart, as a factor
+const vec3 LIMB_ASIDE = vec3(0.7, LIMB_ACROSS, 1.7);  // of a limb across the wind: amplitude and frequency, of those along it; factor of its
+                                                      // phase
 const float OVER_TOP = 1.2;  // height up to which a tree bends, of its model's: twigs and pictures go beyond that
-const float LOWEST_ARC = 0.5;  // twice the height that counts at least, for how far down what is bent aside comes [m]
+const float LOWEST_ARC = 0.5;  // twice the least height, for the drop of what is bent aside [m]
 
-// A swing of a lightly damped stem in gusty air, -1 to 1: a narrow band about its own frequency (Crandall and Mark, Random
-// Vibration in Mechanical Systems, 1963), here of two tones that beat. Frequencies are whole parts of PERIOD, so that it closes.
+// Swing of a lightly damped stem in gusty air, -1 to 1: a narrow band about its own frequency (Crandall and Mark, Random Vibration in
+// Mechanical Systems, 1963), here of two tones that beat. Frequencies are multiples of 1 / PERIOD, so that it repeats.
 float swing(float hertz, float own) {
     vec2 tones = floor(hertz * TONES * PERIOD + 0.5) / PERIOD;
     vec2 waves = sin(AROUND * (fract(tones * moment) + own * TONES_APART));
@@ -51,12 +52,12 @@ vec3 turned_back(vec3 world) {
     return vec3(turn.x * world.x + turn.y * world.z, world.y, turn.x * world.z - turn.y * world.x);
 }
 
-// How far a trunk of a length [m] is blown aside at a part of it [m].
+// Displacement of a trunk of a length [m] at a part of it [m].
 vec2 trunk_bends(float high, float of) {
     return sways * (of * cantilever(clamp(high, 0.0, OVER_TOP)));
 }
 
-// Where a point of its model is, with the trunk bent, and a limb swung about its foot on that.
+// Position of a point of its model, with the trunk bent, and its limb swung about its foot.
 vec3 swayed(vec3 own, vec3 pivot, float limb, float hertz, vec2 message) {
     vec3 at = turned(own);
     vec2 bent = trunk_bends(own.y / tall, tall);
@@ -71,9 +72,9 @@ vec3 swayed(vec3 own, vec3 pivot, float limb, float hertz, vec2 message) {
     return root + scale * at;
 }
 
-const float FAINTEST_SUN = 0.02;  // part of the sun's light that others' shade makes no difference to
+const float FAINTEST_SUN = 0.02;  // least visible part of the sun's light, below which the shade of others is not read
 
-// The light at a place in its crown before a face is asked how it lies: the sun's and lamps', the sky's and the lawn's, the haze.
+// Light at a place in its crown, for faces of any normal: of sun and lamps, of sky and grass, and haze.
 Light light_in_crown(vec3 place, vec4 shading, float up) {
 #ifdef BAKED
     return Light(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, vec2(0.0));

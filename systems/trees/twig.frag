@@ -1,4 +1,4 @@
-// Twigs, each as all of its leaves with LEAVES, and else on its card.
+// Twigs: leaf by leaf with LEAVES, else on their cards.
 #include "lib/light.glsl"
 #include "systems/trees/leaf.glsl"
 #include "systems/trees/shown.glsl"
@@ -14,8 +14,8 @@ flat in float picture;
 layout(location = 0) out vec4 pixel;
 layout(location = 1) out vec4 second;
 
-const float APART = 7.0;  // how many times as much as what tells leaves and twigs apart their thresholds differ
-const float RIBBED = 0.8;  // as twig.vert has it
+const float APART = 7.0;  // difference of the thresholds of leaves and twigs, by their random numbers
+const float RIBBED = 0.8;  // as in twig.vert
 #else
 in float covers;
 flat in vec3 shown;
@@ -24,12 +24,12 @@ flat in vec3 ribbed;
 out vec4 pixel;
 #endif
 
-const float VEIN = 0.05;  // how broad a leaf's midrib is
+const float VEIN = 0.05;  // width of a leaf's midrib
 
 void main() {
     float beside = smoothstep(0.0, VEIN, abs(on.x));
 #ifdef LEAVES
-    float leaf = leaf_cover(on);  // asked by all pixels: it looks at their neighbours
+    float leaf = leaf_cover(on);  // called in all pixels, as it takes derivatives
 #endif
 #ifdef BAKED
 #ifdef LEAVES

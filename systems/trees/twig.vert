@@ -1,5 +1,5 @@
-// The twigs of trees: each as all of its leaves with LEAVES, and else on the card that shows it. With BAKED they are drawn as they
-// will be read from a texture. What is not a vertex buffer's is made out from the vertex's number.
+// Twigs: leaf by leaf with LEAVES, else on their cards. With BAKED they are drawn into a texture. What no vertex buffer holds follows
+// from the vertex's index.
 #include "systems/trees/twig.glsl"
 #ifndef BAKED
 #include "systems/trees/behind.glsl"
@@ -7,43 +7,43 @@
 #include "systems/trees/leaf_sends.glsl"
 #include "systems/trees/pigment.glsl"
 
-in vec4 hung_at;      // as hang.vert has it
+in vec4 hung_at;      // outputs of hang.vert
 in uvec4 hung_axes;
 in uvec4 hung_light;
 in uvec2 hung_haze;
 #endif
 
 uniform int leaf_count;  // leaves of a twig
-uniform int shoots;      // of a twig: itself, and those on its sides
-uniform float shoots_off; // angle of those from it [rad]
-uniform float finer;     // how many times as small leaves and stems are as those of a twig
+uniform int shoots;      // of a twig: itself and its side shoots
+uniform float shoots_off; // angle of these from it [rad]
+uniform float finer;     // ratio of a twig's leaves and stems to those drawn
 
 out vec2 on;
 #ifdef BAKED
 out vec3 facing;
-out vec4 inside;  // what leaves meet of light; or tone, and 1 on a stem
+out vec4 inside;  // optical depths; or tone, 1 on a stem, and coverage
 flat out float tone;
-flat out float picture;  // which one the card shows
+flat out float picture;  // index of the card's picture
 #else
-out float covers;      // of a pixel, on a stem; below 0 on a leaf
-flat out vec3 shown;   // its colour
+out float covers;      // coverage of a stem; below 0 on a leaf
+flat out vec3 shown;   // its displayed colour
 flat out vec3 ribbed;  // that of its midrib
 #endif
 
 const float STEM = 0.006;  // half the width of a side shoot at its foot, of its twig's length
-const float STEM_TAPERS = 0.6, STEM_OF_TWIG = 1.6;  // how much narrower its tip is; how many times as wide the twig itself is
-const float SHOOTS_UP_TO = 0.62, SHOOTS_SHORTEN = 0.5;  // where the last side shoot of a twig stands; how much shorter it is
-const vec2 ANGLES = vec2(0.8, 0.4);  // the least angle of shoots and leaves, of what is usual, and how much more it may be
-const vec2 LEAF_ANGLES = vec2(1.1, 0.55);  // what is usual of leaves, at the foot and at the tip of a shoot, of the kind's
-const float FIRST_LEAF = 0.1;  // where the first leaf of a shoot stands, of its length
-const float LEAVES_AROUND = 1.4;  // how far around it leaves are from its left and right [rad]
-const float NODS = 0.35, TILTED = 0.6;  // how far leaves hang; how far they are turned about their stalks
-const vec2 LEAF_SIZES = vec2(0.75, 0.45);  // the least size of a leaf, of its kind's, and how much more it may be
-const float STALK = 0.12;  // of a leaf, of its length
-const float RIBBED = 0.8;  // how much of its tone a leaf's midrib has
-const vec2 LEAF_TONES = vec2(0.25, 0.75);  // the least tone of a leaf, and how much more it may be
+const float STEM_TAPERS = 0.6, STEM_OF_TWIG = 1.6;  // narrowing of its tip; width of the twig itself, of that
+const float SHOOTS_UP_TO = 0.62, SHOOTS_SHORTEN = 0.5;  // position of a twig's last side shoot; its shortening
+const vec2 ANGLES = vec2(0.8, 0.4);  // least angle of shoots and leaves, of the usual one, and its range
+const vec2 LEAF_ANGLES = vec2(1.1, 0.55);  // usual angle of leaves at the foot and the tip of a shoot, of the kind's
+const float FIRST_LEAF = 0.1;  // position of a shoot's first leaf, of its length
+const float LEAVES_AROUND = 1.4;  // range of the angle of leaves around it, about its left and right [rad]
+const float NODS = 0.35, TILTED = 0.6;  // drooping of leaves; turn about their stalks
+const vec2 LEAF_SIZES = vec2(0.75, 0.45);  // least size of a leaf, of its kind's, and its range
+const float STALK = 0.12;  // length of the stalk, of the leaf's
+const float RIBBED = 0.8;  // tone of a leaf's midrib, of the leaf's
+const vec2 LEAF_TONES = vec2(0.25, 0.75);  // least tone of a leaf, and its range
 
-// A side shoot of a twig: sine and cosine of its angle; where it stands, and how long it is. The first is the twig itself.
+// A side shoot of a twig: sine and cosine of its angle; position, and length. The first is the twig itself.
 vec4 shoot_at(int twig, int shoot) {
     if (shoot == 0)
         return vec4(0.0, 1.0, 0.0, 1.0);
@@ -52,7 +52,7 @@ vec4 shoot_at(int twig, int shoot) {
     return vec4(sin(angle), cos(angle), SHOOTS_UP_TO * part, SHOOTS_LONG * (1.0 - SHOOTS_SHORTEN * part));
 }
 
-// A corner of one of a twig's leaves, in the axes of the twig: across, along and out of its face [of its usual length].
+// A corner of one of a twig's leaves, in the twig's axes: across, along and out of its face [its usual length].
 vec3 leaf_corner(int twig, int leaf, vec2 corner, out vec3 normal) {
     int shoot = leaf % shoots, order = leaf / shoots;
     float part = (float(order) + 0.5) / float(max(leaf_count / shoots, 1)), side = order % 2 == 0 ? -1.0 : 1.0, around;
@@ -68,7 +68,7 @@ vec3 leaf_corner(int twig, int leaf, vec2 corner, out vec3 normal) {
     if (normal.z < 0.0)
         normal = -normal;
     float size = LEAF_SIZES.x + LEAF_SIZES.y * fract(own.x + own.w);
-    // Side shoots of a twig stand on it to the left and right in turn, and their leaves on those.
+    // Side shoots stand to the left and right of a twig in turn, and bear leaves.
     vec4 stands = shoot_at(twig, shoot);
     mat3 turned_aside = mat3(stands.y, -stands.x, 0.0, stands.x, stands.y, 0.0, 0.0, 0.0, 1.0);
     along = turned_aside * along;
@@ -78,12 +78,12 @@ vec3 leaf_corner(int twig, int leaf, vec2 corner, out vec3 normal) {
     return foot + size * (leaf_shape.x * (corner.y + STALK) * along + leaf_shape.y * corner.x * flat_to);
 }
 
-// Half the width of the stem of one of its shoots, at a part of its length [of the twig's usual length].
+// Half the width of the stem of a shoot, at a part of its length [the twig's usual length].
 float stem_width(int shoot, float along) {
     return STEM / finer * (1.0 - STEM_TAPERS * along) * (shoot == 0 ? STEM_OF_TWIG : 1.0);
 }
 
-// A corner of such a stem, so wide.
+// A corner of such a stem, `wide` at each side.
 vec3 stem_corner(int twig, int shoot, vec2 corner, float wide) {
     vec4 stands = shoot_at(twig, shoot);
     vec2 own = vec2(corner.x * wide, stands.w * corner.y);
@@ -94,8 +94,8 @@ vec2 corner_of(int vertex) {
     return vec2(vertex % 2 == 1 ? 1.0 : -1.0, vertex % 4 > 1 ? 1.0 : 0.0);
 }
 
-// A corner of a leaf or a stem of a twig, in its axes [of its usual length], no stem narrower than so much. `told` is its tone, 1 on
-// a stem, and how much of its width that has.
+// A corner of a leaf or a stem of a twig, in its axes [its usual length], no stem narrower than `narrowest`. `told` is its tone, 1 on
+// a stem, and its width, of that drawn.
 vec3 corner_on(int twig, int leaf, vec2 corner, float narrowest, out vec3 normal, out vec3 told) {
     if (leaf < leaf_count) {
         told = vec3(LEAF_TONES.x + LEAF_TONES.y * random(twig, leaf, 4).x, 0.0, 1.0);
@@ -132,14 +132,14 @@ void main() {
 #endif
     vec3 aside = cross(one.along, one.face);
     float length_of = size * one.span;
-    one.foot -= 0.5 * max(length_of - one.span, 0.0) * one.along;  // it is larger about its middle: a crown stays as wide
+    one.foot -= 0.5 * max(length_of - one.span, 0.0) * one.along;  // it grows about its middle: a crown stays as wide
     facing = normal.x * aside + normal.y * one.along + normal.z * one.face;
     gl_Position = baked * vec4(one.foot + length_of * (shape.x * aside + shape.y * one.along + shape.z * one.face), 1.0);
     if (size <= 0.0)
         gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 }
 #else
-// Half a pixel at a twig, of its length: narrower stems are drawn so wide, and cover less.
+// Half a pixel at a twig, of its length: narrower stems are drawn as wide, with less coverage.
 float half_pixel() {
     return 0.5 * distance(eye, hung_at.xyz) / (pixels_a_metre() * hung_at.w);
 }
@@ -155,7 +155,7 @@ void main() {
     vec3 sky = mix(hung.below, hung.above, 0.5 - 0.5 * facing.y * sign(dot(facing, ray)));
     Light light = Light(hung.sun * leaf_sends(facing, ray), sky, hung.haze, 0.0, 0.0, vec2(0.0));
     covers = told.y > 0.5 ? told.z : -1.0;
-    shown = shown_of(shade(Surface(pigment_of(told.x, 0.0, 0.0), 1.0, AMONG_LEAVES), light));  // stems are green, as the darkest of leaves
+    shown = shown_of(shade(Surface(pigment_of(told.x, 0.0, 0.0), 1.0, AMONG_LEAVES), light));  // stems are green, as the darkest leaves
     ribbed = shown_of(shade(Surface(pigment_of(RIBBED * told.x, 0.0, 0.0), 1.0, AMONG_LEAVES), light));
     gl_Position = hung_at.w > 0.0 ? stood(hung_at.xyz + hung_at.w * own) : vec4(0.0, 0.0, 2.0, 1.0);
 }

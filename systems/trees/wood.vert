@@ -1,5 +1,5 @@
-// Trunks, limbs and branches. None is drawn narrower than a pixel: what is thinner covers as much less of that. Others are drawn a
-// pixel broader than they are, over which their edges fade.
+// Trunks, limbs and branches. A stem thinner than a pixel is drawn as wide as one, with less coverage; wider ones get a soft edge of
+// a pixel.
 #include "systems/trees/tree.glsl"
 #include "systems/trees/bark.py"
 #include "systems/trees/behind.glsl"
@@ -8,17 +8,17 @@
 #include "systems/trees/pigment.glsl"
 #include "systems/trees/wood.py"
 
-in uvec4 stem;    // of the model: the stem's middle; its radius; 0 to STEM_SCALE within their ranges
-in vec4 side;     // which way the vertex lies from that, a unit vector, and how much farther out the corners of what has flat sides
-                  // are than what it stands for; or which way a ribbon goes, and -1 or 1 on its edge
-in vec4 own;      // around the stem and along it [m]; what sets its limb apart, and the frequency of that
+in uvec4 stem;    // middle of the model's stem; its radius; 0 to STEM_SCALE within their ranges
+in vec4 side;     // direction of the vertex from the middle, a unit vector, and outset of a flat-sided tube's corners; or a ribbon's tangent, and
+                  // -1 or 1 on its edge
+in vec4 own;      // position around the stem and along it [m]; random number and frequency of its limb
 in vec3 pivot;    // foot of its limb
-in vec4 shading;  // what light meets on its way, by direction about 0.5 and in all, of the most
+in vec4 shading;  // optical depth, linear in direction about 0.5 and in the mean, of the greatest
 
-uniform vec4 stem_least;    // ranges, as bark.py has them
+uniform vec4 stem_least;    // ranges, as in bark.py
 uniform vec4 stem_range;
 uniform vec2 most_shading;
-uniform float usual;     // as twig.glsl has them
+uniform float usual;     // as in twig.glsl
 uniform vec3 leaf_shape;
 
 #ifdef BAKED
@@ -31,20 +31,20 @@ out vec3 seen_at;
 #ifdef BAKED
 out vec4 inside;
 #else
-out vec3 from_sun;  // of the sun's light, what bark in the mean sends that faces it, and of the sky's; above the grass
+out vec3 from_sun;  // radiance of mean bark that faces the sun, and of the sky's light; above the grass
 out vec3 from_sky;
 flat out vec3 hazy;
 #endif
 out float thick;  // coverage
-flat out float rounds; // how much it is a ribbon, which looks as if it were round
-out vec2 fading;  // how much its edges fade; how far out they are, of where they would end
-out float aged;   // how old its bark is, 0 to 1; or how thick the stem is, of THICKEST
-out float stands; // how high over the ground, of the grass there
-flat out vec2 among_grass;  // that grass's leaf area; how many of its leaves the sun's light meets, of those that stand above
+flat out float rounds; // 1 on a ribbon, which is shaded as if round
+out vec2 fading;  // softness of its edges; position of the vertex, of the stem's edge
+out float aged;   // age of its bark, 0 to 1; or radius of the stem, of THICKEST
+out float stands; // height over the ground, of the grass's
+flat out vec2 among_grass;  // leaf area of that grass; optical depth of sunlight in it, of that straight down
 
 const float ON_EDGE = 0.5;  // beyond it, a vertex is on a ribbon's edge: bytes have no 0
 
-// Which way a vertex lies from its stem's middle, which is there.
+// Direction of a vertex from its stem's middle.
 vec3 aside_of(vec3 middle_at) {
     vec4 told = 2.0 * side - 1.0;
     vec3 way = turned(told.xyz);
@@ -82,7 +82,7 @@ void main() {
     Light light = light_in_crown(seen_at, meets, facing.y);
     vec3 pigment = mix(young_bark, bark, aged);
 #ifdef SOFT
-    pigment *= mix(1.0, bark_mean(), aged);  // what is drawn in part are thin stems, and edges a pixel wide
+    pigment *= mix(1.0, bark_mean(), aged);  // the soft pass draws thin stems, and edges a pixel wide
 #endif
     from_sun = SENDS * pigment * pigment * light.sun;
     from_sky = pigment * pigment * light.sky;
