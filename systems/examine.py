@@ -1,4 +1,4 @@
-"""Examining a saved state's arrays: what is trodden, cut, sown, cleared and dug, or a sentence on what cannot be."""
+"""The arrays of a saved state, checked: what is trodden, cut, sown, cleared and dug."""
 
 from collections.abc import Mapping
 from typing import Any, cast
@@ -22,13 +22,13 @@ from .pressers import Treading
 from .saved import Arrays, Saved, SavedTreading, SavedWalk, component_of, fields_of, from_planes, refuse
 
 WALKS = ("scenes", "games")
-"""How arrays of a state are called: of those that the scene declares, and of a game's own."""
+"""Prefixes of the arrays of two walks: that of the scene's pressers, and that of a game's own."""
 
 FARTHEST, WIDEST, LONGEST = 2e6, 31.0, 40.0
-"""What marks keep within: places, reaches, and the lengths of stretches [m]."""
+"""Largest coordinates, reaches and lengths of stretches [m]."""
 
 LATEST = 1e9
-"""Nor are they later than that, to either side of 0 [s]."""
+"""Largest absolute times of stretches [s]."""
 
 
 def _presser(fields: Mapping[str, Any]) -> Presser:
@@ -36,7 +36,7 @@ def _presser(fields: Mapping[str, Any]) -> Presser:
 
 
 def treading_saved(treading: Treading, /) -> tuple[SavedTreading, Arrays]:
-    """Return what pressers have done as it is saved."""
+    """Return the state of pressers as it is saved: records and arrays."""
     walks, arrays = list[SavedWalk](), {"kept": treading.kept}
     for name, stand in zip(WALKS, treading.walks, strict=True):
         who = [(entity, fields_of(presser)) for entity, presser in stand.who]
@@ -51,7 +51,7 @@ def treading_saved(treading: Treading, /) -> tuple[SavedTreading, Arrays]:
 
 
 def treading_of(saved: SavedTreading, arrays: Arrays, /) -> Treading:
-    """Return what pressers have done; raises ValueError for what cannot be."""
+    """Return the state of pressers from what was saved; raises ValueError for what cannot be."""
     stands = []
     for name, walk in zip(WALKS, saved.walks, strict=True):
         who = [(entity, _presser(shape)) for entity, shape in walk.who]
@@ -67,7 +67,7 @@ def treading_of(saved: SavedTreading, arrays: Arrays, /) -> Treading:
 
 
 def _doubles(arrays: Arrays, name: str, shape: tuple[int, ...]) -> Doubles:
-    """Return an array of this name and shape, -1 for any number; raises ValueError for another."""
+    """Return the array of a name, if it has this shape, where -1 is any number; raises ValueError otherwise."""
     array = arrays.get(name, np.zeros(()))
     fits = array.ndim == len(shape) and all(due in (-1, n) for due, n in zip(shape, array.shape, strict=True))
     if array.dtype != np.float64 or not fits or not np.isfinite(array).all():
@@ -86,7 +86,7 @@ def _stretches(arrays: Arrays, name: str, count: int = -1) -> Stretches:
 
 
 def mown_of(arrays: Arrays, plots: Plots, /) -> tuple[Ints, Floats]:
-    """Return which plots are cut, (n, 3), and the heights of their pages [m]; raises ValueError for what cannot be."""
+    """Return the cut plots, (n, 3), and the heights on their pages [m]; raises ValueError for what cannot be."""
     found = arrays.get("mown_heights", np.zeros(0))
     if found.dtype != np.uint8 or found.shape[:-1] != (4,) or found.shape[-1] % CELLS**2:
         refuse("there is something wrong with what is cut")
@@ -97,10 +97,10 @@ def mown_of(arrays: Arrays, plots: Plots, /) -> tuple[Ints, Floats]:
 
 
 def sown_of(saved: Saved, density: Density, loaded: LoadedScene, /) -> tuple[Ints, Bytes]:
-    """Return which plots are sown, (n, 3), and the densities of their pages, of the kinds that a scene has.
+    """Return the plots that are sown, (n, 3), and the densities on their pages of the scene's kinds.
 
-    A kind that the state does not know grows where its ground is as it was painted. Raises ValueError for what cannot
-    be, and for kinds that the scene does not have.
+    Kinds that the state does not have keep the densities of their maps. Raises ValueError for what cannot be, and for
+    kinds that the scene does not have.
     """
     found, plots, kinds = saved.arrays.get("sown_densities", np.zeros(0)), density.sown, loaded.scene.grass
     if found.dtype != np.uint8 or found.ndim != plots.pages.ndim:
@@ -119,7 +119,7 @@ def sown_of(saved: Saved, density: Density, loaded: LoadedScene, /) -> tuple[Int
 
 
 def _plots(arrays: Arrays, name: str, plots: Plots, pages: int) -> Ints:
-    """Return which plots have which of so many pages; raises ValueError for plots that are not there."""
+    """Return plots and the page of each, (n, 3), of `pages` pages; raises ValueError for plots that are not there."""
     where = arrays.get(name, np.zeros(0))
     if (
         where.dtype != np.int32
@@ -134,7 +134,7 @@ def _plots(arrays: Arrays, name: str, plots: Plots, pages: int) -> Ints:
 
 
 def ground_of(arrays: Arrays, terrain: Terrain, /) -> Squares:
-    """Return the squares of ground that have changed; raises ValueError for what cannot be."""
+    """Return the changed squares of the ground; raises ValueError for what cannot be."""
     where, found = (arrays.get(name, np.zeros(0)) for name in ("ground_squares", "ground_heights"))
     if where.dtype != np.int32 or where.shape != (len(where), 2) or found.dtype != np.uint8 or found.shape[:-1] != (4,):
         refuse("there is something wrong with its ground")
@@ -150,7 +150,7 @@ def ground_of(arrays: Arrays, terrain: Terrain, /) -> Squares:
 
 
 def cells_of(arrays: Arrays, /) -> list[Cell]:
-    """Return the cells that are cleared; raises ValueError for what are none."""
+    """Return the cleared cells; raises ValueError for anything but cells."""
     found = arrays.get("cleared", np.zeros(0))
     if found.dtype != np.int32 or found.ndim != 2 or found.shape[1] != 2:
         refuse("there is something wrong with what is cleared")

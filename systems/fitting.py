@@ -1,4 +1,4 @@
-"""Whether a state fits a scene: by what it holds, whatever else the scene says or takes for granted."""
+"""The check that a saved state fits a scene: only what the state depends on has to be the same."""
 
 from collections.abc import Sequence
 
@@ -11,14 +11,14 @@ from .site import Site
 from .space.ground import Ground
 
 LINES = 16
-"""Lines of samples along and across by which ground is told from other ground."""
+"""Number of rows and of columns of samples by which two grounds are compared."""
 
 SAME = 0.01
-"""How far heights may differ of the same ground, which another processor or release has computed [m]."""
+"""Tolerance of heights [m]: another processor or release may compute the same ground a little differently."""
 
 
 def scene_of(site: Site, /) -> SavedScene:
-    """Return what a scene must be like for a state made on a site to fit."""
+    """Return what a scene must have in common with the site for a state made here to fit."""
     scene, terrain = site.scene, site.ground.terrain
     return SavedScene(
         seed=scene.seed, size=terrain.whole, cell=terrain.cell, patch=site.ground.patch, grass=list(scene.grass),
@@ -27,7 +27,7 @@ def scene_of(site: Site, /) -> SavedScene:
 
 
 def lie_of(ground: Ground, /) -> Floats:
-    """Return heights of a ground as it was loaded, in places all over it [m], NaN in holes."""
+    """Return samples of a ground's heights as it was loaded, from all over it [m]; NaN in holes."""
     parts = list(as_loaded(ground.terrain))
     if ground.terrain.blocks is not None:
         return np.concatenate([_open(heights, holes)[::LINES, ::LINES].ravel() for heights, holes in parts])
@@ -42,7 +42,7 @@ def lie_of(ground: Ground, /) -> Floats:
 
 
 def must_fit(saved: Saved, site: Site, lie: Floats, /) -> None:
-    """Raise ValueError where a site cannot take what a state holds; `lie` is that of its ground."""
+    """Raise ValueError if a state does not fit a site; `lie` are the samples of the site's ground."""
     state, scene = saved.state, site.scene
     if isinstance(state.scene, SavedScene):
         _must_be_alike(state.scene, scene_of(site), cleared=len(saved.arrays.get("cleared", ())))
@@ -72,7 +72,10 @@ def _must_be_alike(then: SavedScene, now: SavedScene, /, *, cleared: int) -> Non
 
 
 def kinds_of(state: State, names: Sequence[str], /) -> list[str]:
-    """Return the kinds of grass that a state's ground is sown with, in its order; a scene has those of `names`."""
+    """Return the names of the kinds with which a state's ground is sown, in its order.
+
+    `names` are those of the scene; raises ValueError if any are missing there.
+    """
     then = state.scene.grass if isinstance(state.scene, SavedScene) else list(names)
     gone = [name for name in then if name not in names]
     if gone:

@@ -244,10 +244,10 @@ class Pressers(Feature):
                 self._world.add(entity, _on_way(declared, time))
 
     def _walk_declared(self, who: list[Who], pose: Doubles, time: float) -> bool:
-        """Move the scene's pressers along their paths to their poses (n, 3) of `time` [s]; return whether it is news.
+        """Move the scene's pressers along their paths to their poses (n, 3) of `time` [s].
 
         Their poses are sampled at all instants since the last call. Instants before all paths begin and after all have
-        ended are skipped.
+        ended are skipped. Returns whether anything is new.
         """
         if time - self._scenes.time > self._memory.lasts + EVERY:
             self._begin_anew()  # what they trod before is forgotten

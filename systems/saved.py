@@ -1,4 +1,4 @@
-"""A prairie's state as bytes: what a game has done to it, to be kept and brought back."""
+"""The format of a prairie's saved state: records and arrays, packed as bytes."""
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
@@ -22,110 +22,112 @@ from ..engine.declared.light import Light
 from .light.shining import Way
 
 FORMAT, OLDEST = 4, 3
-"""Version of what a state holds, and the oldest that is read.
+"""Version of the format, and the oldest version that is read.
 
-A 3 has no `SavedScene`: a hash of all that its scene said, defaults too, told it from others."""
+Version 3 has no `SavedScene`, but a hash of the scene's whole text, defaults too."""
 
 MAGIC = b"tallgrass state\n"
-"""What a state begins with."""
+"""First bytes of a state."""
 
 _DIGEST = 20
+"""Length of the checksum [bytes]."""
+
 _MOST = 2**28
-"""Most bytes that a state comes to when it is unpacked."""
+"""Maximum size of a state when it is unpacked [bytes]."""
 
 Arrays = Mapping[str, NDArray[Any]]
-"""What a state holds of arrays, by name."""
+"""Arrays of a state, by name."""
 
 Standing = Annotated[list[Number], Field(min_length=3, max_length=4)]
-"""A `Pose`: x, z [m], yaw [rad], and a height [m] where it has one."""
+"""A `Pose`: x, z [m], yaw [rad], and the height [m] if it has one."""
 
 Kind = Literal["presser", "lamp", "shade", "tree"]
 Thing = Presser | Lamp | Shade | Tree
 
 THINGS: Mapping[Kind, type[Thing]] = {"presser": Presser, "lamp": Lamp, "shade": Shade, "tree": Tree}
-"""Components that are saved, by what a state calls them."""
+"""Classes of saved components, by their names in a state."""
 
 
 class SavedCourse(Declaration):
-    """How the phases of a wind have run whose rates a game has changed."""
+    """The course of the phases of a wind whose rates a game has changed."""
 
     times: list[float]
     rates: list[list[float]]
     offsets: list[list[float]]
-    """As `Course` has them."""
+    """Fields of `Course`."""
 
     first: dict[str, Any]
-    """The values of the wind before that."""
+    """Values of the wind before the first change."""
 
 
 class SavedWind(Declaration):
     """A wind that a game has made, or one of the scene's as a game has left it."""
 
     entity: int
-    """The entity that it was."""
+    """Its entity when it was saved."""
 
     kind: str
     name: str
     values: dict[str, Any]
     pose: Standing | None
-    """Where its entity has a `Pose`."""
+    """Pose of its entity; None without a `Pose`."""
 
     course: SavedCourse | None
 
 
 class SavedThing(Declaration):
-    """An entity of a game's with one of its components: one that has several comes several times."""
+    """One component of a game's entity; an entity with several components has several records."""
 
     entity: int
     kind: Kind
     fields: dict[str, Any]
-    """Of that component."""
+    """Fields of the component."""
 
     pose: Standing | None
-    """Where its entity has a `Pose`."""
+    """Pose of the entity; None without a `Pose`."""
 
 
 class SavedWalk(Declaration):
-    """Pressers that have gone together; their trail and their poses are arrays."""
+    """The walk of some pressers; their trail and their poses are arrays."""
 
     time: float = Field(ge=0.0, le=1e9)
-    """The instant to which they have come [s]."""
+    """Time that they have reached [s]."""
 
     begun: int = Field(ge=-(2**40), le=2**40)
-    """The number of the way that begins next."""
+    """Number of the way that begins next."""
 
     who: list[tuple[int, dict[str, Any]]]
-    """Their entities, and what they press with; -1 - n is the nth that the scene declares."""
+    """Entity and `Presser` fields of each; entity -1 - n is the presser with number n in the scene."""
 
 
 class SavedTreading(Declaration):
-    """What pressers have done; the marks are arrays."""
+    """The state of all pressers, as `Treading` has it; the marks are arrays."""
 
     walks: list[SavedWalk] = Field(min_length=2, max_length=2)
-    """Those that the scene declares, and the game's."""
+    """Walk of the scene's pressers, and that of the game's."""
 
     since: float = Field(ge=-1.0, le=1e9)
-    """When marks settled last [s]."""
+    """Time at which marks settled last [s]."""
 
     trodden: float | None = Field(ge=0.0, le=1e9)
-    """The instant of what was trodden last [s], if anything was."""
+    """Time of the marks trodden last [s]; None if there are none."""
 
     anew: bool
-    """Whether those that the scene declares have their whole way still to go."""
+    """Whether the whole way of the scene's pressers is still to be replayed."""
 
     declared: list[dict[str, Any] | None]
-    """What those press with that the scene declares; None of one that a game has deleted."""
+    """Fields of each of the scene's pressers; None for one that a game has deleted."""
 
 
 class SavedEase(Declaration):
-    """One value of a kind of grass on its way."""
+    """One value of a kind of grass that is being interpolated, as `Ease` has it."""
 
     key: str
     before: str | float
     after: str | float
     since: float = Field(ge=0.0, le=1e9)
     over: float = Field(ge=0.0, le=1e9)
-    """Both [s]."""
+    """Beginning and duration [s]."""
 
 
 class SavedSeason(Declaration):
@@ -133,36 +135,36 @@ class SavedSeason(Declaration):
 
     name: str
     due: dict[str, Any]
-    """What it comes to in the end: all that it says but where it grows."""
+    """Its keys as they will be in the end, without `place`."""
 
     stands: dict[str, Any]
-    """What it has grown to, likewise."""
+    """Its keys as it has grown, without `place`."""
 
     over: float | None = Field(ge=0.0, le=1e9)
-    """How long what must be grown takes to come in [s], if anything must."""
+    """Duration in which new plants come in [s]; None if nothing must be grown."""
 
     asked: float = Field(ge=0.0, le=1e9)
-    """When that was asked for [s]."""
+    """Time at which they were asked for [s]."""
 
     comes: dict[str, Any] | None
-    """What it is becoming, if anything."""
+    """Keys that it is changing to now, if it is."""
 
     since: float = Field(ge=0.0, le=1e9)
     lasts: float = Field(ge=0.0, le=1e9)
-    """When that began, and how long it takes [s]."""
+    """Beginning and duration of this change [s]."""
 
     eases: list[SavedEase]
 
 
 class SavedScene(Declaration):
-    """What a scene must be like for a state to fit; the lie of its ground is an array."""
+    """What a scene must have in common with the state's; heights of its ground are an array."""
 
     seed: int
     size: tuple[float, float]
     """Width (x) and depth (z) of its ground [m]."""
 
     cell: float
-    """How far apart its samples are [m]."""
+    """Distance between its samples [m]."""
 
     patch: float
     """Side of a patch [m]."""
@@ -171,56 +173,58 @@ class SavedScene(Declaration):
     """Names of the kinds of grass, in their order."""
 
     wind: list[str]
-    """Kinds of the winds that it declares, likewise."""
+    """Kinds of the winds that it declares, in their order."""
 
 
 class State(Declaration):
-    """All of a state but its arrays."""
+    """Everything in a state but its arrays."""
 
     scene: SavedScene | str
-    """The scene that it was made on; of format 3 the hash."""
+    """The scene on which it was made; in format 3 the hash."""
 
     time: float = Field(ge=0.0, le=1e9)
     light: Light
     light_since: float = Field(ge=0.0, le=1e9)
-    """The instant that the light's hour is that of [s]."""
+    """Time at which the light had its hour [s]."""
 
     light_way: Way | None = Field(default=None)
-    """How far it has come; of a state that does not say, all the way."""
+    """Progress of the light towards `light`; None if it has arrived."""
 
     declared: list[SavedWind | None]
-    """The winds that the scene declares; None where a game has deleted one."""
+    """The scene's winds; None for one that a game has deleted."""
 
     added: list[SavedWind]
+    """Winds that a game has added."""
+
     winds: list[SavedWind]
-    """Entities of a game's that are winds."""
+    """A game's own entities that are winds."""
 
     things: list[SavedThing]
-    """What else a game's entities have of ours."""
+    """Other components of a game's own entities."""
 
     treading: SavedTreading
     felled: list[int] = Field(default=[])
-    """Which of the scene's own trees are gone, or have become others among `things`, by their numbers."""
+    """Numbers of the scene's trees that are gone, or have become others among `things`."""
 
     wild_felled: list[tuple[int, int, int]] = Field(default=[])
-    """And which of a forest that is too large for numbers: each by its square's, and its own on that."""
+    """The same of a forest that is too large for numbers: each tree's square, and its number there."""
 
     stood: list[tuple[float, float]] | None = Field(default=None)
-    """Where those stood, the one after the other (x, z) [m]; a state of format 3 does not say."""
+    """Places (x, z) [m] of the trees of `felled` and then of `wild_felled`; None in format 3."""
 
     seasons: list[SavedSeason] = Field(default=[])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Saved:
-    """A state as it is packed."""
+    """A state, unpacked."""
 
     state: State
     arrays: Arrays
 
 
 def packed(saved: Saved, /) -> bytes:
-    """Return a state as bytes: what it is, a checksum, and the compressed rest."""
+    """Return a state as bytes: magic bytes, a checksum, the version, and the compressed rest."""
     head = np.frombuffer(saved.state.model_dump_json().encode(), np.uint8)
     file = BytesIO()
     np.savez(file, allow_pickle=False, head=head, **saved.arrays)
@@ -229,7 +233,7 @@ def packed(saved: Saved, /) -> bytes:
 
 
 def unpacked(state: object, /) -> Saved:
-    """Return what bytes hold. Raises TypeError for what are no bytes, ValueError for what is no whole state of ours."""
+    """Return the state in some bytes. Raises TypeError for anything but bytes, ValueError for no or a damaged state."""
     if not isinstance(state, bytes | bytearray | memoryview):
         raise TypeError(f"a state is the bytes that state() returned, not {type(state).__name__}")
     data = bytes(state)
@@ -252,32 +256,32 @@ def unpacked(state: object, /) -> Saved:
         return Saved(State.model_validate_json(arrays.pop("head").tobytes()), arrays)
     except ValidationError as error:
         refuse(str(error.errors(include_url=False)[0]["msg"]))
-    except Exception as error:  # noqa: BLE001 - zlib, zipfile and numpy raise what they like on a file that was forged
+    except Exception as error:  # noqa: BLE001 - zlib, zipfile and numpy raise anything on a forged file
         refuse(str(error))
 
 
 def refuse(why: str, /) -> NoReturn:
-    """Raise ValueError for a state that cannot be right, though its checksum is."""
+    """Raise ValueError for a state that cannot be right, though its checksum matches."""
     raise ValueError(f"this state cannot be right: {' '.join(why.split())[:200]}")
 
 
 def unfit(why: str, /) -> NoReturn:
-    """Raise ValueError for a state that a scene cannot take."""
+    """Raise ValueError for a state that does not fit a scene."""
     raise ValueError(f"this state does not fit this scene: {why}")
 
 
 def planes(heights: NDArray[np.float32], /) -> NDArray[np.uint8]:
-    """Return numbers byte by byte, all first bytes before all second ones, (4, n): they compress far better so."""
+    """Return float32 numbers as four planes of bytes, (4, n), which compress far better."""
     return np.ascontiguousarray(heights.reshape(-1).view(np.uint8).reshape(-1, 4).T)
 
 
 def from_planes(bytes_: NDArray[np.uint8], shape: tuple[int, ...], /) -> NDArray[np.float32]:
-    """Return the numbers that `planes` took apart."""
+    """Return the numbers whose bytes `planes` returned, in a `shape`."""
     return np.ascontiguousarray(bytes_.T).view(np.float32).reshape(shape)
 
 
 def fields_of(thing: Thing, /) -> dict[str, Any]:
-    """Return the fields of a component, as JSON has them."""
+    """Return the fields of a component as JSON values."""
     return {name: _plain(value) for name, value in asdict(thing).items()}
 
 
@@ -288,7 +292,7 @@ def _plain(value: object) -> object:
 
 
 def component_of(kind: Kind, fields: Mapping[str, Any], /) -> Thing:
-    """Return the component of these fields; raises ValueError for what is none."""
+    """Return the component with these fields; raises ValueError for fields that do not fit."""
     make: Any = THINGS[kind]
     try:
         made: Thing = make(**{name: tuple(each) if isinstance(each, list) else each for name, each in fields.items()})

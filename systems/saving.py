@@ -1,4 +1,4 @@
-"""Saving and restoring what a game has done to a prairie."""
+"""Saving and restoring the changes that a game has made to a prairie."""
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
@@ -54,7 +54,7 @@ from .winds import Winds
 
 @dataclass(slots=True, eq=False)
 class Saving:
-    """What there is to be saved of a prairie, besides its time."""
+    """Everything of a prairie that is saved, except its time."""
 
     world: World
     winds: Winds
@@ -64,13 +64,13 @@ class Saving:
     shining: Shining
     trees: Trees
     seasons: Seasons
-    _lie: tuple[Ground, Floats] | None = None
-    """The ground that was looked over last, and its lie: it takes a while."""
+    _samples: tuple[Ground, Floats] | None = None
+    """The ground sampled last, and its samples, which take a while."""
     _became: tuple[object, Mapping[int, int]] | None = None
-    """The state that was restored last, and which entities those in it have become."""
+    """The state restored last, and the present entity of each entity in it."""
 
     def state(self, site: Site, /, *, time: float) -> bytes:
-        """Return all that a game has done until `time` [s]. Raises ValueError for a wind whose kind nobody knows."""
+        """Return a game's changes until `time` [s]. Raises ValueError for a wind whose class is not registered."""
         self.winds.sources()
         treading, marks = treading_saved(self.pressers.treading())
         light, since = self.shining.asked
@@ -99,30 +99,29 @@ class Saving:
         if holes.any():
             ground = {**ground, "ground_holes": holes}
         plots: Arrays = {"mown": mown, "mown_heights": planes(left), "sown": sown, "sown_densities": dense}
-        lie: Arrays = {"lie": self._lies(site.ground)}
+        lie: Arrays = {"lie": self._samples_of(site.ground)}
         return packed(Saved(state, {**lie, "cleared": cleared, **plots, **ground, **marks}))
 
     def restore(
         self, data: object, site: Site, loaded: LoadedScene, there: Mapping[int, int] | None, /
     ) -> tuple[float, dict[int, int], Recalled]:
-        """Bring a state back but for its kinds of grass; return these, its time [s], and entities.
+        """Restore a state except for its kinds of grass; return its time [s], a mapping of entities, and these kinds.
 
-        The entities are those that each one of a game's that it holds is now; some are `there` already.
-
-        Raises what `unpacked` raises, TypeError for what is no mapping of them, and ValueError for a state of another
-        scene: then nothing has changed.
+        The mapping gives the present entity of each of the game's entities in the state; `there` are those that exist
+        already. Raises what `unpacked` raises, TypeError if `there` is no mapping, and ValueError for a state of
+        another scene; then nothing has changed.
         """
         known = {} if there is None else there
         must_be_a(Mapping, known, "entities are a mapping, of those in the state to yours")
         saved = unpacked(data)
         state = saved.state
-        must_fit(saved, site, self._lies(site.ground))
+        must_fit(saved, site, self._samples_of(site.ground))
         felled = self._felled(state)
-        kinds = Reading(wind=wind_kinds().find, folder=loaded.folder)
+        reading = Reading(wind=wind_kinds().find, folder=loaded.folder)
         winds = [*filter(None, state.declared), *state.added, *state.winds]
         made = _Made(
-            {wind.entity: WindSource(_made(wind.kind, wind.values, kinds), wind.name) for wind in winds},
-            {wind.entity: _run(wind, wind.course, kinds) for wind in winds if wind.course is not None},
+            {wind.entity: WindSource(_wind_of(wind.kind, wind.values, reading), wind.name) for wind in winds},
+            {wind.entity: _wind_on_course(wind, wind.course, reading) for wind in winds if wind.course is not None},
             [component_of(each.kind, each.fields) for each in state.things],
             treading_of(state.treading, saved.arrays),
             mown_of(saved.arrays, self.mown.plots),
@@ -137,12 +136,12 @@ class Saving:
         self.mown.plots.resume(*made.mown)
         site.ground.density.sown.resume(*made.sown)
         last, became = self._became or (None, {})
-        entities = self._bring(state, made, {**(became if last == data else {}), **known})
+        entities = self._restore_entities(state, made, {**(became if last == data else {}), **known})
         self._became = data, entities
         return state.time, dict(entities), made.kinds
 
     def _things(self) -> Iterator[SavedThing]:
-        """Yield what else a game's entities have of ours; none that is nowhere."""
+        """Yield the other components of a game's entities, except those at a pose that is not finite."""
         own, planted = {entity for entity, _, _ in self.pressers.games()}, self.trees.planted()
         for kind, sort in THINGS.items():
             for entity, component in self.world.all(sort):
@@ -156,6 +155,7 @@ class Saving:
                     yield SavedThing(entity=entity, kind=kind, fields=fields_of(component), pose=standing)
 
     def _felled(self, state: State) -> tuple[list[int], Gone]:
+        """Return the numbers of the scene's felled trees and those of a large forest; ValueError if they do not fit."""
         felled, wild, stood = state.felled, state.wild_felled, state.stood
         if stood is not None and len(stood) != len(felled) + len(wild):
             refuse("it has felled trees that stood nowhere")
@@ -164,27 +164,27 @@ class Saving:
         except ValueError as error:
             unfit(str(error))
 
-    def _lies(self, ground: Ground) -> Floats:
-        if self._lie is None or self._lie[0] is not ground:
-            self._lie = ground, lie_of(ground)
-        return self._lie[1]
+    def _samples_of(self, ground: Ground) -> Floats:
+        if self._samples is None or self._samples[0] is not ground:
+            self._samples = ground, lie_of(ground)
+        return self._samples[1]
 
-    def _bring(self, state: State, made: "_Made", became: Mapping[int, int]) -> dict[int, int]:
+    def _restore_entities(self, state: State, made: "_Made", became: Mapping[int, int]) -> dict[int, int]:
         self.winds.pass_to(state.time)
-        entities = self._bring_winds(state, made, became)
+        entities = self._restore_winds(state, made, became)
         trees = {each.entity for each in state.things if each.kind == "tree"}
         self.trees.fell(*made.felled, trees)
-        self._bring_things(state.things, made.things, entities, became)
+        self._restore_things(state.things, made.things, entities, became)
         self.pressers.resume(made.treading, entities)
         self.clearings.resume(made.cleared)
         self.shining.resume(state.light, since=state.light_since, time=state.time, way=state.light_way)
         return entities
 
-    def _bring_things(
+    def _restore_things(
         self, saved: Sequence[SavedThing], things: Sequence[Thing], entities: dict[int, int],
         became: Mapping[int, int],
     ) -> None:  # fmt: skip
-        """Bring what a game's entities had of ours, and note which `entities` they are; trees planted since go."""
+        """Restore the components of a game's entities, and add these to `entities`; remove trees planted since."""
         there = {(each.entity, each.kind) for each in self._things()}
         for each, component in zip(saved, things, strict=True):
             known = became.get(each.entity, each.entity)
@@ -201,14 +201,14 @@ class Saving:
             if each.kind == "tree" and each.entity not in stay and each.fields["kind"] in kinds:
                 self.world.uproot(each.entity, Tree)
 
-    def _bring_winds(self, state: State, made: "_Made", became: Mapping[int, int]) -> dict[int, int]:
+    def _restore_winds(self, state: State, made: "_Made", became: Mapping[int, int]) -> dict[int, int]:
         before, sources = dict(self.world.all(WindSource)), made.sources
         declared, added = self.winds.declared, self.winds.added
         kept, stay = list[int](), {wind.entity for wind in state.added}
         for wind, entity in zip(state.declared, declared, strict=True):
             is_there = entity in before
             if wind is not None:
-                kept.append(self._put(wind, sources, entity if is_there else None))
+                kept.append(self._give_wind(wind, sources, entity if is_there else None))
                 continue
             kept.append(entity)
             if is_there:
@@ -217,19 +217,19 @@ class Saving:
             self.world.delete(entity)
         entities = dict[int, int]()
         for wind in state.added:
-            entities[wind.entity] = self._put(wind, sources, wind.entity if wind.entity in added else None)
+            entities[wind.entity] = self._give_wind(wind, sources, wind.entity if wind.entity in added else None)
         own_now = list(entities.values())
         own = {*declared, *added}
         for wind in state.winds:
             known = became.get(wind.entity, wind.entity)
             is_there = known in before and known not in own
-            entities[wind.entity] = self._put(wind, sources, known if is_there else self.world.give())
+            entities[wind.entity] = self._give_wind(wind, sources, known if is_there else self.world.give())
         now = entities | {wind.entity: entity for wind, entity in zip(state.declared, kept, strict=True) if wind}
         self.winds.take(kept, own_now, {now[entity]: wind for entity, wind in made.runs.items()})
         return entities
 
-    def _put(self, wind: SavedWind, sources: Mapping[int, WindSource], entity: int | None) -> int:
-        """Make an entity a wind as it was saved, or else a new one, and return it."""
+    def _give_wind(self, wind: SavedWind, sources: Mapping[int, WindSource], entity: int | None) -> int:
+        """Give an entity, or else a new one, a wind as it was saved; return the entity."""
         source = sources[wind.entity]
         entity = self.world.create(source) if entity is None else entity
         self.world.add(entity, source)
@@ -240,26 +240,26 @@ class Saving:
         return entity
 
     def _winds(self, entities: Sequence[int]) -> list[SavedWind | None]:
-        """Return some winds as they are saved; None for one that is gone, and for one that is nowhere."""
+        """Return some winds as they are saved; None for one that is gone, or whose pose is not finite."""
         there, runs = dict(self.world.all(WindSource)), self.winds.runs()
         return [
-            _wind(each, there[each], self.world.find(each, Pose), runs.get(each)) if each in there else None
+            _saved_wind(each, there[each], self.world.find(each, Pose), runs.get(each)) if each in there else None
             for each in entities
         ]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Made:
-    """What is made of a state before anything changes."""
+    """Everything made from a state, before anything is changed."""
 
     sources: Mapping[int, WindSource]
-    """By the entities that they were."""
+    """Winds, by their entities in the state."""
 
     runs: Mapping[int, WindPrimitive]
-    """Those whose phases have run on a course of their own, likewise."""
+    """Winds with a course of their phases, by their entities in the state."""
 
     things: Sequence[Thing]
-    """The components of a game's entities, in the state's order."""
+    """Components of a game's entities, in the state's order."""
 
     treading: Treading
     mown: tuple[Ints, Floats]
@@ -270,7 +270,7 @@ class _Made:
     felled: tuple[list[int], Gone]
 
 
-def _wind(entity: int, source: WindSource, pose: Pose | None, run: WindPrimitive | None) -> SavedWind | None:
+def _saved_wind(entity: int, source: WindSource, pose: Pose | None, run: WindPrimitive | None) -> SavedWind | None:
     if pose is not None and not is_somewhere(pose):
         return None
     wind = source.primitive
@@ -294,31 +294,32 @@ def _course(wind: WindPrimitive) -> SavedCourse | None:
     return SavedCourse(times=list(course.times), rates=rates, offsets=offsets, first=first)
 
 
-def _made(kind: str, values: dict[str, Any], kinds: Reading) -> WindPrimitive:
+def _wind_of(kind: str, values: dict[str, Any], reading: Reading) -> WindPrimitive:
+    """Return the wind of a kind with these values; raises ValueError for values that do not fit."""
     try:
-        known = kinds["wind"](kind)
-        return known.model_validate_json(json.dumps(values), context=kinds)
-    except Exception as error:  # as above
+        known = reading["wind"](kind)
+        return known.model_validate_json(json.dumps(values), context=reading)
+    except Exception as error:  # a stranger's wind may raise anything
         said = told(error, known, kind) if isinstance(error, ValidationError) else error
         raise ValueError(f"a wind of this state, a {kind}, cannot be made: {said}") from error
 
 
-def _rates(wind: WindPrimitive) -> int:
+def _count_rates(wind: WindPrimitive) -> int:
     try:
         return len(wind.rates())
-    except Exception as error:  # as above
+    except Exception as error:  # a stranger's wind may raise anything
         raise ValueError(f"a wind of this state, a {wind.kind}, cannot tell its rates: {error}") from error
 
 
-def _run(wind: SavedWind, saved: SavedCourse, kinds: Reading) -> WindPrimitive:
-    """Return a wind with the course of its phases; raises ValueError for none."""
-    made = _made(wind.kind, wind.values, kinds)
-    due = _rates(made)
+def _wind_on_course(wind: SavedWind, saved: SavedCourse, reading: Reading) -> WindPrimitive:
+    """Return a wind with the course of its phases; raises ValueError for an impossible course."""
+    made = _wind_of(wind.kind, wind.values, reading)
+    due = _count_rates(made)
     rates, offsets = (tuple(map(tuple, part)) for part in (saved.rates, saved.offsets))
     widths = {len(each) for each in (*rates, *offsets)}
     if not len(rates) == len(offsets) == len(saved.times) + 1 or widths != {due}:
         refuse("a wind's phases have run at no rates")
-    return with_course(made, Course(tuple(saved.times), rates, offsets), _made(wind.kind, saved.first, kinds))
+    return with_course(made, Course(tuple(saved.times), rates, offsets), _wind_of(wind.kind, saved.first, reading))
 
 
 def _numbers(pose: Pose) -> list[float]:

@@ -1,4 +1,4 @@
-"""A site: what a scene has become before anybody looks at it."""
+"""A site: a scene with its ground loaded, its kinds grown and its representations in stock."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -29,7 +29,7 @@ from .space.grown import Grown
 from .stock.cache import cached_growth, growth_key
 
 LAYERS = 2048
-"""Layers of a texture that there is room for on graphics cards: the pictures of all kinds' patch models share them."""
+"""Number of texture layers that graphics cards allow; the pictures of all kinds' patch models share them."""
 
 
 @dataclass(frozen=True, slots=True, weakref_slot=True, eq=False)
@@ -41,38 +41,38 @@ class Site(Grown):
     """Largest discrete distance of each representation."""
 
     sway: float
-    """How far grass may reach beyond its patch, leaning and blown [m]."""
+    """Distance that leaning and bent grass may reach beyond its patch [m]."""
 
     transitions: Transitions = SEAMLESS
 
     crowns: tuple[tuple[float, ...], tuple[float, ...]] = ((), ())
-    """Height of each kind's canopy as it has grown, and as it is to be [m]."""
+    """Height of each kind's canopy as it has grown, and as its coming growth will have it [m]."""
 
     def come(self, came: tuple[float, ...], /) -> "Site":
-        """Return the site where `came` of each kind have become what they are to be; empty where none is to."""
-        own, after = self.crowns
-        parts = came or (0.0,) * len(own)
-        canopy = tuple(one + part * (other - one) for one, other, part in zip(own, after, parts, strict=True))
+        """Return the site where a fraction `came` of each kind's plants is replaced; empty if no kind is changing."""
+        before, after = self.crowns
+        parts = came or (0.0,) * len(before)
+        canopy = tuple(low + part * (high - low) for low, high, part in zip(before, after, parts, strict=True))
         return replace(self, came=came, canopy=canopy)
 
     @property
     def finest(self) -> int:
-        """Line segments per blade at the finest level, of kinds that do not say."""
+        """Line segments per blade at the finest level, of kinds that do not declare their own."""
         return max(ring.segments for ring in self.quality.blade_rings)
 
     @property
     def margin(self) -> float:
-        """How far receivers may stand outside of their patch [m]."""
+        """Distance that receivers may stand outside of their patch [m]."""
         return max(each.margin() for each in self.representations)
 
     @property
     def choosy(self) -> tuple[Representation, ...]:
-        """The representations that may pass patches on to coarser ones: none where one stands for finer ones."""
+        """Representations that may pass patches on to coarser ones; empty if one replaces all others."""
         return self.representations if self.reach[0] >= 0 else ()
 
     @property
     def blades(self) -> int:
-        """Blades that grow on the whole terrain, from the kinds' mean densities."""
+        """Number of blades on the whole terrain, estimated from the kinds' mean densities."""
         width, depth = self.ground.terrain.size
         patches = width * depth / self.quality.patch**2
         counts = [len(growth.models[0].blades.height) for growth in self.growths]
@@ -91,10 +91,10 @@ def lay_out(
     stocked: Sequence[Representation] | None = None,
     coming: Mapping[int, Growth] = NOTHING,
 ) -> Site:
-    """Return the site of a scene whose kinds have grown. `lod` is a representation to stand for all, or `auto`.
+    """Return the site of a scene whose kinds have grown. `lod` is a representation that replaces all others, or `auto`.
 
-    `stocked` are the representations of the same growths, on another ground. `coming` gives what some kinds are to
-    become, by their numbers.
+    `stocked` are representations of the same growths on another ground, to be reused. `coming` are the growths that
+    replace those of some kinds, by the kinds' numbers.
     """
     made = (
         tuple(each.stocked(growths, quality, ground, coming) for each in REPRESENTATIONS)
@@ -123,7 +123,7 @@ def lay_out(
 def numbers_of(scene: Scene, preset: str | None = None, /) -> Quality:
     """Return the numbers of a scene's quality, or of `preset`.
 
-    Where kinds are so many that there would be no room for all pictures, patch models are fewer.
+    Kinds have fewer patch models if otherwise the pictures of all would not fit into a texture.
     """
     quality = scene.numbers(preset)
     each = len(scene.grass) * max(one.layers(quality) for one in REPRESENTATIONS)
@@ -134,7 +134,7 @@ def numbers_of(scene: Scene, preset: str | None = None, /) -> Quality:
 def found_site(
     loaded: LoadedScene, /, *, preset: str | None = None, lod: str = "auto", transitions: Transitions = SEAMLESS
 ) -> Site:
-    """Return the site of a scene that was read: its maps loaded, its kinds grown. Raises SceneError for bad maps."""
+    """Load the maps and grow the kinds of a scene that was read; return its site. Raises SceneError for bad maps."""
     scene = loaded.scene
     quality = numbers_of(scene, preset)
     terrain, density = load_maps(loaded)
@@ -144,12 +144,12 @@ def found_site(
     return lay_out(scene, quality, Ground(terrain, density, quality.patch), growths, lod=lod, transitions=transitions)
 
 
-@np.errstate(under="ignore")  # a game calls it, on any thread
+@np.errstate(under="ignore")  # games call it, on any thread
 def found_again(site: Site, before: LoadedScene, loaded: LoadedScene, /, *, preset: str | None, lod: str) -> Site:
-    """Return the site of a scene that was read again; `site` is that of the scene `before`, and stays as it is.
+    """Return the site of a scene that was read again; `site`, that of the scene `before`, is not changed.
 
-    Ground, growths and representations are the same objects where nothing that they come from has changed. Raises
-    SceneError where a map cannot be used.
+    Ground, growths and representations are the same objects if nothing that they are made from has changed. Raises
+    SceneError for bad maps.
     """
     scene, quality = loaded.scene, numbers_of(loaded.scene, preset)
     old = site.ground
@@ -166,8 +166,8 @@ def found_again(site: Site, before: LoadedScene, loaded: LoadedScene, /, *, pres
     return lay_out(scene, quality, ground, growths, lod=lod, transitions=site.transitions, stocked=stocked)
 
 
-def is_other(site: Site, name: str, kind: GrassKind, /) -> bool:
-    """Return whether something else must be grown for a kind of this name than what stands of it."""
+def must_grow(site: Site, name: str, kind: GrassKind, /) -> bool:
+    """Return whether a kind needs another growth than the one that the site has under its name."""
     seed = site.scene.seed + list(site.scene.grass).index(name)
     return growth_key(kind, site.quality, seed=seed) != growth_key(site.scene.grass[name], site.quality, seed=seed)
 
@@ -179,10 +179,10 @@ def ripened(
     comes: Mapping[str, GrassKind],
     /,
 ) -> Site:
-    """Return a site on which other kinds stand, and some come to be what `comes` says of them.
+    """Return a site on which the kinds `stands` have grown, and some are to change to those of `comes`.
 
-    `known` are the kinds that have grown on the site, and those that are to come there. As grass takes its time to
-    grow, it may be called on another thread.
+    `known` are the kinds that have grown on the present site, and those that they are to change to: what is grown of
+    them is reused. Growing takes a while, so it may be called on another thread.
     """
     numbers = {name: number for number, name in enumerate(site.scene.grass)}
     grown = dict[str, Growth]()
@@ -205,21 +205,21 @@ def ripened(
     made = lay_out(scene, site.quality, site.ground, growths, transitions=site.transitions, coming=coming)
     for each in made.representations:
         each.prepare()
-    figures_on(made.come((1.0,) * len(growths)))  # they are remembered, as tables are
+    figures_on(made.come((1.0,) * len(growths)))  # computed here as they are cached, like the tables
     for growth in (*growths, *coming.values()):
         posture_table(growth)
     return replace(made, reach=site.reach)
 
 
 def is_grown(site: Site, scene: Scene, /, *, preset: str | None) -> bool:
-    """Return whether a site has the ground of a scene, and has grown all of its kinds: it follows at once then."""
+    """Return whether a site has the ground and all growths of a scene, so that a reload takes no time."""
     quality, old = numbers_of(scene, preset), site.scene
     same = scene.terrain == old.terrain and scene.seed == old.seed and quality == site.quality
     return same and _keys(scene, quality) == _keys(old, site.quality)
 
 
 def _grown(site: Site, scene: Scene, quality: Quality) -> list[Growth]:
-    """Return what grows of a scene's kinds; what the site has of it is not read or grown again."""
+    """Return the growths of a scene's kinds; those that the site has are neither read nor grown again."""
     known = dict(zip(_keys(site.scene, site.quality), site.growths, strict=True))
     growths = []
     for number, (key, kind) in enumerate(zip(_keys(scene, quality), scene.grass.values(), strict=True)):
@@ -232,12 +232,12 @@ def _keys(scene: Scene, quality: Quality) -> list[str]:
 
 
 def farthest_reach(kind: GrassKind, growth: Growth) -> float:
-    """Return how far the tip of a kind's tallest blade can come to be from its root, along the ground [m]."""
+    """Return the largest horizontal distance of the tip of a kind's tallest blade from its root [m]."""
     return max(kind.height[1], tallest_tip(growth)) * float(np.abs(growth.postures.shape[..., 0]).max())
 
 
 def tallest_tip(growth: Growth) -> float:
-    """Return how high a kind's highest tip would be if its blade stood upright [m]."""
+    """Return the height of a kind's highest tip if all blades stood upright [m]."""
     return max(float((model.blades.height + model.blades.stem).max()) for model in growth.models)
 
 
@@ -250,7 +250,7 @@ def outlook_on(site: Site, viewer: Viewer, entity: int, /) -> Outlook:
 
 
 def settle_on(outlook: Outlook, site: Site, before: Site, world: World, /) -> None:
-    """Let a viewer go on with another site, that of a scene read again; what has not changed stays."""
+    """Continue a viewer's outlook on another site; keep what has not changed."""
     if site.representations is before.representations:
         return
     same = site.scene.seed == before.scene.seed and site.quality == before.quality and site.reach == before.reach

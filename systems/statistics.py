@@ -1,4 +1,4 @@
-"""Statistics: what a frame took and held."""
+"""Statistics: times and counts of a frame."""
 
 from dataclasses import dataclass, field
 from functools import partial
@@ -14,41 +14,41 @@ from .painter import Painter
 from .site import Site
 
 Counts = tuple[int, dict[str, int]]
-"""Blades that are considered, and visible patches by representation."""
+"""Number of blades considered, and numbers of visible patches by representation."""
 
 
 @dataclass(slots=True)
 class Statistics:
-    """What the last frame took and held."""
+    """Times and counts of the last frame."""
 
     systems_ms: dict[str, float] = field(default_factory=dict)
     """Time of each system but `draw` [ms]."""
 
     draw_ms: float = 0.0
-    """Time of the system `draw`, without waiting for the graphics card [ms]."""
+    """Time of the system `draw`, without the graphics card's [ms]."""
 
     blades_field: int = 0
-    """Blades that grow on the whole terrain."""
+    """Number of blades on the whole terrain."""
 
     blades_considered: int = 0
-    """Blades on the patches inside the view cone, whatever their representation."""
+    """Number of blades on the patches in the view cone, in all representations."""
 
     blades_submitted: int = 0
-    """Blades drawn as geometry."""
+    """Number of blades drawn as geometry."""
 
     receivers: int = 0
-    """Receivers that heard the wind."""
+    """Number of receivers that heard the wind."""
 
     draw_calls: int = 0
 
     patches: dict[str, int] = field(default_factory=dict)
-    """Visible patches by representation."""
+    """Numbers of visible patches by representation."""
 
     fineness: Fineness = field(default_factory=Fineness)
-    """What was drawn of the picture, where a frame time is held."""
+    """Fractions of pixels and distances that were drawn to hold the frame time."""
 
     transitions: int = 0
-    """Patches that were seen to change their representation, or to be changing it; a change of sub-level is none."""
+    """Number of visible patches that changed or were changing their representation, not merely a sub-level."""
 
     _counts: Remembered[Counts] = field(default_factory=Remembered, repr=False, compare=False)
 

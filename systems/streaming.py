@@ -1,4 +1,4 @@
-"""Ground that streams: its window goes with those who look."""
+"""Streaming ground: its window moves with the viewers."""
 
 from collections.abc import Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -11,40 +11,42 @@ from ..engine.terrain.stream import paste, window_of
 from .show.carpet.found import Found
 
 GOES, WAITS = 0.75, 2.0
-"""How far off the middle of the window viewers come before it goes on, and before a frame waits for it [steps]."""
+"""Distance of viewers from the window's middle from which it moves, and from which a frame waits for it [steps]."""
 
 APART = 0.25
-"""How far off the middle of all viewers one is shown ground at most, of the window's width."""
+"""Largest distance of a viewer from the middle of all viewers for the window to be around all, over its width."""
 
 LATELY = 1.0
-"""How long ago others have looked at most for the window to go with them [s]: nobody closes a map or a mirror."""
+"""Time since their last look for which other viewers count [s]: games do not close the viewer of a map or a mirror."""
 
 Eye = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Asked:
-    """A window that is being made."""
+class _Pending:
+    """A window that is being made on another thread."""
 
     window: "Future[Terrain]"
     first: Numbers
+    """Numbers (row, column) of its first sample."""
+
     before: dict[Numbers, object]
-    """What had been changed of the ground when it was asked for."""
+    """Changes of the ground when it was requested, by square."""
 
 
 class Streaming:
-    """Lets a ground's window go with its viewers: what is new of it is asked for on another thread."""
+    """Moves the window of streaming ground with its viewers; new windows are made on another thread."""
 
     def __init__(self, *, live: bool) -> None:
         self._live = live
-        self._asked: _Asked | None = None
-        self._hands = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")  # without a thread, until it is asked
+        self._pending: _Pending | None = None
+        self._executor = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")  # starts its thread at the first request
 
     def follow(self, terrain: Terrain, eye: Eye, others: Iterable[Viewer], /, *, time: float) -> None:
-        """Let a terrain be the window about the middle of all who look, if it streams.
+        """Move a terrain's window towards the middle of all viewers, if it streams.
 
-        Who looks now sees from `eye` (x, y, z) [m]. Others who are too far off do not count: they may have been left
-        where they were, or come after in the same frame.
+        The viewer that looks now sees from `eye` (x, y, z) [m]. If the middle is too far from it, only this viewer
+        counts: the others may have been left behind, or follow later in the same frame.
         """
         blocks = terrain.blocks
         if blocks is None:
@@ -56,38 +58,40 @@ class Streaming:
         place = x, z
         off = self._off(terrain, blocks, place)
         if off <= GOES:
-            self._asked = None
+            self._pending = None
             return
         due = blocks.first_about(*place)
         waits = not self._live or off > WAITS
         if due == terrain.first:
             return
-        if self._asked is None or (waits and self._asked.first != due):
-            self._ask(blocks, due)
-        assert self._asked is not None
-        if waits or self._asked.window.done():
-            self._take(terrain, blocks, self._asked, leaps=waits)
-            self._asked = None
+        if self._pending is None or (waits and self._pending.first != due):
+            self._request(blocks, due)
+        assert self._pending is not None
+        if waits or self._pending.window.done():
+            self._take_over(terrain, blocks, self._pending, leaps=waits)
+            self._pending = None
 
     def _off(self, terrain: Terrain, blocks: Blocks, place: tuple[float, float]) -> float:
+        """Return the distance of a place (x, z) [m] from the window's middle, along the farther axis [steps]."""
         assert terrain.first is not None
         row, column = (at + blocks.cells // 2 for at in terrain.first)
         return max(abs(place[0] / blocks.cell - column), abs(place[1] / blocks.cell - row)) / blocks.step
 
-    def _ask(self, blocks: Blocks, first: Numbers) -> None:
-        self._asked = _Asked(self._hands.submit(_made, blocks, first), first, dict(blocks.changed))
+    def _request(self, blocks: Blocks, first: Numbers) -> None:
+        self._pending = _Pending(self._executor.submit(_made, blocks, first), first, dict(blocks.changed))
 
-    def _take(self, terrain: Terrain, blocks: Blocks, asked: _Asked, *, leaps: bool) -> None:
-        made = asked.window.result()
+    def _take_over(self, terrain: Terrain, blocks: Blocks, pending: _Pending, *, leaps: bool) -> None:
+        """Give a terrain the window that was made, with the changes of the ground made meanwhile."""
+        made = pending.window.result()
         terrain.become(made, leaps=leaps)
         Found.of(made).attach(terrain)
-        for square in {*asked.before, *blocks.changed}:
-            if asked.before.get(square) is not blocks.changed.get(square):
+        for square in {*pending.before, *blocks.changed}:
+            if pending.before.get(square) is not blocks.changed.get(square):
                 paste(blocks, terrain, square)
 
     def release(self) -> None:
-        """Ask for nothing any more."""
-        self._hands.shutdown(wait=False, cancel_futures=True)
+        """Cancel what is pending, and make no more windows."""
+        self._executor.shutdown(wait=False, cancel_futures=True)
 
 
 def _made(blocks: Blocks, first: Numbers) -> Terrain:
