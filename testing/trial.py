@@ -14,7 +14,7 @@ from ..components.arrays import Floats
 from ..components.pose import Pose
 from ..components.wind import Extent, Grass, WindPrimitive
 from ..engine.complaint import said
-from ..systems.bodies.fly import GLANCE
+from ..systems.bodies.fly import PATH_STEP
 
 Ask = Callable[[Floats, Grass], Any]
 Answer = TypeVar("Answer")
@@ -171,7 +171,7 @@ def frame(part: WindPrimitive, report: Report, /, *, time: float) -> None:
 
 def flight(wind: WindPrimitive, report: Report, times: Iterable[float], /) -> None:
     """Ask a wind for the path of what hovers over it, around times [s]. Raises FailedError where that is nowhere."""
-    for moment in (time + shift for time in times for shift in (-GLANCE, 0.0, GLANCE)):
+    for moment in (time + shift for time in times for shift in (-PATH_STEP, 0.0, PATH_STEP)):
         when = f"at {moment:g} s, for what hovers over it"
         _stands("pose", report.twice("pose", when, partial(wind.pose, time=moment), Pose), report, when)
 

@@ -1,1 +1,1 @@
-"""What flies over the prairie: how it flies, and how it is drawn."""
+"""Bodies that fly over the prairie: their flight and their drawing."""

@@ -1,4 +1,4 @@
-"""Drawing what flies over the prairie: opaque, with a soft border along the outline."""
+"""Drawing of bodies: opaque, with a soft border along the silhouette."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
@@ -18,16 +18,16 @@ from .saucer import RADIUS, THICK, borders, saucer
 
 Axis = tuple[float, float, float]
 
-PLACED = np.dtype([("middle", "3f4"), ("right", "3f4"), ("up", "3f4"), ("back", "3f4")])
-"""Where a body is [m], and its own axes in the world."""
+INSTANCE = np.dtype([("middle", "3f4"), ("right", "3f4"), ("up", "3f4"), ("back", "3f4")])
+"""Instance of a body: position [m], and its axes in the world."""
 
 COLORS = {"metal": "#d4d6d0", "glass": "#24414a", "paint": "#c9502a"}
-"""The saucer's colours (sRGB): of its hull, of its dome and of its fin."""
+"""sRGB colours of the saucer's hull, dome and fin."""
 
 
-def placed(bodies: Sequence[Body], /) -> NDArray[np.void]:
-    """Return where bodies are and how they are turned, records of `PLACED`."""
-    rows = np.zeros(len(bodies), PLACED)
+def instances_of(bodies: Sequence[Body], /) -> NDArray[np.void]:
+    """Return the instances of bodies, records of `INSTANCE`."""
+    rows = np.zeros(len(bodies), INSTANCE)
     for row, body in zip(rows, bodies, strict=True):
         right, up, back = axes(body)
         row["middle"], row["right"], row["up"], row["back"] = body.place, right, up, back
@@ -35,7 +35,7 @@ def placed(bodies: Sequence[Body], /) -> NDArray[np.void]:
 
 
 def shade_of(body: Body, /) -> Shade:
-    """Return what a body is to the sun."""
+    """Return the shade by which a body casts its shadow."""
     return Shade(body.place, RADIUS, THICK, axes(body)[1])
 
 
@@ -53,12 +53,12 @@ def axes(body: Body, /) -> tuple[Axis, Axis, Axis]:
 
 
 FILES = "systems/bodies/body.vert", "systems/bodies/body.frag"
-TOLD: Sequence[Mapping[str, str | int]] = {}, {"BORDER": 1}
-"""What the programs of the body itself and of the border along its outline are told."""
+DEFINES: Sequence[Mapping[str, str | int]] = {}, {"BORDER": 1}
+"""GLSL defines of the program for the body, and of that for its soft border."""
 
 
 class _Layer:
-    """A mesh with its program: the body itself, or the border along its outline."""
+    """A mesh with its program: the body, or the border along its silhouette."""
 
     def __init__(
         self, made: moderngl.Program, mesh: tuple[NDArray[np.void], NDArray[np.int32]], stream: Stream
@@ -76,35 +76,35 @@ class _Layer:
 
 
 def texts_of_bodies(block: FrameBlock, /) -> Iterator[Texts]:
-    """Return what the programs of saucers are made of."""
-    return (block.texts(*FILES, told) for told in TOLD)
+    """Return the sources of the saucer's programs."""
+    return (block.texts(*FILES, defines) for defines in DEFINES)
 
 
 def programs_of_bodies(
     ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /
 ) -> Iterator[moderngl.Program]:
-    """Return them, each made when it is its turn."""
-    return (joined(ctx, block, units, *FILES, told) for told in TOLD)
+    """Compile the saucer's programs, one each time the iterator is advanced."""
+    return (joined(ctx, block, units, *FILES, defines) for defines in DEFINES)
 
 
 class BodyPainter:
     """Draws saucers with their programs."""
 
     def __init__(self, ctx: moderngl.Context, programs: Iterable[moderngl.Program]) -> None:
-        self.stream = Stream(ctx, PLACED)
+        self.stream = Stream(ctx, INSTANCE)
         mesh, (solid, border) = saucer(), programs
         self.solid, self.border = _Layer(solid, mesh, self.stream), _Layer(border, borders(*mesh), self.stream)
 
     def write(self, bodies: Sequence[Body]) -> None:
-        """Send the bodies that are in the air."""
-        self.stream.write(placed(bodies))
+        """Upload the instances of bodies."""
+        self.stream.write(instances_of(bodies))
 
     def draw(self) -> int:
         """Draw the bodies, opaque; return the number of draw calls."""
         return self._draw(self.solid)
 
     def draw_border(self) -> int:
-        """Draw their soft outlines over what is behind them; return the number of draw calls."""
+        """Blend their soft silhouettes over what is behind them; return the number of draw calls."""
         return self._draw(self.border)
 
     def _draw(self, layer: _Layer) -> int:
@@ -113,5 +113,5 @@ class BodyPainter:
         return int(self.stream.count > 0)
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release all GL objects."""
         release_all(self.solid, self.border, self.stream)

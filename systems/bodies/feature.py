@@ -1,4 +1,4 @@
-"""Bodies: what flies over a prairie."""
+"""The feature of bodies that fly over a prairie."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from math import dist
@@ -16,7 +16,7 @@ from ...engine.world import World
 from ..around.outlook import Outlook
 from ..frame.block import BODIES, FrameBlock
 from ..frame.feature import Feature, Part, Start
-from ..shadows.shades import round_of
+from ..shadows.shades import round_shade
 from ..space.grown import Grown
 from ..wind.quarantine import Quarantine
 from .draw import BodyPainter, programs_of_bodies, shade_of, texts_of_bodies
@@ -24,53 +24,53 @@ from .fly import flying, may_fly
 
 
 class Bodies(Feature):
-    """The entities of one world that have a `Body`, and what hovers over its winds."""
+    """Feature: entities of one world with a `Body`, and bodies that hover over its winds."""
 
     def __init__(self, world: World, grown: Grown, quarantine: Quarantine) -> None:
         self._world, self._grown, self._quarantine = world, grown, quarantine
 
     @classmethod
     def begin(cls, start: Start, /) -> Self:
-        """Return those of a prairie's world."""
+        """Return the bodies of a prairie's world."""
         return cls(start.world, start.grown, start.quarantine)
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
-        """Fly over the grass that there is now."""
+        """Take the new grass, over which bodies fly."""
         del before, time
         self._grown = grown
 
     def flying(self, time: float, /) -> list[Body]:
-        """Return what is in the air at a time [s]."""
+        """Return the bodies in the air at a time [s]."""
         return flying(self._world, self._grown.top_at, self._quarantine, time=time)
 
     @property
     def are_due(self) -> bool:
-        """Whether anything is in the air, or will be as its wind blows."""
+        """Whether a body is in the air, or will hover over a wind once that blows."""
         return may_fly(self._world, self._quarantine)
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "BodiesPart":
-        """Return what draws them."""
+        """Return the part that draws the bodies."""
         return BodiesPart(self, ctx, block, units)
 
 
 class BodiesPart(Part):
-    """Draws what flies."""
+    """Draws bodies and writes their shadows into the frame block; the painter is made when it is first due."""
 
     def __init__(self, bodies: Bodies, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int]) -> None:
         self._bodies, self._ctx, self._block, self._units = bodies, ctx, block, units
         self.painter: BodyPainter | None = None
 
     def make_ready(self, grown: Grown, /) -> None:
-        """Make what draws them, before anything flies."""
+        """Make the painter before anything flies."""
         del grown
         self._make()
 
     def texts(self) -> Iterator[Texts]:
-        """Return what its programs are made of."""
+        """Return the sources of the painter's programs, if it is due."""
         return texts_of_bodies(self._block) if self._is_due else iter(())
 
     def making(self) -> Iterator[None]:
-        """Make what draws them, a program at a time."""
+        """Make the painter, if it is due, a program at a time."""
         made = list[moderngl.Program]()
         try:
             for each in self._programs() if self._is_due else ():
@@ -86,7 +86,7 @@ class BodiesPart(Part):
         return self.painter is None and self._bodies.are_due
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
-        """Pretend that something flies, and casts a shadow."""
+        """Set one body with its shadow."""
         body = Body((0.0, 0.0, 0.0))
         cast(record, [shade_of(body)])
         if self.painter is not None:
@@ -100,7 +100,7 @@ class BodiesPart(Part):
         return programs_of_bodies(self._ctx, self._block, self._units)
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
-        """Send what is in the air, and write what casts shadows."""
+        """Upload the bodies in the air, and write the nearest ones' shadows."""
         flies = self._bodies.flying(outlook.viewer.time)
         cast(record, nearest([*map(shade_of, flies)], outlook.viewer.eye))
         if flies:
@@ -109,27 +109,27 @@ class BodiesPart(Part):
             self.painter.write(flies)
 
     def draw_solid(self) -> int:
-        """Draw them, opaque."""
+        """Draw the bodies, opaque."""
         return 0 if self.painter is None else self.painter.draw()
 
     def draw_soft(self, beyond: float = 0.0) -> int:
-        """Draw their soft outlines."""
+        """Draw their soft silhouettes."""
         del beyond
         return 0 if self.painter is None else self.painter.draw_border()
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release the painter."""
         release_all(self.painter)
 
 
 def nearest(shades: Sequence[Shade], eye: tuple[float, float, float], /) -> list[Shade]:
-    """Return the shades that count, nearest to the eye first: at most `BODIES`."""
+    """Return the shades nearest to the eye, nearest first, at most `BODIES`."""
     return sorted(shades, key=lambda shade: dist(shade.place, eye))[:BODIES]
 
 
 def cast(record: NDArray[np.void], shades: Sequence[Shade], /) -> None:
-    """Write what casts shadows, at most `BODIES`."""
+    """Write at most `BODIES` round shades into the frame block's record."""
     row = record[0]
     row["bodies"]["radius"] = 0.0
     for into, shade in zip(row["bodies"], shades, strict=False):
-        into["middle"], into["axis"], into["radius"], into["pressed"] = shade.place, *round_of(shade)
+        into["middle"], into["axis"], into["radius"], into["pressed"] = shade.place, *round_shade(shade)

@@ -1,4 +1,4 @@
-"""The flying saucer's shape: a profile turned about its upright axis, and a fin."""
+"""The flying saucer's mesh: a surface of revolution about its upright axis, and a fin."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,21 +8,21 @@ from ...components.arrays import Doubles, Floats
 Triangles = NDArray[np.int32]
 
 SEGMENTS = 40
-"""Flat sides of the hull, all around."""
+"""Number of segments around the axis."""
 
 RADIUS = 1.5
-"""From the middle to the rim [m]."""
+"""Radius of the rim [m]."""
 
 THICK = 0.6
-"""How thick it is to the sun, as a ball that is pressed flat [m]."""
+"""Height of the flattened ball that casts the saucer's shadow [m]."""
 
 HULL, GLASS, JET, FIN = 0.0, 1.0, 2.0, 3.0
-"""What a part is made of."""
+"""Materials of parts."""
 
 GLSL = {"HULL": HULL, "GLASS": GLASS, "JET": JET, "FIN": FIN}
 
 VERTEX = np.dtype([("place", "3f4"), ("normal", "3f4"), ("part", "f4")])
-"""A vertex in the saucer's own axes, x right, y up, -z ahead: place [m], unit normal, what it is made of."""
+"""A vertex in the saucer's own axes, x right, y up, -z ahead: position [m], unit normal, material."""
 
 EDGE = np.dtype([*VERTEX.descr, ("other", "3f4"), ("side", "3f4"), ("beyond", "3f4"), ("outside", "f4")])
 """One corner of the soft border along an edge: the vertex, the edge's other end [m], the unit normals of the two
@@ -30,9 +30,9 @@ triangles that meet there, and whether the corner lies on the edge (0) or outsid
 
 
 def sections() -> list[tuple[float, Doubles]]:
-    """Return the profile from the lowest point of the axis to the highest: parts with smooth normals.
+    """Return the profile from the bottom of the axis to its top, in parts with smooth normals.
 
-    Each is what it is made of and its points (radius, height) [m], shape (n, 2); the next one goes on where it ends.
+    A part is its material and its points (radius, height) [m], shape (n, 2); it begins where the one before ends.
     """
     turn = np.linspace(-0.5, 0.5, 5) * np.pi
     rim = np.column_stack([1.42 + 0.08 * np.cos(turn), 0.055 * np.sin(turn)])
@@ -62,9 +62,9 @@ def saucer() -> tuple[NDArray[np.void], Triangles]:
 
 
 def lathe(points: Doubles, /, *, part: float) -> tuple[NDArray[np.void], Triangles]:
-    """Return the surface that a profile (n, 2) of (radius, height) [m] sweeps about the y axis, with smooth normals.
+    """Return the surface of revolution of a profile (n, 2) of (radius, height) [m] about y, with smooth normals.
 
-    Seen with the axis on its left, the profile leaves the outside on its right.
+    With the axis on the profile's left, the outside is on its right.
     """
     count = len(points)
     along = np.gradient(points, axis=0)
@@ -85,9 +85,9 @@ def lathe(points: Doubles, /, *, part: float) -> tuple[NDArray[np.void], Triangl
 
 
 def borders(vertices: NDArray[np.void], triangles: Triangles, /) -> tuple[NDArray[np.void], Triangles]:
-    """Return a quad along each edge of a closed mesh, to soften its outline with: records of `EDGE`, triangles (n, 3).
+    """Return quads along the edges of a closed mesh that soften its silhouette: records of `EDGE`, triangles (n, 3).
 
-    Edges whose triangles lie in one plane are never an outline and left out.
+    Edges between coplanar triangles are never on the silhouette and left out.
     """
     _, welded = np.unique(np.round(vertices["place"], 5), axis=0, return_inverse=True)
     flat = face_normals(vertices, triangles)
@@ -119,7 +119,7 @@ def face_normals(vertices: NDArray[np.void], triangles: Triangles, /) -> Floats:
 
 
 def _fin() -> tuple[NDArray[np.void], Triangles]:
-    """Return the upright fin behind the dome: a flat prism, which shows where the saucer is heading."""
+    """Return the upright fin behind the dome: a flat prism that shows the saucer's heading."""
     outline = np.array([(0.70, 0.15), (1.36, 0.02), (1.46, 0.40), (1.28, 0.42)])  # behind the middle, up
     left, right = (np.column_stack([np.full(4, x), outline[:, 1], outline[:, 0]]) for x in (-0.035, 0.035))
     quads = [right[::-1], left]

@@ -1,4 +1,4 @@
-"""The lamps and shades of a prairie: whose entities they are, and which of them shine."""
+"""The feature of lamps and shades: entities of a game, and lamps of the scene."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -20,18 +20,18 @@ from .card import LampPart, Lit
 
 
 class Lamps(Feature):
-    """The entities of one world that have a `Lamp` and a `Pose`, or a `Shade`, and lamps that a scene declares."""
+    """Feature: entities of one world with a `Lamp` and a `Pose`, or a `Shade`, and lamps that the scene declares."""
 
     samplers = ("listed",)
 
     def __init__(self, world: World, grown: Grown) -> None:
         self._world, self._grown = world, grown
         self.shining: list[Lit] = []
-        """Those of this frame."""
+        """Lamps of this frame, with their poses."""
 
     @classmethod
     def begin(cls, start: Start, /) -> Self:
-        """Return those of a prairie's world."""
+        """Return the lamps and shades of a prairie's world."""
         return cls(start.world, start.grown)
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
@@ -40,39 +40,41 @@ class Lamps(Feature):
         self._grown = grown
 
     def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
-        """Look where all of them are at a time [s]; raises ValueError for one without a place."""
+        """Collect all lamps with their poses at a time [s]; raise ValueError for one without a position."""
         del viewer, eye
         declared = self._grown.scene.lamps
         self.shining = self._games() + (self._scenes(declared, time) if declared else [])
 
     def _games(self) -> list[Lit]:
+        """Return the lamps of a game's entities."""
         found = self._world.all(Lamp)
-        placed = [(who, _placed(who, self._world.find(who, Pose))) for who, _ in found]
+        placed = [(entity, _placed(entity, self._world.find(entity, Pose))) for entity, _ in found]
         stand = self._world.standing(placed, "the lamp")
         return [(lamp, pose) for (_, lamp), (_, pose), there in zip(found, placed, stand, strict=True) if there]
 
     def _scenes(self, declared: Sequence[LampOnPath], time: float) -> list[Lit]:
-        poses = [one.pose(time=time) for one in declared]
-        ground = height_at(self._grown.ground.terrain, np.array([(pose.x, pose.z) for pose in poses], np.float32))
-        heights = [float(low) + one.height for low, one in zip(ground, declared, strict=True)]
+        """Return the scene's lamps at a time [s], at their heights above the ground."""
+        poses = [lamp.pose(time=time) for lamp in declared]
+        grounds = height_at(self._grown.ground.terrain, np.array([(pose.x, pose.z) for pose in poses], np.float32))
+        heights = [float(ground) + lamp.height for ground, lamp in zip(grounds, declared, strict=True)]
         return [
-            (one.lamp(), replace(pose, y=height)) for one, pose, height in zip(declared, poses, heights, strict=True)
+            (lamp.lamp(), replace(pose, y=height)) for lamp, pose, height in zip(declared, poses, heights, strict=True)
         ]
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> LampPart:
-        """Return what shaders are told of them."""
+        """Return the part that uploads lamps and shades."""
         del block
         return LampPart(ctx, units["listed"], lambda: self.shining, self._shades)
 
     def _shades(self) -> tuple[list[Shade], float]:
-        """Return what a game has between sun and grass, and the height of the lowest ground [m]."""
+        """Return a game's shades, and the height of the lowest ground [m]."""
         shades = [shade for _, shade in self._world.all(Shade)]
         return shades, self._grown.ground.terrain.span[0] if shades else 0.0
 
 
-def _placed(who: int, pose: Pose | None) -> Pose:
-    """Return the pose of a lamp's entity; raises ValueError where that is no place."""
+def _placed(entity: int, pose: Pose | None) -> Pose:
+    """Return the pose of a lamp's entity; raise ValueError if it has none, or no height."""
     if pose is None or pose.y is None:
         have = "no Pose" if pose is None else f"{pose}, which has no height"
-        raise ValueError(f"the lamp of entity {who} has {have}: give it a Pose(x, z, y=...)")
+        raise ValueError(f"the lamp of entity {entity} has {have}: give it a Pose(x, z, y=...)")
     return pose

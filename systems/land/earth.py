@@ -1,4 +1,4 @@
-"""A game's own ground: a texture in place of the scene's soil and what lies on it."""
+"""A game's own ground texture, drawn in place of the scene's soil and litter."""
 
 import logging
 from collections.abc import Mapping
@@ -20,14 +20,14 @@ from ..space.grown import Grown
 log = logging.getLogger("tallgrass")
 
 ENCODED, LINEAR = 1.1, 0.5
-"""Power of a texel that is a pigment, the root of an albedo: of display colours, about sRGB, and of linear ones."""
+"""Exponent that turns a texel into a pigment, the root of an albedo: for sRGB-like textures and for linear ones."""
 
-OVER_TERRAIN = -1.0
-"""What shaders are told in place of a side [m] where the texture is laid over the terrain once."""
+COVERS_TERRAIN = -1.0
+"""Value of `earth_side` for a texture that covers the terrain once."""
 
 
 class Earth(Feature):
-    """The texture that a game has handed in, if any."""
+    """Feature: the ground texture that a game has handed in, if any."""
 
     def __init__(self) -> None:
         self.texture: Any = None
@@ -35,7 +35,10 @@ class Earth(Feature):
         self.power = ENCODED
 
     def hand_in(self, texture: object, side: float | None, /, *, linear: bool) -> None:
-        """Let a texture lie there from the next frame on; raises TypeError and ValueError for what is none."""
+        """Use a texture from the next frame on, None for none; raise TypeError or ValueError for invalid arguments.
+
+        It repeats every `side` [m]; with None it covers the terrain once. `linear` says that its texels are linear.
+        """
         if texture is not None:
             number_of(texture)
         if side is not None and not (isinstance(side, NUMBERS) and 0.0 < side < inf):
@@ -43,40 +46,41 @@ class Earth(Feature):
         self.texture, self.side, self.power = texture, side, LINEAR if linear else ENCODED
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "EarthPart":
-        """Return what tells shaders of it."""
+        """Return the part that writes the texture into the frame block."""
         del units
         return EarthPart(ctx, block, self)
 
 
 class EarthPart(Part):
-    """Tells shaders of it, as long as it is there."""
+    """Writes the ground texture into the frame block for as long as it exists in GL."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, earth: Earth) -> None:
         self._gl, self._block, self._earth = functions_of(ctx), block, earth
-        self._told: Any = None
+        self._reported: Any = None
+        """Texture whose release has been logged."""
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
-        """Write how it lies."""
+        """Write the texture's number, side and exponent."""
         del grown
         earth, row = self._earth, record[0]
-        self._block.earth = number = self._there(earth.texture)
+        self._block.earth = number = self._number_or_zero(earth.texture)
         row["earth_power"] = earth.power
-        row["earth_side"] = 0.0 if not number else OVER_TERRAIN if earth.side is None else earth.side
+        row["earth_side"] = 0.0 if not number else COVERS_TERRAIN if earth.side is None else earth.side
 
-    def _there(self, texture: Any) -> int:
-        """Return the number of a texture, 0 for none: one that a game has released is named once."""
+    def _number_or_zero(self, texture: Any) -> int:
+        """Return the GL name of a texture, 0 for none or a released one; log a released one once."""
         if texture is None:
             return 0
         number = number_of(texture)
         is_gone = isinstance(getattr(texture, "mglo", None), moderngl.InvalidObject) or not self._gl.glIsTexture(number)
-        if is_gone and self._told is not texture:
-            self._told = texture
+        if is_gone and self._reported is not texture:
+            self._reported = texture
             log.warning("texture %d of a game's ground has been released: the scene's own ground is drawn", number)
         return 0 if is_gone else number
 
 
 def number_of(texture: object, /) -> int:
-    """Return a texture's number in GL; raises TypeError for what is no 2D texture."""
+    """Return a texture's GL name; raise TypeError for anything but a 2D texture."""
     number = held_number(texture)
     is_other = type(texture).__name__ in {"TextureArray", "TextureCube", "Texture3D"}
     if not isinstance(number, int) or isinstance(number, bool) or number < 1 or is_other:

@@ -1,4 +1,4 @@
-"""The terrain's heights on the graphics card: of ground that streams, another window's come a piece at a time."""
+"""The terrain's heights as a texture; heights of a new window of streamed ground are uploaded a piece a frame."""
 
 import moderngl
 import numpy as np
@@ -9,88 +9,90 @@ from ...engine.terrain.part import Part
 from ...engine.terrain.record import Terrain
 
 HOLE = 1
-"""The bit of a height's that says whether there is a hole: it is worth a few millionths of the height."""
+"""Lowest bit of a float32 height: set where there is a hole. It changes a height by about a ten-millionth of it."""
 
 GLSL = {"HOLE": HOLE}
 
-PIECE = 1 << 20
-"""Bytes that are sent in a frame of what comes [bytes]."""
+UPLOAD_BYTES = 1 << 20
+"""Upload budget per frame for the next window [bytes]."""
 
 
 class Heights:
-    """A texture of one terrain's heights: most fetch its texels, and it is smooth for who asks about."""
+    """A texture of one terrain's heights, with linear filtering; most shaders fetch its texels."""
 
     def __init__(self, ctx: moderngl.Context, terrain: Terrain) -> None:
         self.ctx, self.terrain = ctx, terrain
-        self._count, self._leaps, self._first = terrain.changes.count, terrain.changes.leaps, terrain.first
-        self.texture = self._made(_heights_of(terrain, self._all))
-        self._spare: moderngl.Texture | None = None
-        self._coming = terrain.first
-        self._sent = 0
-        """Rows that have been sent of what comes."""
+        self._seen_changes, self._leaps, self._first = terrain.changes.count, terrain.changes.leaps, terrain.first
+        self.texture = self._new_texture(_heights_of(terrain, self._whole))
+        self._next_texture: moderngl.Texture | None = None
+        self._next_first = terrain.first
+        self._rows_sent = 0
+        """Number of uploaded rows of the next window."""
 
-    def _made(self, heights: NDArray[np.uint32] | None) -> moderngl.Texture:
+    def _new_texture(self, heights: NDArray[np.uint32] | None) -> moderngl.Texture:
         rows, columns = self.terrain.heights.shape
         texture = self.ctx.texture((columns, rows), 1, heights, dtype="f4")
         texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
         return texture
 
     @property
-    def _all(self) -> Part:
+    def _whole(self) -> Part:
         return Part(0, 0, *self.terrain.heights.shape)
 
     @property
     def origin(self) -> tuple[float, float]:
-        """Where its first sample stands (x, z) [m]: it may be that of a window that the terrain was before."""
+        """Position (x, z) of the texture's first sample [m]; it may still be that of the terrain's previous window."""
         first, cell = self._first, self.terrain.cell
         return self.terrain.origin if first is None else (first[1] * cell, first[0] * cell)
 
     def follow(self) -> bool:
-        """Send what has changed, and a piece of what comes; return whether the origin is another one now."""
+        """Upload changed heights and a piece of the next window; return whether the origin has changed."""
         terrain, before = self.terrain, self._first
-        if self._count != terrain.changes.count:
-            self._send_changes()
+        if self._seen_changes != terrain.changes.count:
+            self._upload_changes()
         if self._first != terrain.first:
-            self._send_on(whole=self._leaps != terrain.changes.leaps)
+            self._upload_rows(whole=self._leaps != terrain.changes.leaps)
         self._leaps = terrain.changes.leaps
         return self._first != before
 
-    def _send_changes(self) -> None:
+    def _upload_changes(self) -> None:
+        """Upload changed heights to the texture, and to the part of the next window that is already uploaded."""
         terrain, shape = self.terrain, self.terrain.heights.shape
-        changed = terrain.changes.since(self._count)
-        self._count = terrain.changes.count
-        down, right = _way(terrain.first, self._first)
-        for part in [self._all] if changed is None else changed:
-            here = part.within(*shape)
-            there = here and here.moved(down, right).within(*shape)
-            if there:
-                self.texture.write(_heights_of(terrain, there.moved(-down, -right)), viewport=_box(there))
-            if here and self._sent and self._spare is not None and self._coming == terrain.first:
-                self._spare.write(_heights_of(terrain, here), viewport=_box(here))
+        parts = terrain.changes.since(self._seen_changes)
+        self._seen_changes = terrain.changes.count
+        down, right = _offset_between(terrain.first, self._first)
+        for part in [self._whole] if parts is None else parts:
+            changed = part.within(*shape)
+            in_texture = changed and changed.moved(down, right).within(*shape)
+            if in_texture:
+                self.texture.write(_heights_of(terrain, in_texture.moved(-down, -right)), viewport=_box(in_texture))
+            if changed and self._rows_sent and self._next_texture is not None and self._next_first == terrain.first:
+                self._next_texture.write(_heights_of(terrain, changed), viewport=_box(changed))
 
-    def _send_on(self, *, whole: bool) -> None:
-        """Send some rows of the terrain's window, or all; with the last of them the texture is that."""
+    def _upload_rows(self, *, whole: bool) -> None:
+        """Upload some rows of the terrain's window, or all of it; swap textures after the last."""
         terrain = self.terrain
-        if self._coming != terrain.first:
-            self._coming, self._sent = terrain.first, 0
-        if self._spare is None:
-            self._spare = self._made(None)
+        if self._next_first != terrain.first:
+            self._next_first, self._rows_sent = terrain.first, 0
+        if self._next_texture is None:
+            self._next_texture = self._new_texture(None)
         rows, columns = terrain.heights.shape
-        each = rows if whole else max(PIECE // (4 * columns), 1)
-        part = Part(self._sent, 0, min(each, rows - self._sent), columns)
-        self._spare.write(_heights_of(terrain, part), viewport=_box(part))
-        self._sent += part.rows
-        if self._sent == rows:
-            self.texture, self._spare = self._spare, self.texture
-            self._first, self._sent = terrain.first, 0
+        each = rows if whole else max(UPLOAD_BYTES // (4 * columns), 1)
+        part = Part(self._rows_sent, 0, min(each, rows - self._rows_sent), columns)
+        self._next_texture.write(_heights_of(terrain, part), viewport=_box(part))
+        self._rows_sent += part.rows
+        if self._rows_sent == rows:
+            self.texture, self._next_texture = self._next_texture, self.texture
+            self._first, self._rows_sent = terrain.first, 0
 
     def release(self) -> None:
-        """Give everything back."""
-        release_all(self.texture, self._spare)
+        """Release all GL objects."""
+        release_all(self.texture, self._next_texture)
 
 
-def _way(to: tuple[int, int] | None, since: tuple[int, int] | None) -> tuple[int, int]:
-    return (0, 0) if to is None or since is None else (to[0] - since[0], to[1] - since[1])
+def _offset_between(after: tuple[int, int] | None, before: tuple[int, int] | None) -> tuple[int, int]:
+    """Return the offset (rows, columns) from one window's first sample to another's."""
+    return (0, 0) if after is None or before is None else (after[0] - before[0], after[1] - before[1])
 
 
 def _box(part: Part) -> tuple[int, int, int, int]:
@@ -98,7 +100,7 @@ def _box(part: Part) -> tuple[int, int, int, int]:
 
 
 def _heights_of(terrain: Terrain, part: Part) -> NDArray[np.uint32]:
-    """Return the bits of a part's heights (rows, columns): the last of each is 1 where there is a hole."""
+    """Return the bits of a part's heights, shape (rows, columns), with `HOLE` set where there are holes."""
     bits = np.ascontiguousarray(terrain.heights[part.slices]).view(np.uint32) & ~np.uint32(HOLE)
     if terrain.holes is not None:
         bits |= terrain.holes[part.slices]

@@ -1,4 +1,4 @@
-"""The land: terrain and kinds of grass, as every program knows them, and their textures."""
+"""The feature of the land: textures of heights, densities and postures, and its values in the frame block."""
 
 from collections.abc import Mapping, Sequence
 
@@ -20,7 +20,7 @@ from .record import write_land
 
 @while_it_lives
 def posture_table(growth: Growth, /) -> Floats:
-    """Return what `posture_texture` has of a kind, shape (variants, rows, points, 4)."""
+    """Return a kind's posture table as `posture_texture` holds it, shape (variants, rows, points, 4)."""
     place = growth.postures.shape.astype(np.float32)
     return np.concatenate([place, np.gradient(place, axis=2)], axis=-1, dtype=np.float32)
 
@@ -28,9 +28,10 @@ def posture_table(growth: Growth, /) -> Floats:
 def posture_texture(
     ctx: moderngl.Context, growths: Sequence[Growth], coming: Mapping[int, Growth] = NOTHING
 ) -> moderngl.TextureArray:
-    """Return all kinds' posture tables, one layer per form and variant; columns are points, rows are indices.
+    """Return all kinds' posture tables as a texture array: columns are points, rows posture indices, layers variants.
 
-    A texel holds a point's place and the blade's direction there, each (along the bending direction, up).
+    While any kind is `coming`, layers of all present growths precede those of the coming ones. A texel holds a point's
+    position and the blade's tangent there, each as (along the bending direction, up).
     """
     forms = [*growths, *(coming.get(kind, growth) for kind, growth in enumerate(growths) if coming)]
     table = np.concatenate([posture_table(growth) for growth in forms])
@@ -42,7 +43,7 @@ def posture_texture(
 
 
 def density_texture(ctx: moderngl.Context, density: Density) -> moderngl.TextureArray:
-    """Return the kinds' densities as a texture over the terrain: each layer's channels are those of four kinds."""
+    """Return the kinds' densities over the terrain as a texture array; a layer's channels hold four kinds."""
     kinds, rows, columns = density.maps.shape
     packed = np.zeros((-(-kinds // 4), rows, columns, 4), np.uint8)
     for kind, values in enumerate(density.maps):
@@ -54,18 +55,18 @@ def density_texture(ctx: moderngl.Context, density: Density) -> moderngl.Texture
 
 
 class Land(Feature):
-    """The ground and what grows on it: it is made with the site."""
+    """Feature: the ground and the kinds of grass on it."""
 
     samplers = ("postures", "density", "heights")
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "LandPart":
-        """Return its textures, and its part of the frame's record."""
+        """Return the part that holds the land's textures."""
         del block
         return LandPart(ctx, units)
 
 
 class LandPart(Part):
-    """The textures of terrain, densities and postures."""
+    """Holds the textures of heights, densities and postures, and writes the land into the frame block."""
 
     def __init__(self, ctx: moderngl.Context, units: Mapping[str, int]) -> None:
         self.ctx, self._units = ctx, units
@@ -75,7 +76,7 @@ class LandPart(Part):
         self._kinds: Mapping[str, str | int] = {}
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
-        """Send what is another terrain, density or kind, and what has changed of the heights."""
+        """Upload a changed terrain, density or kind, and changed heights."""
         before, self._grown = self._grown, grown
         terrain = grown.ground.terrain
         if self._heights is None or self._heights.terrain is not terrain:
@@ -97,21 +98,22 @@ class LandPart(Part):
         self._kinds = {"KINDS": len(grown.growths), **{name: 1 for name, is_so in special.items() if is_so}}
 
     def defines(self) -> Mapping[str, str | int]:
-        """Return how many kinds there are, whether blades of any are folded, and the like."""
+        """Return the GLSL defines: number of kinds, whether any is folded, terrain sloped or mirrored."""
         return self._kinds
 
     def use(self) -> None:
-        """Bind all of them."""
+        """Bind all textures."""
         assert self._heights is not None
         self._heights.texture.use(self._units["heights"])
         for name, texture in self.textures.items():
             texture.use(self._units[name])
 
     def _put(self, name: str, texture: moderngl.Texture | moderngl.TextureArray) -> None:
+        """Replace a texture by its sampler's name."""
         if name in self.textures:
             self.textures[name].release()
         self.textures[name] = texture
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release all textures."""
         release_all(*self.textures.values(), self._heights)

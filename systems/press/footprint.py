@@ -1,4 +1,4 @@
-"""Footprints: every shape is made of discs, and discs are all that the rest of pressing knows."""
+"""Footprints as discs: pressing handles nothing but discs."""
 
 from functools import lru_cache
 
@@ -9,17 +9,16 @@ from ...components.presser import Presser
 from ..wind.outline import Outline, outline_of_polygon
 
 MOST_DISCS = 40
-"""How many discs a footprint is made of at most."""
+"""Largest number of discs in a footprint."""
 
-_APART, _LEAST = 0.9, 0.3
-"""How far apart discs stand, of the larger one's radius; the least depth of one, of the deepest."""
+_SPACING, _LEAST_DEPTH = 0.9, 0.3
+"""Spacing of discs in a polygon, relative to the larger one's radius; smallest radius, relative to the largest."""
 
-_FARTHER = 1.3
-"""How many times farther apart they stand where there would be too many."""
+_WIDENING = 1.3
+"""Factor by which the spacing grows while there are too many discs."""
 
-
-_ALONG = 1.4
-"""How far apart a capsule's stand, of their radius: between them grass is pressed almost as deep."""
+_CAPSULE_SPACING = 1.4
+"""Spacing of discs in a capsule, relative to their radius: between them grass is pressed almost as deep."""
 
 
 @lru_cache(maxsize=256)
@@ -31,36 +30,37 @@ def discs_of(presser: Presser, /) -> Doubles:
 
 
 def _in_capsule(radius: float, length: float) -> Doubles:
-    count = min(1 + int(np.ceil(length / (_ALONG * radius))), MOST_DISCS)
+    """Return a row of discs along a capsule."""
+    count = min(1 + int(np.ceil(length / (_CAPSULE_SPACING * radius))), MOST_DISCS)
     ahead = np.linspace(-0.5, 0.5, count) * length if count > 1 else np.zeros(1)
     return np.stack([np.zeros(count), ahead, np.full(count, radius)], axis=1)
 
 
 def _in_polygon(corners: tuple[tuple[float, float], ...]) -> Doubles:
-    """Return discs that fill a polygon; where it would take too many, they stand farther apart, all over it.
+    """Return discs that fill a polygon, with a wider spacing if there would be too many.
 
-    One that is thinner than the samples of its outline are apart counts as that much wider.
+    A polygon thinner than the sampling step of its outline is widened by that step.
     """
     outline = outline_of_polygon(corners)
     depth = outline.depth.astype(np.float64)
     if outline.deepest < outline.step:
         depth += outline.step
-    apart, discs = _APART, _discs_in(outline, depth, _APART)
+    spacing, discs = _SPACING, _discs_in(outline, depth, _SPACING)
     while len(discs) > MOST_DISCS:
-        apart *= _FARTHER
-        discs = _discs_in(outline, depth, apart)
+        spacing *= _WIDENING
+        discs = _discs_in(outline, depth, spacing)
     return discs
 
 
-def _discs_in(outline: Outline, depth: Doubles, apart: float) -> Doubles:
-    """Return discs, the largest first; each stands outside the middles of those before it."""
+def _discs_in(outline: Outline, depth: Doubles, spacing: float) -> Doubles:
+    """Return discs in an outline by its depths, the largest first, at least `spacing` of the larger radius apart."""
     rows, columns = np.indices(depth.shape)
     x, z = outline.corner[0] + columns * outline.step, outline.corner[1] + rows * outline.step
-    left, least = depth.copy(), _LEAST * depth.max()
+    depths, least = depth.copy(), _LEAST_DEPTH * depth.max()
     discs: list[tuple[float, float, float]] = []
-    while len(discs) <= MOST_DISCS and left.max() > least:
-        at = int(left.argmax())
-        disc = float(x.flat[at]), float(z.flat[at]), float(left.flat[at])
+    while len(discs) <= MOST_DISCS and depths.max() > least:
+        deepest = int(depths.argmax())
+        disc = float(x.flat[deepest]), float(z.flat[deepest]), float(depths.flat[deepest])
         discs.append(disc)
-        left[np.hypot(x - disc[0], z - disc[1]) < apart * disc[2]] = 0.0
+        depths[np.hypot(x - disc[0], z - disc[1]) < spacing * disc[2]] = 0.0
     return np.array(discs)

@@ -1,4 +1,4 @@
-"""How grass lies where it has been pressed, and stands up again: the truth that `press.glsl` says too."""
+"""How pressed grass lies and stands up again; `press.glsl` is the twin."""
 
 from dataclasses import dataclass
 
@@ -12,13 +12,13 @@ from .marks import Marks, Trodden, square_of
 from .trail import BEGUN, CAME, FIRST, HEADING, LAST, LEFT, REACH, STRENGTH
 
 TREADS, FLAT = 0.75, 0.9
-"""How much of the way to `FLAT` each who comes treads the grass right underfoot; flat for good is 1."""
+"""Fraction of the remaining way to `FLAT` by which each touch treads grass right underfoot. Flat for good is 1."""
 
 AHEAD = 0.5
-"""How far grass in the middle of a way is taken along it, for how far it is pushed aside at the edge."""
+"""Push along the way in the middle of a disc, relative to the push aside at its edge."""
 
 SAME = 1e-3
-"""Touches no longer apart are one [s]."""
+"""Longest gap between touches that count as one [s]."""
 
 _LONG_AGO = -1e6
 
@@ -27,31 +27,32 @@ GLSL = {"TREADS": TREADS, "FLAT": FLAT, "AHEAD": AHEAD, "SAME": SAME, "LONG_AGO"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lying:
-    """What receivers have been told by marks so far, in the order of time; each of shape (n,) or (n, 2)."""
+    """State of receivers after the marks so far, in the order of time; arrays of shape (n,) or (n, 2)."""
 
     was: Floats
-    """Index at the beginning of the touch that was last."""
+    """Posture index at the beginning of the last touch."""
 
     trod: Floats
-    """How far it was trodden then, in [0, 1]: it wears off evenly, and grass stands up slowly at first."""
+    """Trodden amount at the beginning of the last touch, in [0, 1]. It falls linearly with time."""
 
     lay: Floats
-    """Where grass lay then, a unit vector or nothing."""
+    """Direction in which grass lay at the beginning of the last touch: a unit vector, or 0."""
 
     deep: Floats
-    """How deep the touch presses it."""
+    """Posture index to which the last touch presses."""
 
     aside: Floats
-    """Where to, a unit vector."""
+    """Direction in which the last touch pushes, a unit vector."""
 
     until: Floats
-    """When the touch ends [s]."""
+    """End of the last touch [s]."""
 
 
 def pressed(trodden: Trodden, place: Floats, grass: Grass, recovery: Floats, /) -> Floats:
-    """Return how grass at ground positions (n, 2) [m] is pressed: vectors (n, 2) as long as the posture index.
+    """Return the bending of pressed grass at ground positions (n, 2) [m]: vectors (n, 2) as long as the posture index.
 
-    Past rest they point to the other side. `recovery` [s] is that of each kind.
+    Grass that swings past rest has a negative index: its vector points the other way. `recovery` has each kind's time
+    to stand up again [s].
     """
     lying = _at_rest(len(place))
     square = square_of(place)
@@ -66,30 +67,31 @@ def pressed(trodden: Trodden, place: Floats, grass: Grass, recovery: Floats, /) 
 
 
 def laid_over(message: Floats, pressing: Floats, /) -> Floats:
-    """Return messages of the wind (n, 2) where grass is pressed as well (n, 2): as much as it is, the wind is not."""
+    """Blend messages of the wind (n, 2) with the bending of pressed grass (n, 2), which weakens the wind by its index."""
     index = np.minimum(np.hypot(pressing[:, 0], pressing[:, 1]), np.float32(1.0))
     both = message * (np.float32(1.0) - index)[:, None] + pressing
     return np.asarray(both / np.maximum(np.hypot(both[:, 0], both[:, 1]), np.float32(1.0))[:, None], np.float32)
 
 
 def touches(marks: Marks, place: Floats, /) -> bool:
-    """Return whether any of these places (n, 2) is in a square that has marks."""
+    """Return whether any ground position (n, 2) is in a square with marks."""
     return bool(marks.count[square_of(place)].any())
 
 
 def recoveries(scene: Scene, /) -> Floats:
-    """Return how long grass of each kind takes to stand again once it was trodden flat [s], shape (kinds,)."""
+    """Return the time in which each kind of grass stands up again from trodden flat [s], shape (kinds,)."""
     return np.array([kind.recovery for kind in scene.grass.values()], np.float32)
 
 
 def _at_rest(count: int) -> Lying:
+    """Return the state of receivers that nothing has touched."""
     was, trod, deep = np.zeros((3, count), np.float32)
     lay, aside = np.zeros((2, count, 2), np.float32)
     return Lying(was, trod, lay, deep, aside, np.full(count, _LONG_AGO, np.float32))
 
 
 def _touch(lying: Lying, rows: NDArray[np.intp], mark: Floats, place: Floats, grass: Grass, recovery: Floats) -> None:
-    """Let one mark (n, NUMBERS) press each of these rows, where it reaches them."""
+    """Apply one mark (n, NUMBERS) to each of these rows that it reaches."""
     off, far, begun, ended = _passing(mark, place)
     near = far < mark[:, REACH]
     if not near.any():
@@ -116,9 +118,9 @@ def _touch(lying: Lying, rows: NDArray[np.intp], mark: Floats, place: Floats, gr
 
 
 def _passing(mark: Floats, place: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return how places stand off the nearest point of a mark (n, 2), how far [m], and from when to when it holds them.
+    """Return the offsets of places from a mark's nearest point (n, 2), their lengths [m], and begin and end of the touch.
 
-    The times are those at which the edge of the disc comes and goes [s], shape (n,).
+    These are the times at which the disc's edge arrives and leaves [s], shape (n,).
     """
     from_first, way = place - mark[:, FIRST], mark[:, LAST] - mark[:, FIRST]
     long = np.sqrt(way[:, 0] * way[:, 0] + way[:, 1] * way[:, 1])
@@ -138,13 +140,13 @@ def _passing(mark: Floats, place: Floats) -> tuple[Floats, Floats, Floats, Float
 
 
 def _away(off: Floats, part: Floats, mark: Floats) -> Floats:
-    """Return where grass is pushed, unit vectors (n, 2): aside at the edge, along the way in its middle."""
+    """Return the direction of the push, unit vectors (n, 2): aside at the disc's edge, along the way in its middle."""
     towards = off / mark[:, REACH, None] + (np.float32(AHEAD) * (np.float32(1.0) - part))[:, None] * mark[:, HEADING]
     return _unit(np.asarray(towards, np.float32))
 
 
 def _left(lying: Lying, then: Floats, grass: Grass, recovery: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the index at an instant [s] (n,), how far it is trodden then, and where it lies: unit vectors (n, 2)."""
+    """Return posture index, trodden amount and direction (n, 2) of grass at the instants `then` (n,) [s]."""
     elapsed = np.maximum(then - lying.until, np.float32(0.0))
     before = np.maximum(lying.was, _stays(lying.trod))
     flat = np.float32(FLAT) * (lying.deep * lying.deep) * (lying.deep * lying.deep)
@@ -156,10 +158,11 @@ def _left(lying: Lying, then: Floats, grass: Grass, recovery: Floats) -> tuple[F
 
 
 def _stays(trod: Floats) -> Floats:
-    """Return the index at which trodden grass lies."""
+    """Return the posture index at which trodden grass stays: it rises slowly from flat at first."""
     return np.asarray(trod * (np.float32(2.0) - trod), np.float32)
 
 
 def _unit(vector: Floats) -> Floats:
+    """Return vectors (n, 2) scaled to length 1; 0 stays 0."""
     long = np.sqrt(vector[:, 0] * vector[:, 0] + vector[:, 1] * vector[:, 1])
     return np.asarray(vector / np.maximum(long, np.float32(1e-9))[:, None], np.float32)

@@ -1,1 +1,1 @@
-"""Shadows that a game throws on the prairie, by its shadow maps."""
+"""Shadows that a game casts on the prairie: shadow maps and shades."""

@@ -1,4 +1,4 @@
-"""The shadow maps of a game: which there are, and binding them."""
+"""The feature of a game's shadow maps: it binds them and writes them into the frame block."""
 
 import logging
 from collections.abc import Iterable, Mapping
@@ -21,19 +21,19 @@ from ..frame.feature import Feature, Part
 log = logging.getLogger("tallgrass")
 
 UNITS = {f"map_{number}": unit for number, unit in enumerate(BORROWED)}
-"""The texture unit of each map: they are a host's, and given back in the end."""
+"""Texture unit of each map's sampler. The units belong to the host and are restored."""
 
 
 class Shadows(Feature):
-    """What a game has handed in."""
+    """Feature: shadow maps that a game has handed in."""
 
     def __init__(self) -> None:
         self.maps: tuple[ShadowMap, ...] = ()
 
     def hand_in(self, maps: Iterable[ShadowMap], origin: tuple[float, float, float], /) -> None:
-        """Let these count from the next frame on; raises TypeError for other things, ValueError for too many.
+        """Use these maps from the next frame on; raise TypeError for other things, ValueError for too many.
 
-        Their matrices are of a world in which the scene's origin is at `origin`.
+        Their matrices are for a world with the scene's origin at `origin`.
         """
         try:
             handed = tuple(maps)
@@ -49,13 +49,13 @@ class Shadows(Feature):
         self.maps = tuple(replace(each, matrix=each.matrix @ moved) for each in handed)
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "ShadowPart":
-        """Return what binds them."""
+        """Return the part that binds the maps."""
         del block, units
         return ShadowPart(ctx, self)
 
 
 class ShadowPart(Part):
-    """Binds the maps, each read as a sampler of its own says, so that a texture's own state does not count."""
+    """Binds the maps with sampler objects, which override the textures' own state."""
 
     def __init__(self, ctx: moderngl.Context, shadows: Shadows) -> None:
         self._ctx, self._shadows, self._gl = ctx, shadows, functions_of(ctx)
@@ -64,37 +64,40 @@ class ShadowPart(Part):
             for passes in ("<=", ">=")
         ]
         self._bound: list[tuple[ShadowMap, bool]] = []
-        """Each with whether its depth is reversed."""
+        """Maps of this frame, each with whether its depth is reversed."""
         self._none = ctx.depth_texture((1, 1))
         self._most = 0
-        """How many there have been. Where there are fewer now, as by night, `_none` stands in for the others: drivers
-        compile programs anew where what they may read as a shadow map is another sort of texture."""
-        self._told: set[int] = set()
+        """Largest number of maps so far. With fewer, as by night, `_none` takes the free units: drivers recompile
+        programs when a shadow sampler's unit holds another sort of texture."""
+        self._reported: set[int] = set()
+        """GL names of textures whose release has been logged."""
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
-        """Pretend that there is one."""
+        """Set one map."""
         record["maps_shown"] = 1.0
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
-        """Write where the maps lie, of those whose textures are there."""
+        """Write the matrices and biases of the maps whose textures exist."""
         del outlook
         sun = np.asarray(record["sun"][0], np.float64)
-        self._bound = [(each, nears(each.matrix, sun)) for each in self._shadows.maps if self._is_there(each)]
+        present = [each for each in self._shadows.maps if self._is_there(each)]
+        self._bound = [(each, is_reversed_depth(each.matrix, sun)) for each in present]
         self._most = max(self._most, len(self._bound))
         record["maps_shown"] = len(self._bound)
         for into, (each, _) in zip(record["maps"][0], self._bound, strict=False):
             into["clip_of"], into["bias"] = guest_clip(each.matrix).T.reshape(16), each.bias
 
     def _is_there(self, given: ShadowMap) -> bool:
+        """Return whether a map's texture exists in GL; log a released one once."""
         texture, number = given.texture, texture_number(given.texture)
         is_gone = isinstance(getattr(texture, "mglo", None), moderngl.InvalidObject) or not self._gl.glIsTexture(number)
-        if is_gone and number not in self._told:
-            self._told.add(number)
+        if is_gone and number not in self._reported:
+            self._reported.add(number)
             log.warning("texture %d of a shadow map has been released: the prairie is drawn without it", number)
         return not is_gone
 
     def use(self) -> None:
-        """Bind them for this frame."""
+        """Bind the maps for this frame."""
         for unit, (each, is_reversed) in zip(BORROWED, self._bound, strict=False):
             borrow(unit, texture_number(each.texture))
             self._samplers[is_reversed].use(unit)
@@ -103,14 +106,14 @@ class ShadowPart(Part):
             self._samplers[False].use(unit)
 
     def release(self) -> None:
-        """Give the samplers back."""
+        """Release samplers and the stand-in texture."""
         for each in self._samplers:
             each.release()
         self._none.release()
 
 
-def nears(matrix: Doubles, sun: Doubles, /) -> bool:
-    """Return whether depth grows toward the sun in a map of this matrix: so it does where depth is reversed."""
+def is_reversed_depth(matrix: Doubles, sun: Doubles, /) -> bool:
+    """Return whether depth in a map with this matrix grows toward the sun, as reversed depth does."""
     depth, far = matrix[2, :3] @ sun, matrix[3, :3] @ sun
     middle = np.linalg.lstsq(matrix, np.array((0.0, 0.0, 0.5, 1.0)))[0] if far else np.array((0.0, 0.0, 0.0, 1.0))
     return bool(depth * (matrix[3] @ middle) > far * (matrix[2] @ middle))

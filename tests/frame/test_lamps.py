@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from tallgrass import Lamp, Pose, Shade
 from tallgrass.engine.camera import Camera, view_of
-from tallgrass.systems.lamps.card import MOST, seen, stand
+from tallgrass.systems.lamps.card import MOST, lamp_texels, visible_lamps
 from tallgrass.systems.light.color import shown_as
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_truth
@@ -157,13 +157,13 @@ def test_a_scene_declares_lamps_at_heights_above_the_ground(stage: Stage, load: 
 
 def test_of_more_lamps_than_there_is_room_for_the_brightest_count(stage: Stage, camera: Aim) -> None:
     candela = np.random.default_rng(1).permutation(MOST + 40) + 1.0
-    told = stand([(Lamp(candela=float(each)), Pose(0.0, 0.0, y=3.0)) for each in candela])
+    told = lamp_texels([(Lamp(candela=float(each)), Pose(0.0, 0.0, y=3.0)) for each in candela])
     sides = picture_sides(view_of(*stage.matrices(camera(0.0, 2.0, 20.0))))
-    found = seen(told, sides, (0.0, 2.0, 20.0))
+    found = visible_lamps(told, sides, (0.0, 2.0, 20.0))
     kept = candela > 40
     assert np.array_equal(found, told[kept])
-    behind = stand([(Lamp(range=5.0), Pose(0.0, 30.0, y=3.0))])
-    assert len(seen(behind, sides, (0.0, 2.0, 20.0))) == 0
+    behind = lamp_texels([(Lamp(range=5.0), Pose(0.0, 30.0, y=3.0))])
+    assert len(visible_lamps(behind, sides, (0.0, 2.0, 20.0))) == 0
 
 
 @pytest.mark.parametrize("pose", [None, Pose(1.0, 2.0)])

@@ -10,7 +10,7 @@ import pytest
 
 from tallgrass import Lamp, Pose
 from tallgrass.engine.camera import Camera
-from tallgrass.systems.lamps.card import stand
+from tallgrass.systems.lamps.card import lamp_texels
 from tallgrass.systems.light.color import linear
 from tallgrass.systems.light.daylight import LEAF
 from tallgrass.systems.light.lie import SAMPLES_A_FRAME
@@ -161,7 +161,7 @@ def test_a_game_is_told_what_shaders_are_told(room: Stage, load: Load) -> None:
     np.testing.assert_allclose(sun.direction, told["sun"], atol=1e-6)
     np.testing.assert_allclose(np.multiply(sun.colour, LEAF), told["sunlight"], rtol=1e-5)
     np.testing.assert_allclose(sun.sky, told["skylight"], rtol=1e-5)
-    (lamp,) = stand([(Lamp("#ff8040", candela=50.0), Pose(y=1.0))])
+    (lamp,) = lamp_texels([(Lamp("#ff8040", candela=50.0), Pose(y=1.0))])
     colour = linear("#ff8040")
     seen = 50.0 * sun.candela * colour / (colour @ np.array((0.2126, 0.7152, 0.0722)))  # as the manual has it
     np.testing.assert_allclose(seen * LEAF, lamp[1, :3] * told["lamplight"], rtol=1e-3)

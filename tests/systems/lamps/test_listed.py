@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tallgrass import Lamp
-from tallgrass.systems.lamps.listed import ROOM, SIDE, listed
+from tallgrass.systems.lamps.listed import MOST_ENTRIES, SIDE, grid_of
 
 
 @given(st.integers(1, 256), st.floats(0.1, 900.0), st.floats(0.0, 3000.0), st.integers(0, 2**32 - 1))
@@ -15,19 +15,19 @@ def test_everything_that_reaches_a_place_is_in_its_cells_list(count: int, far: f
     place = (random.random((count, 2)) * apart).astype(np.float32)
     reach = (far * (0.2 + 0.8 * random.random(count))).astype(np.float32)
     long = (apart * 0.3 * random.random((count, 2)) ** 4).astype(np.float32)
-    lists = listed(place, place + long, reach)
-    assert len(lists.first) == lists.side**2 <= SIDE**2
-    assert lists.count.sum() == len(lists.things) <= ROOM
+    grid = grid_of(place, place + long, reach)
+    assert len(grid.first) == grid.side**2 <= SIDE**2
+    assert grid.count.sum() == len(grid.things) <= MOST_ENTRIES
     asked = place[random.integers(count, size=40)] + (random.random((40, 2)) - 0.5) * 2.2 * far
     for x, z in asked:
         nearest = np.clip((x, z), place.astype(np.float64), (place + long).astype(np.float64))
         near = np.hypot(*(nearest - (x, z)).T) < reach * (1.0 - 1e-6)
-        cell = np.floor((np.array((x, z)) - lists.corner) / lists.cell).astype(int)
-        if (cell < 0).any() or (cell >= lists.side).any():
+        cell = np.floor((np.array((x, z)) - grid.corner) / grid.cell).astype(int)
+        if (cell < 0).any() or (cell >= grid.side).any():
             assert not near.any()
             continue
-        number = cell[1] * lists.side + cell[0]
-        those = lists.things[lists.first[number] : lists.first[number] + lists.count[number]]
+        number = cell[1] * grid.side + cell[0]
+        those = grid.things[grid.first[number] : grid.first[number] + grid.count[number]]
         assert set(np.flatnonzero(near)) <= set(those.tolist())
 
 
