@@ -23,7 +23,7 @@ from .frame.block import FrameBlock
 from .frame.feature import Feature, Start
 from .grow.record import Growth
 from .press.card import PressPart
-from .press.lie import laid_over, pressed, recoveries, touches
+from .press.lie import combined_message, pressed, recoveries, touches
 from .press.marks import UNTRODDEN, Memory, Trodden
 from .press.trail import SCENES, Stretches, Trail
 from .press.walk import Stand, Walk, Who, staying
@@ -209,7 +209,7 @@ class Pressers(Feature):
         if not any(touches(marks, place) for marks in (self.trodden.settled, self.trodden.fresh)):
             return message
         grass = receivers.grass.at(np.arange(moving))
-        message[:moving] = laid_over(message[:moving], pressed(self.trodden, place, grass, self.recovery))
+        message[:moving] = combined_message(message[:moving], pressed(self.trodden, place, grass, self.recovery))
         return message
 
     def _declare(self, pressers: Sequence[PresserOnPath]) -> None:

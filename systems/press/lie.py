@@ -11,37 +11,37 @@ from ...engine.declared.scene import Scene
 from .marks import Marks, Trodden, square_of
 from .trail import BEGUN, CAME, FIRST, HEADING, LAST, LEFT, REACH, STRENGTH
 
-TREADS, FLAT = 0.75, 0.9
+TREAD_FRACTION, FLAT = 0.75, 0.9
 """Fraction of the remaining way to `FLAT` by which each touch treads grass right underfoot. Flat for good is 1."""
 
-AHEAD = 0.5
+PUSH_ALONG = 0.5
 """Push along the way in the middle of a disc, relative to the push aside at its edge."""
 
-SAME = 1e-3
+SAME_TOUCH = 1e-3
 """Longest gap between touches that count as one [s]."""
 
 _LONG_AGO = -1e6
 
-GLSL = {"TREADS": TREADS, "FLAT": FLAT, "AHEAD": AHEAD, "SAME": SAME, "LONG_AGO": _LONG_AGO}
+GLSL = {"TREADS": TREAD_FRACTION, "FLAT": FLAT, "AHEAD": PUSH_ALONG, "SAME": SAME_TOUCH, "LONG_AGO": _LONG_AGO}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lying:
     """State of receivers after the marks so far, in the order of time; arrays of shape (n,) or (n, 2)."""
 
-    was: Floats
+    index: Floats
     """Posture index at the beginning of the last touch."""
 
-    trod: Floats
+    trodden: Floats
     """Trodden amount at the beginning of the last touch, in [0, 1]. It falls linearly with time."""
 
-    lay: Floats
+    direction: Floats
     """Direction in which grass lay at the beginning of the last touch: a unit vector, or 0."""
 
-    deep: Floats
+    depth: Floats
     """Posture index to which the last touch presses."""
 
-    aside: Floats
+    push: Floats
     """Direction in which the last touch pushes, a unit vector."""
 
     until: Floats
@@ -49,28 +49,28 @@ class Lying:
 
 
 def pressed(trodden: Trodden, place: Floats, grass: Grass, recovery: Floats, /) -> Floats:
-    """Return the bending of pressed grass at ground positions (n, 2) [m]: vectors (n, 2) as long as the posture index.
+    """Return the bending of pressed grass at ground positions (n, 2) [m]: vectors (n, 2), as long as the posture index.
 
     Grass that swings past rest has a negative index: its vector points the other way. `recovery` has each kind's time
     to stand up again [s].
     """
-    lying = _at_rest(len(place))
+    lying = _untouched(len(place))
     square = square_of(place)
     for marks in (trodden.settled, trodden.fresh):
         first, count = marks.first[square], marks.count[square]
         for k in range(int(count.max(initial=0))):
             rows = np.flatnonzero(count > k)
-            _touch(lying, rows, marks.marks[marks.listed[first[rows] + k]], place[rows], grass.at(rows), recovery)
+            _apply_mark(lying, rows, marks.marks[marks.listed[first[rows] + k]], place[rows], grass.at(rows), recovery)
     now = np.float32(trodden.time - trodden.since)
-    index, _, towards = _left(lying, np.full(len(place), now), grass, recovery)
+    index, _, towards = _state_at(lying, np.full(len(place), now), grass, recovery)
     return np.asarray(index[:, None] * towards, np.float32)
 
 
-def laid_over(message: Floats, pressing: Floats, /) -> Floats:
-    """Blend messages of the wind (n, 2) with the bending of pressed grass (n, 2), which weakens the wind by its index."""
+def combined_message(message: Floats, pressing: Floats, /) -> Floats:
+    """Add the bending of pressed grass (n, 2) to messages of the wind (n, 2), which its posture index weakens."""
     index = np.minimum(np.hypot(pressing[:, 0], pressing[:, 1]), np.float32(1.0))
-    both = message * (np.float32(1.0) - index)[:, None] + pressing
-    return np.asarray(both / np.maximum(np.hypot(both[:, 0], both[:, 1]), np.float32(1.0))[:, None], np.float32)
+    sum_ = message * (np.float32(1.0) - index)[:, None] + pressing
+    return np.asarray(sum_ / np.maximum(np.hypot(sum_[:, 0], sum_[:, 1]), np.float32(1.0))[:, None], np.float32)
 
 
 def touches(marks: Marks, place: Floats, /) -> bool:
@@ -83,86 +83,96 @@ def recoveries(scene: Scene, /) -> Floats:
     return np.array([kind.recovery for kind in scene.grass.values()], np.float32)
 
 
-def _at_rest(count: int) -> Lying:
+def _untouched(count: int) -> Lying:
     """Return the state of receivers that nothing has touched."""
-    was, trod, deep = np.zeros((3, count), np.float32)
-    lay, aside = np.zeros((2, count, 2), np.float32)
-    return Lying(was, trod, lay, deep, aside, np.full(count, _LONG_AGO, np.float32))
+    index, trodden, depth = np.zeros((3, count), np.float32)
+    direction, push = np.zeros((2, count, 2), np.float32)
+    return Lying(index, trodden, direction, depth, push, np.full(count, _LONG_AGO, np.float32))
 
 
-def _touch(lying: Lying, rows: NDArray[np.intp], mark: Floats, place: Floats, grass: Grass, recovery: Floats) -> None:
+def _apply_mark(
+    lying: Lying, rows: NDArray[np.intp], mark: Floats, place: Floats, grass: Grass, recovery: Floats
+) -> None:
     """Apply one mark (n, NUMBERS) to each of these rows that it reaches."""
-    off, far, begun, ended = _passing(mark, place)
-    near = far < mark[:, REACH]
+    offset, distance, begun, ended = _contact(mark, place)
+    near = distance < mark[:, REACH]
     if not near.any():
         return
-    rows, mark, off = rows[near], mark[near], off[near]
-    far, begun, ended = far[near], begun[near], ended[near]
-    anew = np.flatnonzero(begun > lying.until[rows] + np.float32(SAME))
-    if len(anew):
-        again = rows[anew]
+    rows, mark, offset = rows[near], mark[near], offset[near]
+    distance, begun, ended = distance[near], begun[near], ended[near]
+    separate = np.flatnonzero(begun > lying.until[rows] + np.float32(SAME_TOUCH))
+    if len(separate):
+        touched = rows[separate]
         old = Lying(
-            lying.was[again], lying.trod[again], lying.lay[again], lying.deep[again], lying.aside[again],
-            lying.until[again],
+            lying.index[touched], lying.trodden[touched], lying.direction[touched], lying.depth[touched], lying.push[touched],
+            lying.until[touched],
         )  # fmt: skip
-        of_these = grass.at(np.flatnonzero(near)[anew])
-        was, trod, towards = _left(old, begun[anew], of_these, recovery)
-        lying.was[again], lying.trod[again], lying.lay[again] = np.maximum(was, np.float32(0.0)), trod, towards
-        lying.deep[again], lying.until[again] = 0.0, _LONG_AGO
-    part = far / mark[:, REACH]
-    deep = mark[:, STRENGTH] * (np.float32(1.0) - part * part * part * part)
-    more = np.flatnonzero(deep > lying.deep[rows])
-    lying.deep[rows[more]] = deep[more]
-    lying.aside[rows[more]] = _away(off[more], part[more], mark[more])
+        touched_grass = grass.at(np.flatnonzero(near)[separate])
+        index, trodden, towards = _state_at(old, begun[separate], touched_grass, recovery)
+        lying.index[touched], lying.trodden[touched] = np.maximum(index, np.float32(0.0)), trodden
+        lying.direction[touched] = towards
+        lying.depth[touched], lying.until[touched] = 0.0, _LONG_AGO
+    part = distance / mark[:, REACH]
+    depth = mark[:, STRENGTH] * (np.float32(1.0) - part * part * part * part)
+    deeper = np.flatnonzero(depth > lying.depth[rows])
+    lying.depth[rows[deeper]] = depth[deeper]
+    lying.push[rows[deeper]] = _push_direction(offset[deeper], part[deeper], mark[deeper])
     lying.until[rows] = np.maximum(lying.until[rows], ended)
 
 
-def _passing(mark: Floats, place: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return the offsets of places from a mark's nearest point (n, 2), their lengths [m], and begin and end of the touch.
+def _contact(mark: Floats, place: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """Return the offsets of places from a mark (n, 2) [m], their lengths, and begin and end of the touch.
 
-    These are the times at which the disc's edge arrives and leaves [s], shape (n,).
+    The touch lasts from the arrival of the disc's edge until it leaves [s], shape (n,).
     """
     from_first, way = place - mark[:, FIRST], mark[:, LAST] - mark[:, FIRST]
-    long = np.sqrt(way[:, 0] * way[:, 0] + way[:, 1] * way[:, 1])
-    short = np.maximum(long, np.float32(1e-6))
-    along = way / short[:, None]
-    at = from_first[:, 0] * along[:, 0] + from_first[:, 1] * along[:, 1]
-    aside = from_first[:, 0] * along[:, 1] - from_first[:, 1] * along[:, 0]
-    off = from_first - np.clip(at, np.float32(0.0), long)[:, None] * along
-    far = np.sqrt(off[:, 0] * off[:, 0] + off[:, 1] * off[:, 1])
-    still = long < np.float32(1e-6)
-    half = np.sqrt(np.maximum(mark[:, REACH] * mark[:, REACH] - aside * aside, np.float32(0.0)))
-    enter, leave = (at - half) / short, (at + half) / short
-    took = mark[:, CAME] - mark[:, BEGUN]
-    begun = mark[:, BEGUN] + np.where(still, np.float32(0.0), np.clip(enter, np.float32(0.0), np.float32(1.0)) * took)
-    ended = np.where(still | (leave >= np.float32(1.0)), mark[:, LEFT], mark[:, BEGUN] + leave * took)
-    return off, far, begun, ended
+    length = np.sqrt(way[:, 0] * way[:, 0] + way[:, 1] * way[:, 1])
+    safe_length = np.maximum(length, np.float32(1e-6))
+    along = way / safe_length[:, None]
+    ahead = from_first[:, 0] * along[:, 0] + from_first[:, 1] * along[:, 1]
+    lateral = from_first[:, 0] * along[:, 1] - from_first[:, 1] * along[:, 0]
+    offset = from_first - np.clip(ahead, np.float32(0.0), length)[:, None] * along
+    distance = np.sqrt(offset[:, 0] * offset[:, 0] + offset[:, 1] * offset[:, 1])
+    is_still = length < np.float32(1e-6)
+    half = np.sqrt(np.maximum(mark[:, REACH] * mark[:, REACH] - lateral * lateral, np.float32(0.0)))
+    enters, leaves = (ahead - half) / safe_length, (ahead + half) / safe_length
+    duration = mark[:, CAME] - mark[:, BEGUN]
+    begun = mark[:, BEGUN] + np.where(
+        is_still, np.float32(0.0), np.clip(enters, np.float32(0.0), np.float32(1.0)) * duration
+    )
+    ended = np.where(is_still | (leaves >= np.float32(1.0)), mark[:, LEFT], mark[:, BEGUN] + leaves * duration)
+    return offset, distance, begun, ended
 
 
-def _away(off: Floats, part: Floats, mark: Floats) -> Floats:
+def _push_direction(offset: Floats, part: Floats, mark: Floats) -> Floats:
     """Return the direction of the push, unit vectors (n, 2): aside at the disc's edge, along the way in its middle."""
-    towards = off / mark[:, REACH, None] + (np.float32(AHEAD) * (np.float32(1.0) - part))[:, None] * mark[:, HEADING]
-    return _unit(np.asarray(towards, np.float32))
+    towards = (
+        offset / mark[:, REACH, None] + (np.float32(PUSH_ALONG) * (np.float32(1.0) - part))[:, None] * mark[:, HEADING]
+    )
+    return _normalised(np.asarray(towards, np.float32))
 
 
-def _left(lying: Lying, then: Floats, grass: Grass, recovery: Floats) -> tuple[Floats, Floats, Floats]:
+def _state_at(lying: Lying, then: Floats, grass: Grass, recovery: Floats) -> tuple[Floats, Floats, Floats]:
     """Return posture index, trodden amount and direction (n, 2) of grass at the instants `then` (n,) [s]."""
     elapsed = np.maximum(then - lying.until, np.float32(0.0))
-    before = np.maximum(lying.was, _stays(lying.trod))
-    flat = np.float32(FLAT) * (lying.deep * lying.deep) * (lying.deep * lying.deep)
-    trod = np.asarray(lying.trod + np.float32(TREADS) * np.maximum(flat - lying.trod, np.float32(0.0)), np.float32)
-    left = np.maximum(trod - elapsed / recovery[grass.kind], np.float32(0.0))
-    index = (np.maximum(lying.deep, before) - _stays(trod)) * grass.after_stop(elapsed) + _stays(left)
-    towards = lying.deep[:, None] * lying.aside + before[:, None] * lying.lay
-    return np.asarray(index, np.float32), np.asarray(left, np.float32), _unit(np.asarray(towards, np.float32))
+    index_before = np.maximum(lying.index, _lasting_index(lying.trodden))
+    flat = np.float32(FLAT) * (lying.depth * lying.depth) * (lying.depth * lying.depth)
+    step = np.float32(TREAD_FRACTION) * np.maximum(flat - lying.trodden, np.float32(0.0))
+    trodden = np.asarray(lying.trodden + step, np.float32)
+    left = np.maximum(trodden - elapsed / recovery[grass.kind], np.float32(0.0))
+    index = (np.maximum(lying.depth, index_before) - _lasting_index(trodden)) * grass.after_stop(
+        elapsed
+    ) + _lasting_index(left)
+    towards = lying.depth[:, None] * lying.push + index_before[:, None] * lying.direction
+    return np.asarray(index, np.float32), np.asarray(left, np.float32), _normalised(np.asarray(towards, np.float32))
 
 
-def _stays(trod: Floats) -> Floats:
-    """Return the posture index at which trodden grass stays: it rises slowly from flat at first."""
-    return np.asarray(trod * (np.float32(2.0) - trod), np.float32)
+def _lasting_index(trodden: Floats) -> Floats:
+    """Return the posture index at which trodden grass lies for now: near flat, it falls slowly."""
+    return np.asarray(trodden * (np.float32(2.0) - trodden), np.float32)
 
 
-def _unit(vector: Floats) -> Floats:
+def _normalised(vector: Floats) -> Floats:
     """Return vectors (n, 2) scaled to length 1; 0 stays 0."""
-    long = np.sqrt(vector[:, 0] * vector[:, 0] + vector[:, 1] * vector[:, 1])
-    return np.asarray(vector / np.maximum(long, np.float32(1e-9))[:, None], np.float32)
+    length = np.sqrt(vector[:, 0] * vector[:, 0] + vector[:, 1] * vector[:, 1])
+    return np.asarray(vector / np.maximum(length, np.float32(1e-9))[:, None], np.float32)

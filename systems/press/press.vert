@@ -1,4 +1,4 @@
-// How grass is pressed, given back as numbers: for those who compare the twin with its numpy.
+// Bending of pressed grass as transform feedback, for tests that compare the twin with numpy.
 #include "systems/press/press.glsl"
 
 in vec2 place;   // ground position [m]

@@ -12,7 +12,7 @@ Canopy trodden(Canopy canopy, ByKind met, vec3 place, float slope, float on_leve
         vec2 pressed = pressing(place.xz, kind);
         most = max(most, length(pressed));
         blown[kind] = message;
-        messages[kind] = laid_over(message, pressed);
+        messages[kind] = combined_message(message, pressed);
     }
     if (most < HARDLY)
         return canopy;

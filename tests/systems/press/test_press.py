@@ -14,7 +14,7 @@ from tallgrass.components.arrays import Floats
 from tallgrass.components.presser import Presser
 from tallgrass.systems.press import marks
 from tallgrass.systems.press.footprint import discs_of
-from tallgrass.systems.press.lie import laid_over, pressed, touches
+from tallgrass.systems.press.lie import combined_message, pressed, touches
 from tallgrass.systems.press.marks import MOST_MARKS, UNTRODDEN, Marks, Memory, Trodden
 from tallgrass.systems.press.trail import BESIDE, Discs, Trail
 from tallgrass.testing.trial import grass_at
@@ -190,7 +190,7 @@ def test_f4_nobody_is_remembered_for_longer_than_is_asked() -> None:
 def test_f4_where_grass_is_pressed_the_wind_is_covered_as_much() -> None:
     wind = np.array([[0.0, 0.5], [0.0, 0.5], [0.0, 0.5]], np.float32)
     pressing = np.array([[0.0, 0.0], [0.5, 0.0], [1.0, 0.0]], np.float32)
-    np.testing.assert_allclose(laid_over(wind, pressing), [[0.0, 0.5], [0.5, 0.25], [1.0, 0.0]], atol=1e-6)
+    np.testing.assert_allclose(combined_message(wind, pressing), [[0.0, 0.5], [0.5, 0.25], [1.0, 0.0]], atol=1e-6)
 
 
 @pytest.mark.parametrize(
