@@ -17,7 +17,7 @@ from .fitting import kinds_of
 from .mow.sown import carried
 from .press.footprint import discs_of
 from .press.trail import BEGUN, FIRST, LAST, LEFT, NUMBERS, REACH, Stretches
-from .press.walk import Stand
+from .press.walk import WalkState
 from .pressers import Treading
 from .saved import Arrays, Saved, SavedTreading, SavedWalk, component_of, fields_of, from_planes, refuse
 
@@ -39,7 +39,7 @@ def treading_saved(treading: Treading, /) -> tuple[SavedTreading, Arrays]:
     """Return the state of pressers as it is saved: records and arrays."""
     walks, arrays = list[SavedWalk](), {"kept": treading.kept}
     for name, stand in zip(WALKS, treading.walks, strict=True):
-        who = [(entity, fields_of(presser)) for entity, presser in stand.who]
+        who = [(entity, fields_of(presser)) for entity, presser in stand.pressers]
         walks.append(SavedWalk(time=stand.time, begun=stand.begun, who=who))
         parts = {"pose": stand.pose, "open": stand.open, "way": stand.way, "closed": stand.closed}
         arrays |= {f"{name}_{part}": array for part, array in parts.items()}
@@ -58,9 +58,9 @@ def treading_of(saved: SavedTreading, arrays: Arrays, /) -> Treading:
         discs = sum(len(discs_of(presser)) for _, presser in who)
         opened, way = _stretches(arrays, f"{name}_open", discs), _doubles(arrays, f"{name}_way", (discs,))
         pose, closed = _doubles(arrays, f"{name}_pose", (len(who), 3)), _stretches(arrays, f"{name}_closed")
-        stands.append(Stand(who, pose, walk.time, opened, way, closed, walk.begun))
+        stands.append(WalkState(who, pose, walk.time, opened, way, closed, walk.begun))
     declared = [None if shape is None else _presser(shape) for shape in saved.declared]
-    if not all(-len(declared) <= number < 0 for number, _ in stands[0].who):
+    if not all(-len(declared) <= number < 0 for number, _ in stands[0].pressers):
         refuse("others walk in it than its scene declares")
     kept = _stretches(arrays, "kept")
     return Treading((stands[0], stands[1]), kept, saved.since, saved.trodden, saved.anew, declared)

@@ -25,8 +25,8 @@ from .grow.record import Growth
 from .press.card import PressPart
 from .press.lie import combined_message, pressed, recoveries, touches
 from .press.marks import UNTRODDEN, Memory, Trodden
-from .press.trail import SCENES, Stretches, Trail
-from .press.walk import Stand, Walk, Who, staying
+from .press.trail import FIRST_OF_SCENE, Stretches, Trail
+from .press.walk import EntityPresser, Walk, WalkState, staying
 from .space.grown import Grown
 from .wearing import Wearing
 from .wind.blow import ReceiverArrays
@@ -47,7 +47,7 @@ EVERY = 60.0
 class Treading:
     """State of all pressers and their marks, to continue from."""
 
-    walks: tuple[Stand, Stand]
+    walks: tuple[WalkState, WalkState]
     """Walk of the scene's pressers, whose entities are -1, -2 and so on in its order; and that of a game's own."""
 
     kept: Stretches
@@ -79,7 +79,7 @@ class Pressers(Feature):
         self._world, self._density, self._wearing = world, density, Wearing()
         self._generation = world.generation
         self._declared: dict[int, PresserOnPath] = {}
-        self._scenes, self._games = Walk(Trail(begun=SCENES, every=EVERY)), Walk(Trail())
+        self._scenes, self._games = Walk(Trail(begun=FIRST_OF_SCENE, every=EVERY)), Walk(Trail())
         """Walks of the scene's pressers, and of a game's own."""
         self._memory = Memory([self._scenes.trail, self._games.trail])
         self._is_anew = True
@@ -124,14 +124,14 @@ class Pressers(Feature):
         found = self._world.both(Presser, Pose)
         if len(found) < len(self._world.rows(Presser)):
             self._report_without_pose()
-        if not found and not self._scenes.who and not self._games.who and not self.trodden:
+        if not found and not self._scenes.pressers and not self._games.pressers and not self.trodden:
             return self.trodden
         wearing = [row for row in found if row[1].wear and row[0] not in self._declared and is_somewhere(row[2])]
         self._wearing.go(wearing, self._density)
         who, rows = self._standing(found)
         is_scenes = np.array([entity in self._declared for entity, _ in who], np.bool_)
         games, scenes = ([who[number] for number in np.flatnonzero(which)] for which in (~is_scenes, is_scenes))
-        is_new = self._games.come(games, rows[~is_scenes], time)
+        is_new = self._games.move(games, rows[~is_scenes], time)
         if self._walk_declared(scenes, rows[is_scenes], time) or is_new:
             self.trodden = self._memory.at(time)
         return self.trodden
@@ -141,7 +141,7 @@ class Pressers(Feature):
         every = (entity for entity, _ in self._world.all(Presser))
         self._world.standing([(each, None) for each in every if self._world.find(each, Pose) is None], "the presser")
 
-    def _standing(self, found: list[tuple[int, Presser, Pose]]) -> tuple[list[Who], Doubles]:
+    def _standing(self, found: list[tuple[int, Presser, Pose]]) -> tuple[list[EntityPresser], Doubles]:
         """Return the pressers whose pose is finite, and their poses (x, z, yaw), shape (n, 3)."""
         rows = as_places_of(pose for _, _, pose in found)
         if rows is None:
@@ -168,8 +168,8 @@ class Pressers(Feature):
     def treading(self) -> Treading:
         """Return the present state, for `resume`."""
         numbers = {entity: -1 - number for number, entity in enumerate(self._declared)}
-        scenes, games = self._scenes.stand(), self._games.stand()
-        scenes = replace(scenes, who=[(numbers[entity], presser) for entity, presser in scenes.who])
+        scenes, games = self._scenes.state(), self._games.state()
+        scenes = replace(scenes, pressers=[(numbers[entity], presser) for entity, presser in scenes.pressers])
         there = dict(self._world.all(Presser))
         return Treading(
             (scenes, games), self._memory.kept, self._memory.since, self.trodden.time if self.trodden else None,
@@ -190,10 +190,10 @@ class Pressers(Feature):
                 self._world.add(now, presser)
             declared[now] = path
         self._declared, numbers = declared, [*declared]
-        self._scenes, self._games = Walk(Trail(begun=SCENES, every=EVERY)), Walk(Trail())
+        self._scenes, self._games = Walk(Trail(begun=FIRST_OF_SCENE, every=EVERY)), Walk(Trail())
         scenes, games = treading.walks
-        self._scenes.resume(scenes, [(numbers[-1 - number], presser) for number, presser in scenes.who])
-        self._games.resume(games, [(entities.get(entity, entity), presser) for entity, presser in games.who])
+        self._scenes.resume(scenes, [(numbers[-1 - number], presser) for number, presser in scenes.pressers])
+        self._games.resume(games, [(entities.get(entity, entity), presser) for entity, presser in games.pressers])
         self._memory = Memory([self._scenes.trail, self._games.trail], self._memory.lasts)
         self._memory.resume(treading.kept, treading.since)
         self._is_anew = treading.anew
@@ -228,7 +228,7 @@ class Pressers(Feature):
         self._begin_anew()
 
     def _begin_anew(self) -> None:
-        self._scenes, self._is_anew = Walk(Trail(begun=SCENES, every=EVERY)), True
+        self._scenes, self._is_anew = Walk(Trail(begun=FIRST_OF_SCENE, every=EVERY)), True
         self._memory.replace(self._scenes.trail)
 
     def _place_declared(self, time: float) -> None:
@@ -243,7 +243,7 @@ class Pressers(Feature):
             if self._world.find(entity, Presser) is not None:
                 self._world.add(entity, _on_way(declared, time))
 
-    def _walk_declared(self, who: list[Who], pose: Doubles, time: float) -> bool:
+    def _walk_declared(self, who: list[EntityPresser], pose: Doubles, time: float) -> bool:
         """Move the scene's pressers along their paths to their poses (n, 3) of `time` [s].
 
         Their poses are sampled at all instants since the last call. Instants before all paths begin and after all have
@@ -255,14 +255,14 @@ class Pressers(Feature):
         if is_anew:
             declared = [self._declared[entity] for entity, _ in who]
             for number in _lead(declared, _start(declared, floor(time) - self._memory.lasts)):
-                walk.come(who, self._poses_at(who, number / RATE), number / RATE)
+                walk.move(who, self._poses_at(who, number / RATE), number / RATE)
             self._is_anew = False
-        stay = staying(walk.who, who)
+        stay = staying(walk.pressers, who)
         for number in _instants([self._declared[entity].path for entity, _ in stay], walk.time, time):
-            walk.come(stay, self._poses_at(stay, number / RATE), number / RATE)
-        return walk.come(who, pose, time) or is_anew
+            walk.move(stay, self._poses_at(stay, number / RATE), number / RATE)
+        return walk.move(who, pose, time) or is_anew
 
-    def _poses_at(self, who: list[Who], time: float) -> Doubles:
+    def _poses_at(self, who: list[EntityPresser], time: float) -> Doubles:
         """Return the poses (x, z, yaw) of some of the scene's pressers at `time` [s], shape (n, 3)."""
         return _rows([self._declared[entity].pose(time=time) for entity, _ in who])
 

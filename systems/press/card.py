@@ -56,11 +56,14 @@ class PressPart(TexturePart):
             self._write_responses(grown.growths, recoveries(grown.scene))
 
     def _write_responses(self, growths: Sequence[Growth], recovery: Floats) -> None:
-        """Write the kinds' recovery times and responses after a wind stopped into the head, four kinds to a texel."""
+        """Write the kinds' recovery times and responses after a wind into the head, four kinds to a texel."""
         samples = len(growths[0].response.fall)
         for kind, growth in enumerate(growths):
             group, channel = divmod(kind, 4)
-            self._head[1 + 2 * group, channel], self._head[2 + 2 * group, channel] = recovery[kind], growth.response.step
+            self._head[1 + 2 * group, channel], self._head[2 + 2 * group, channel] = (
+                recovery[kind],
+                growth.response.step,
+            )
             self._head[ROW + group * samples :, channel][:samples] = growth.response.fall
         self._head[0, 2], self._is_empty = samples, False
 
@@ -94,7 +97,7 @@ class PressPart(TexturePart):
         self.texture, self._settled, self._is_empty = self._new_texture(), NOTHING, False
 
     def _write_squares(self, marks: Marks, row: int, column: int) -> None:
-        """Write start and length of the squares' lists into two channels; starts count floats from the texture's start."""
+        """Write start and length of the squares' lists into two channels; starts count the texture's floats."""
         squares = self._head[2 * ROW :]
         squares[:, column], squares[:, column + 1] = marks.first + row * ROW * 4, marks.count
 

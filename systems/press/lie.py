@@ -104,8 +104,8 @@ def _apply_mark(
     if len(separate):
         touched = rows[separate]
         old = Lying(
-            lying.index[touched], lying.trodden[touched], lying.direction[touched], lying.depth[touched], lying.push[touched],
-            lying.until[touched],
+            lying.index[touched], lying.trodden[touched], lying.direction[touched],
+            lying.depth[touched], lying.push[touched], lying.until[touched],
         )  # fmt: skip
         touched_grass = grass.at(np.flatnonzero(near)[separate])
         index, trodden, towards = _state_at(old, begun[separate], touched_grass, recovery)
@@ -121,7 +121,7 @@ def _apply_mark(
 
 
 def _contact(mark: Floats, place: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return the offsets of places from a mark (n, 2) [m], their lengths, and begin and end of the touch.
+    """Return the offsets (n, 2) [m] of places from a mark, their lengths, and begin and end of the touch.
 
     The touch lasts from the arrival of the disc's edge until it leaves [s], shape (n,).
     """

@@ -1,4 +1,4 @@
-"""Marks: stretches of trails, sorted into squares of the ground, so that a receiver looks at a few alone."""
+"""Marks: stretches of trails, sorted into squares of the ground, so that a receiver looks at few of them."""
 
 from dataclasses import dataclass
 from itertools import islice
@@ -14,106 +14,106 @@ SQUARE = 2.0
 """Side of a square [m]."""
 
 SIDE = 128
-"""Squares along the ground after which they are counted from 0 again: what lies so far apart shares a list."""
+"""Squares along x and along z after which their numbers repeat; squares that far apart share a list."""
 
 GLSL = {"SQUARE": SQUARE, "SIDE": SIDE}
 
 MOST_MARKS = 96
-"""Marks that a square has at most: the latest. What none of its squares has any more is forgotten."""
+"""Largest number of marks in a square: the latest. A mark that is in no square's list any more is forgotten."""
 
-ROUNDED = 1e-6
-"""Instants so near to one another count as the same [s]."""
+TIME_STEP = 1e-6
+"""Step to which times are rounded for ordering [s]."""
 
-APART = 0.0917
-"""At a full second those marks settle that ended at least so long before it [s].
+SETTLE_AFTER = 0.0917
+"""Smallest time from the end of a mark to the full second at which it settles [s].
 
-The number is odd so that hardly a mark ends just then, and rounding decides about none."""
+It is an odd number so that hardly a mark ends just then, where rounding would decide."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Marks:
-    """Marks in the order in which they began, and those of each square."""
+    """Marks in the order in which they began, and a list of them for each square."""
 
     marks: Floats
-    """One a row, as stretches are, but for their times, which count from some instant; shape (n, NUMBERS)."""
+    """Marks, one a row, laid out as stretches, with times from `Trodden.since`; shape (n, NUMBERS)."""
 
     first: Ints
-    """Where the list of each square begins, shape (SIDE * SIDE,)."""
+    """Start of each square's list in `listed`, shape (SIDE * SIDE,)."""
 
     count: Ints
-    """How many marks it has, shape (SIDE * SIDE,)."""
+    """Length of each square's list, shape (SIDE * SIDE,)."""
 
     listed: Ints
-    """The lists, one after the other: numbers of marks, shape (m,)."""
+    """All lists, concatenated: indices of marks, shape (m,)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Trodden:
-    """All that presses or has pressed at one instant."""
+    """All marks at one instant."""
 
     settled: Marks
-    """Marks of before `since`; the same object until marks settle again."""
+    """Marks from before `since`; the same object until marks settle again."""
 
     fresh: Marks
-    """The marks since then."""
+    """Marks after `since`."""
 
     since: float
-    """The instant that times of marks count from [s]."""
+    """Time from which times of marks count [s]."""
 
     time: float
-    """The instant itself [s]."""
+    """The instant [s]."""
 
     def __bool__(self) -> bool:
         return bool(len(self.settled.marks) or len(self.fresh.marks))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Listed:
-    """Stretches, and which of the squares each of them touches."""
+class Listing:
+    """Stretches, and all pairs of a stretch and a square that it touches."""
 
     stretches: Stretches
     number: Ints
-    """Numbers of stretches, rising, shape (m,)."""
+    """Index of each pair's stretch, rising, shape (m,)."""
 
     square: NDArray[np.uint16]
-    """The square that each touches, shape (m,)."""
+    """Number of each pair's square, shape (m,)."""
 
     @classmethod
-    def of(cls, stretches: Stretches) -> "Listed":
-        """Return stretches (n, NUMBERS) in the order in which they began, and then of their ways."""
-        ordered = stretches[np.lexsort((stretches[:, SERIAL], np.round(stretches[:, BEGUN] / ROUNDED)))]
-        return cls(ordered, *touched(ordered))
+    def of(cls, stretches: Stretches) -> "Listing":
+        """Sort stretches (n, NUMBERS) by the time at which they began, then by way, and list their squares."""
+        ordered = stretches[np.lexsort((stretches[:, SERIAL], np.round(stretches[:, BEGUN] / TIME_STEP)))]
+        return cls(ordered, *touched_squares(ordered))
 
-    def after(self, time: float, counts: NDArray[np.bool_]) -> "Listed":
-        """Return those that were left after `time` [s], in the squares where they still count, (m,); others go."""
+    def kept_after(self, time: float, counts: NDArray[np.bool_]) -> "Listing":
+        """Return the stretches left after `time` [s], with the pairs that `counts` (m,) selects; drop those without."""
         stays = self.stretches[:, LEFT] > time
         if stays.all() and counts.all():
             return self
         stays &= np.bincount(self.number[counts], minlength=len(stays)) > 0
         number, those = np.cumsum(stays, dtype=np.int32) - 1, counts & stays[self.number]
-        return Listed(self.stretches[stays], number[self.number[those]], self.square[those])
+        return Listing(self.stretches[stays], number[self.number[those]], self.square[those])
 
-    def and_then(self, other: "Listed") -> "Listed":
-        """Return these, and others after them."""
+    def and_then(self, other: "Listing") -> "Listing":
+        """Append others."""
         number = other.number + np.int32(len(self.stretches))
-        return Listed(
+        return Listing(
             np.concatenate([self.stretches, other.stretches]),
             np.concatenate([self.number, number]),
             np.concatenate([self.square, other.square]),
         )
 
     def marks(self, *, since: float) -> Marks:
-        """Return them as marks; times count from `since` [s]."""
-        return _marks(told(self.stretches, since), *self.lists())
+        """Return the stretches as marks, with times from `since` [s]."""
+        return _marks(as_marks(self.stretches, since), *self.lists())
 
     def lists(self) -> tuple[NDArray[np.intp], Ints]:
-        """Return how many touch each square, and the lists of the squares one after the other."""
+        """Return the lengths of the squares' lists, and the lists, concatenated."""
         count = np.bincount(self.square, minlength=SIDE * SIDE)
         return count, self.number[np.argsort(self.square, kind="stable")]
 
 
-def told(stretches: Stretches, since: float) -> Floats:
-    """Return stretches (n, NUMBERS) as marks are told, whose times count from `since` [s]."""
+def as_marks(stretches: Stretches, since: float) -> Floats:
+    """Return stretches (n, NUMBERS) as float32 rows of marks, with times from `since` [s]."""
     times = slice(BEGUN, LEFT + 1)
     marks = stretches.astype(np.float32)
     marks[:, times] = stretches[:, times] - since
@@ -121,13 +121,14 @@ def told(stretches: Stretches, since: float) -> Floats:
 
 
 def _marks(marks: Floats, count: NDArray[np.intp], listed: Ints) -> Marks:
+    """Return marks with their lists, each limited to its last `MOST_MARKS`."""
     fewer = np.minimum(count, MOST_MARKS)
     first = np.cumsum(count) - fewer
     return Marks(marks, first.astype(np.int32), fewer.astype(np.int32), listed)
 
 
-def _begins(settled: Marks) -> Ints:
-    """Return the number of the first mark that counts in each square, shape (SIDE * SIDE,)."""
+def _first_counting(settled: Marks) -> Ints:
+    """Return the index of the first mark that counts in each square, shape (SIDE * SIDE,)."""
     begins, full = np.zeros(SIDE * SIDE, np.int32), settled.count == MOST_MARKS
     begins[full] = settled.listed[settled.first[full]]
     return begins
@@ -139,8 +140,8 @@ def square_of(place: Floats, /) -> Ints:
     return np.asarray(at[:, 1] * SIDE + at[:, 0], np.int32)
 
 
-def touched(stretches: Stretches) -> tuple[Ints, NDArray[np.uint16]]:
-    """Return which stretches touch which squares: their numbers, in order, and the squares', each of shape (m,)."""
+def touched_squares(stretches: Stretches) -> tuple[Ints, NDArray[np.uint16]]:
+    """Return all pairs of a stretch and a square that it touches: indices in order, and squares, each of shape (m,)."""
     reach = stretches[:, REACH, None]
     low = np.floor((np.minimum(stretches[:, FIRST], stretches[:, LAST]) - reach) / SQUARE).astype(np.int32)
     high = np.floor((np.maximum(stretches[:, FIRST], stretches[:, LAST]) + reach) / SQUARE).astype(np.int32)
@@ -157,73 +158,74 @@ def touched(stretches: Stretches) -> tuple[Ints, NDArray[np.uint16]]:
 NO_STRETCHES = np.zeros((0, NUMBERS))
 NO_LISTS = np.zeros(SIDE * SIDE, np.intp), np.zeros(0, np.int32)
 
-NOTHING = Listed.of(np.zeros((0, NUMBERS))).marks(since=0.0)
-"""No marks at all."""
+NOTHING = Listing.of(np.zeros((0, NUMBERS))).marks(since=0.0)
+"""No marks."""
 
 UNTRODDEN = Trodden(NOTHING, NOTHING, 0.0, 0.0)
-"""What has been trodden where nobody goes."""
+"""An instant without marks."""
 
 
-AT_A_TIME = 2
-"""Pieces of what is kept that are told again at a time."""
+PIECES_AT_A_TIME = 2
+"""Number of pieces that are converted together."""
 
-WHOLE = 512
-"""Stretches from which on a piece is whole: what settles next begins another one."""
+FULL_PIECE = 512
+"""Number of stretches from which on a piece is full: later stretches begin another one."""
 
-READY = 0.8
-"""Part of a second within which all that is kept is told again for the next one."""
+READY_BY = 0.8
+"""Fraction of a second within which all pieces are converted for the next second."""
 
 
-class Telling:
-    """What is kept, told for a second `since` [s] that comes: bit by bit, so that no frame has all of it to do."""
+class Conversion:
+    """Conversion of kept stretches to marks with times from the coming second `since` [s], spread over frames."""
 
-    def __init__(self, kept: list[Listed], settled: Marks, since: float, lasts: float) -> None:
+    def __init__(self, kept: list[Listing], settled: Marks, since: float, lasts: float) -> None:
         self.since, self.lasts = since, lasts
-        self._left, self._passed, self._begins = iter(kept), 0, _begins(settled)
-        self._turns, self._done = 1 + -(-len(kept) // AT_A_TIME), 0
-        self.kept: list[Listed] = []
-        """Those that still count then, in pieces."""
-        self._told: list[Floats] = []
+        self._pieces_left, self._stretches_seen, self._first_counting = iter(kept), 0, _first_counting(settled)
+        self._steps, self._steps_done = 1 + -(-len(kept) // PIECES_AT_A_TIME), 0
+        self.kept: list[Listing] = []
+        """Stretches that still count then, in pieces."""
+        self._converted: list[Floats] = []
         self._count, self._listed = NO_LISTS
 
-    def go_on(self, part: float) -> None:
-        """Have this part of it done."""
-        while self._done < min(part, 1.0) * self._turns:
-            self._done += 1
-            for piece in islice(self._left, AT_A_TIME):
-                counts = self._passed + piece.number >= self._begins[piece.square]
-                self._passed += len(piece.stretches)
-                self._add(piece.after(self.since - self.lasts, counts))
-            if self._done == self._turns:
-                self._count, self._listed = whole(self.kept).lists()
+    def convert_to(self, part: float) -> None:
+        """Convert until this part, 0 to 1, of all pieces is done."""
+        while self._steps_done < min(part, 1.0) * self._steps:
+            self._steps_done += 1
+            for piece in islice(self._pieces_left, PIECES_AT_A_TIME):
+                counts = self._stretches_seen + piece.number >= self._first_counting[piece.square]
+                self._stretches_seen += len(piece.stretches)
+                self._add(piece.kept_after(self.since - self.lasts, counts))
+            if self._steps_done == self._steps:
+                self._count, self._listed = concatenated(self.kept).lists()
 
     def settle(self, stretches: Stretches) -> Marks:
-        """Return all of it as marks, with others (n, NUMBERS) after them that are kept from now on."""
-        self.go_on(1.0)
-        fresh = Listed.of(stretches)
-        fresh = fresh.after(self.since - self.lasts, np.ones(len(fresh.number), np.bool_))
+        """Finish; return all stretches as marks, followed by new ones (n, NUMBERS), which are kept from now on."""
+        self.convert_to(1.0)
+        fresh = Listing.of(stretches)
+        fresh = fresh.kept_after(self.since - self.lasts, np.ones(len(fresh.number), np.bool_))
         count, listed = fresh.lists()
-        listed = listed + np.int32(sum(map(len, self._told)))
+        listed = listed + np.int32(sum(map(len, self._converted)))
         both = np.empty(len(self._listed) + len(listed), np.int32)
         both[np.repeat(np.cumsum(count) - count, self._count) + np.arange(len(self._listed))] = self._listed
         both[np.repeat(np.cumsum(self._count), count) + np.arange(len(listed))] = listed
         self._add(fresh)
-        return _marks(np.concatenate(self._told), self._count + count, both) if self._told else NOTHING
+        return _marks(np.concatenate(self._converted), self._count + count, both) if self._converted else NOTHING
 
-    def _add(self, piece: Listed) -> None:
+    def _add(self, piece: Listing) -> None:
+        """Append a piece, or join it to the last one while that is not full."""
         if not len(piece.stretches):
             return
-        if self.kept and len(self.kept[-1].stretches) < WHOLE:
+        if self.kept and len(self.kept[-1].stretches) < FULL_PIECE:
             piece = self.kept.pop().and_then(piece)
-            self._told.pop()
+            self._converted.pop()
         self.kept.append(piece)
-        self._told.append(told(piece.stretches, self.since))
+        self._converted.append(as_marks(piece.stretches, self.since))
 
 
-def whole(pieces: list[Listed], /) -> Listed:
-    """Return pieces, one after the other, as one."""
+def concatenated(pieces: list[Listing], /) -> Listing:
+    """Concatenate pieces."""
     begins = np.cumsum([0, *(len(piece.stretches) for piece in pieces)], dtype=np.int32)[:-1]
-    return Listed(
+    return Listing(
         np.concatenate([NO_STRETCHES, *(piece.stretches for piece in pieces)]),
         np.concatenate([NO_LISTS[1], *(piece.number + begin for piece, begin in zip(pieces, begins, strict=True))]),
         np.concatenate([np.zeros(0, np.uint16), *(piece.square for piece in pieces)]),
@@ -231,25 +233,25 @@ def whole(pieces: list[Listed], /) -> Listed:
 
 
 class Memory:
-    """What is remembered of trails: for as long as it counts, and no longer.
+    """The stretches of trails, kept for as long as they count.
 
-    Marks settle at each full second of the scene's time, so that when they do depends on no frame.
+    They settle at each full second of the scene's time, which does not depend on frames.
     """
 
     def __init__(self, trails: list[Trail], lasts: float = 0.0) -> None:
         self.trails, self.lasts = trails, lasts
-        """The trail of a scene's own pressers and that of a game's, and how long a mark is remembered [s]."""
-        self._kept: list[Listed] = []
-        self._telling: Telling | None = None
+        """The trails of the scene's pressers and of the game's; time for which a mark is kept [s]."""
+        self._kept: list[Listing] = []
+        self._conversion: Conversion | None = None
         self._settled, self.since = NOTHING, 0.0
-        """What has settled, and when it did last [s]."""
+        """Settled marks, and the second at which marks last settled [s]."""
 
     def replace(self, trail: Trail) -> None:
-        """Take another trail for that of the scene's own: what the old one has left is as if it had never been."""
+        """Replace the trail of the scene's pressers, and forget all that the old one has left."""
         self.trails[0] = trail
         kept = self.kept
-        self.trails[1].closed.append(kept[kept[:, SERIAL] >= 0.0])  # they settle again, among those of the other trail
-        self._kept, self._telling, self.since = [], None, -1.0
+        self.trails[1].closed.append(kept[kept[:, SERIAL] >= 0.0])  # they settle again, with the new trail's
+        self._kept, self._conversion, self.since = [], None, -1.0
 
     @property
     def kept(self) -> Stretches:
@@ -257,36 +259,37 @@ class Memory:
         return np.concatenate([NO_STRETCHES, *(piece.stretches for piece in self._kept)])
 
     def resume(self, kept: Stretches, since: float) -> None:
-        """Remember just these stretches, in this order, which settled last at `since` [s]."""
-        all_of_it = Listed(kept, *touched(kept))
-        self._kept, self._telling, self.since = [all_of_it], None, since
+        """Restore these stretches, in this order, as settled at `since` [s]."""
+        all_of_it = Listing(kept, *touched_squares(kept))
+        self._kept, self._conversion, self.since = [all_of_it], None, since
         self._settled = all_of_it.marks(since=since) if len(kept) else NOTHING
 
     def at(self, time: float) -> Trodden:
-        """Return what has been trodden by `time` [s], to which the trail has come."""
+        """Return all marks at `time` [s], the present time of the trails."""
         now = float(floor(time))
         if now != self.since:
             self._settle(now)
-        self._due(now + 1.0).go_on((time - now) / READY)
+        self._conversion_for(now + 1.0).convert_to((time - now) / READY_BY)
         found = np.concatenate([part for trail in self.trails for part in (trail.over(), trail.open)])
-        fresh = Listed.of(found).marks(since=self.since) if len(found) else NOTHING
+        fresh = Listing.of(found).marks(since=self.since) if len(found) else NOTHING
         return Trodden(self._settled, fresh, self.since, time)
 
-    def _due(self, since: float) -> Telling:
-        """Return what is kept, told for a second: as far as that has come, if it was begun."""
-        found = self._telling
+    def _conversion_for(self, since: float) -> Conversion:
+        """Return the conversion for a second, as far as it has come, or a new one."""
+        found = self._conversion
         if found is None or found.since != since or found.lasts != self.lasts:
-            self._telling = found = Telling(self._kept, self._settled, since, self.lasts)
+            self._conversion = found = Conversion(self._kept, self._settled, since, self.lasts)
         return found
 
     def _settle(self, since: float) -> None:
+        """Settle the closed stretches that ended before a full second, minus `SETTLE_AFTER` [s]."""
         self.since = since
         found = []
         for trail in self.trails:
             over = trail.over()
-            then = over[:, LEFT] <= since - APART
+            then = over[:, LEFT] <= since - SETTLE_AFTER
             trail.closed = [over[~then]]
             found.append(over[then])
-        telling = self._due(since)
+        telling = self._conversion_for(since)
         self._settled = telling.settle(np.concatenate(found))
-        self._kept, self._telling = telling.kept, None
+        self._kept, self._conversion = telling.kept, None

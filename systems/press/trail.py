@@ -1,4 +1,4 @@
-"""Trails: the way of every disc that presses, cut into stretches of the same length whatever the steps in time."""
+"""Trails: the ways of pressing discs, cut into stretches of a length that does not depend on the time step."""
 
 from dataclasses import dataclass, field
 from math import inf
@@ -12,34 +12,36 @@ Stretches = NDArray[np.float64]
 """Stretches of the ways of discs, one a row, shape (n, NUMBERS)."""
 
 FIRST, LAST = slice(0, 2), slice(2, 4)
-"""Where the disc's middle was at the beginning of a stretch and at its end (x, z) [m]."""
+"""Columns of the disc's middle at the beginning and at the end of a stretch (x, z) [m]."""
 
 BEGUN, CAME, LEFT = 4, 5, 6
-"""When it was at the beginning; when it came to the end, and when it left it, later where it has stood there [s]."""
+"""Columns of times [s]: at the beginning, of arrival at the end, and of departure, later if the disc stood there."""
 
 REACH, STRENGTH, HEADING = 7, 8, slice(9, 11)
-"""How far from its middle grass bends aside [m]; the message there; where it went, or looked if it only stood."""
+"""Columns of the radius within which grass bends aside [m]; the message's length in the middle; the direction of the
+way, or of the presser if it only stood."""
 
 SERIAL = 11
-"""The number of its way, in the order in which ways began; those of a scene's own pressers are below 0."""
+"""Column of the way's number, in the order in which ways began; below 0 for a scene's own pressers."""
 
-SCENES = -(2**40)
-"""The number of the first way of a scene's own pressers: so many never begin that it comes to 0."""
+FIRST_OF_SCENE = -(2**40)
+"""Number of the first way of a scene's own pressers: low enough never to count up to 0."""
 
 NUMBERS = 12
-"""What a stretch is made of."""
+"""Number of columns of a stretch."""
 
-BESIDE = 1.5
-"""How far from the middle grass bends aside, in radii."""
+REACH_RADII = 1.5
+"""Radius within which grass bends aside, relative to the disc's."""
 
-LEAST, PART = 0.3, 0.75
-"""Length of a stretch: this much at least [m], or this part of the radius."""
+LEAST_STRETCH, STRETCH_RADII = 0.3, 0.75
+"""Length of a stretch: at least `LEAST_STRETCH` [m], or `STRETCH_RADII` of the disc's radius."""
 
-STAYS = 0.25
-"""How long a disc stands in a place before a stretch ends there [s]."""
+LONGEST_STAND = 0.25
+"""Longest time that a disc stands still without its stretch ending there [s]."""
 
 JUMP, FASTEST = 2.0, 40.0
-"""What moves farther than `JUMP` [m] and as far as this speed brings it [m/s] has jumped, and trod on nothing."""
+"""Distance [m] and speed [m/s]: a move farther than `JUMP` plus the way at `FASTEST` is a jump, which treads
+nothing."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,13 +52,13 @@ class Discs:
     """Middles (x, z) [m], shape (n, 2)."""
 
     facing: Doubles
-    """Where their pressers look, unit vectors, shape (n, 2)."""
+    """Directions in which their pressers face, unit vectors, shape (n, 2)."""
 
     radius: Doubles
     """Radii [m], shape (n,)."""
 
     strength: Doubles
-    """Messages in their middles, shape (n,)."""
+    """Lengths of the messages in their middles, shape (n,)."""
 
     def __len__(self) -> int:
         return len(self.radius)
@@ -64,96 +66,103 @@ class Discs:
 
 @dataclass(slots=True, eq=False)
 class Trail:
-    """The open stretches of discs that press, and those that have been closed since they were last taken."""
+    """The open stretches of pressing discs, and the closed ones that have not been taken yet."""
 
     open: Stretches = field(default_factory=lambda: np.zeros((0, NUMBERS)))
-    """The stretch that each disc is on, which ends where it is now."""
+    """Present stretch of each disc; it ends at the disc."""
 
     closed: list[Stretches] = field(default_factory=list)
-    """Stretches that are over, in the order in which they ended."""
+    """Finished stretches, in the order in which they ended."""
 
     begun: int = 0
-    """The number of the way that begins next."""
+    """Number of the next way."""
 
     every: float = inf
-    """At multiples of this each way begins a new stretch [s]: from there on nothing depends on what was before."""
+    """Period at whose multiples all ways begin new stretches [s]: later stretches do not depend on earlier ones."""
 
     way: Doubles = field(default_factory=lambda: np.zeros(0))
-    """How far each has come on its stretch [m]."""
+    """Length that each disc has covered on its present stretch [m]."""
 
     def keep(self, before: NDArray[np.intp], after: NDArray[np.intp], discs: Discs, time: float) -> None:
-        """Take over other discs: those numbered `before` (m,) are numbered `after` (m,) now, all others are new."""
-        gone = np.ones(len(self.open), np.bool_)
-        gone[before] = False
-        if gone.any():
-            self.closed.append(self.open[gone])
-        opened, way = self._begun(discs, np.arange(len(discs)), time), np.zeros(len(discs))
+        """Take over other discs: those with indices `before` (m,) now have `after` (m,), the others begin new ways."""
+        is_gone = np.ones(len(self.open), np.bool_)
+        is_gone[before] = False
+        if is_gone.any():
+            self.closed.append(self.open[is_gone])
+        opened, way = self._new_stretches(discs, np.arange(len(discs)), time), np.zeros(len(discs))
         opened[after], way[after] = self.open[before], self.way[before]
         self.open, self.way = opened, way
 
     def resume(self, opened: Stretches, way: Doubles, closed: Stretches, begun: int) -> None:
-        """Go on from stretches that discs were on, how far each had come, those that are over, and their number."""
+        """Restore open stretches, the lengths covered on them, closed stretches, and the number of the next way."""
         self.open, self.way, self.closed, self.begun = opened.copy(), way.copy(), [closed], begun
 
     def over(self) -> Stretches:
-        """Return the stretches that have been closed, in one array."""
+        """Return the closed stretches as one array."""
         if len(self.closed) != 1:
             self.closed = [np.concatenate([np.zeros((0, NUMBERS)), *self.closed])]
         return self.closed[0]
 
     def tread(self, discs: Discs, time: float) -> None:
-        """Bring all discs to where they are at `time` [s]; on the way there they are taken to have gone straight."""
-        on = self.open
-        gone = discs.place - on[:, LAST]
-        far, took = np.hypot(gone[:, 0], gone[:, 1]), time - on[:, LEFT]
-        jumped, moved = far > JUMP + FASTEST * took, far > 0.0
-        stood = moved & ~jumped & (on[:, LEFT] - on[:, CAME] > STAYS)
-        stood |= moved & ~jumped & (on[:, LEFT] % self.every == 0.0) & (on[:, BEGUN] < on[:, LEFT])
+        """Move all discs on straight ways to their positions at `time` [s]."""
+        stretches = self.open
+        step = discs.place - stretches[:, LAST]
+        distance, elapsed = np.hypot(step[:, 0], step[:, 1]), time - stretches[:, LEFT]
+        jumped, moved = distance > JUMP + FASTEST * elapsed, distance > 0.0
+        stood = moved & ~jumped & (stretches[:, LEFT] - stretches[:, CAME] > LONGEST_STAND)
+        stood |= moved & ~jumped & (stretches[:, LEFT] % self.every == 0.0) & (stretches[:, BEGUN] < stretches[:, LEFT])
         self._close(jumped | stood)
-        on[stood, FIRST], on[stood, BEGUN], self.way[stood] = on[stood, LAST], on[stood, LEFT], 0.0
-        past = np.flatnonzero(moved & ~jumped & (self.way + far >= _length(on[:, REACH])))
-        if len(past):
-            self._mark(past, gone[past], far[past], time)
+        stretches[stood, FIRST], stretches[stood, BEGUN], self.way[stood] = (
+            stretches[stood, LAST],
+            stretches[stood, LEFT],
+            0.0,
+        )
+        completing = np.flatnonzero(moved & ~jumped & (self.way + distance >= _stretch_length(stretches[:, REACH])))
+        if len(completing):
+            self._close_passed(completing, step[completing], distance[completing], time)
         moved &= ~jumped
-        on[moved, LAST], on[moved, CAME] = discs.place[moved], time
-        on[moved, HEADING] = gone[moved] / far[moved, None]
-        self.way[moved] += far[moved]
-        on[:, LEFT] = time
+        stretches[moved, LAST], stretches[moved, CAME] = discs.place[moved], time
+        stretches[moved, HEADING] = step[moved] / distance[moved, None]
+        self.way[moved] += distance[moved]
+        stretches[:, LEFT] = time
         if jumped.any():
             rows = np.flatnonzero(jumped)
-            on[rows], self.way[rows] = self._begun(discs, rows, time), 0.0
+            stretches[rows], self.way[rows] = self._new_stretches(discs, rows, time), 0.0
 
-    def _mark(self, rows: NDArray[np.intp], gone: Doubles, far: Doubles, time: float) -> None:
-        """Close the stretches of some discs (n,) on their way of one step (n, 2) [m]; the last ones stay open."""
-        on, length = self.open, _length(self.open[rows, REACH])
-        start, since, at = on[rows, LAST], on[rows, LEFT], length - self.way[rows]
-        on[rows, HEADING] = gone / far[:, None]
-        left = np.flatnonzero(at <= far)
-        while len(left):
-            part, these = at[left] / far[left], rows[left]
-            on[these, LAST] = place = start[left] + part[:, None] * gone[left]
-            then = since[left] + part * (time - since[left])
-            on[these, CAME] = on[these, LEFT] = then
-            self.closed.append(on[these])
-            on[these, FIRST], on[these, BEGUN] = place, then
-            at[left] += length[left]
-            left = left[at[left] <= far[left]]
-        self.way[rows] = -(at - length)  # `tread` adds the whole of the step
+    def _close_passed(self, rows: NDArray[np.intp], step: Doubles, distance: Doubles, time: float) -> None:
+        """Close the stretches that some discs (n,) complete in a step (n, 2) [m]; the last stay open."""
+        stretches, length = self.open, _stretch_length(self.open[rows, REACH])
+        start, began, end = stretches[rows, LAST], stretches[rows, LEFT], length - self.way[rows]
+        stretches[rows, HEADING] = step / distance[:, None]
+        rows_left = np.flatnonzero(end <= distance)
+        while len(rows_left):
+            part, passed = end[rows_left] / distance[rows_left], rows[rows_left]
+            stretches[passed, LAST] = place = start[rows_left] + part[:, None] * step[rows_left]
+            moment = began[rows_left] + part * (time - began[rows_left])
+            stretches[passed, CAME] = stretches[passed, LEFT] = moment
+            self.closed.append(stretches[passed])
+            stretches[passed, FIRST], stretches[passed, BEGUN] = place, moment
+            end[rows_left] += length[rows_left]
+            rows_left = rows_left[end[rows_left] <= distance[rows_left]]
+        self.way[rows] = -(end - length)  # `tread` adds the whole step
 
     def _close(self, which: NDArray[np.bool_]) -> None:
+        """Add the present stretches of some discs to the closed ones."""
         if which.any():
             self.closed.append(self.open[which])
 
-    def _begun(self, discs: Discs, rows: NDArray[np.intp], time: float) -> Stretches:
-        begun = np.zeros((len(rows), NUMBERS))
-        begun[:, FIRST] = begun[:, LAST] = discs.place[rows]
-        begun[:, BEGUN] = begun[:, CAME] = begun[:, LEFT] = time
-        begun[:, REACH], begun[:, STRENGTH] = BESIDE * discs.radius[rows], discs.strength[rows]
-        begun[:, HEADING] = discs.facing[rows]
-        begun[:, SERIAL] = self.begun + np.arange(len(rows))
+    def _new_stretches(self, discs: Discs, rows: NDArray[np.intp], time: float) -> Stretches:
+        """Return new stretches of length 0 for some discs, each on a new way."""
+        stretches = np.zeros((len(rows), NUMBERS))
+        stretches[:, FIRST] = stretches[:, LAST] = discs.place[rows]
+        stretches[:, BEGUN] = stretches[:, CAME] = stretches[:, LEFT] = time
+        stretches[:, REACH], stretches[:, STRENGTH] = REACH_RADII * discs.radius[rows], discs.strength[rows]
+        stretches[:, HEADING] = discs.facing[rows]
+        stretches[:, SERIAL] = self.begun + np.arange(len(rows))
         self.begun += len(rows)
-        return begun
+        return stretches
 
 
-def _length(reach: Doubles) -> Doubles:
-    return np.maximum(LEAST, PART / BESIDE * reach)
+def _stretch_length(reach: Doubles) -> Doubles:
+    """Return the lengths at which stretches end [m], by their reach [m]."""
+    return np.maximum(LEAST_STRETCH, STRETCH_RADII / REACH_RADII * reach)

@@ -1,4 +1,4 @@
-"""Walking: pressers that go together, from pose to pose, and the trail that their footprints leave."""
+"""Walking: pressers that move from pose to pose together, and the trail of their footprints."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,95 +11,97 @@ from ...components.presser import Presser
 from .footprint import discs_of
 from .trail import Discs, Stretches, Trail
 
-Who = tuple[int, Presser]
-"""An entity, and what it presses with: with another footprint it counts as somebody else."""
+EntityPresser = tuple[int, Presser]
+"""An entity and its presser: with another footprint it counts as a new walker."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Stand:
-    """How far a walk has come, with its trail."""
+class WalkState:
+    """State of a walk, with its trail."""
 
-    who: list[Who]
+    pressers: list[EntityPresser]
     pose: Doubles
     """Their poses, shape (n, 3)."""
 
     time: float
-    """The instant of those [s]."""
+    """Time of these poses [s]."""
 
     open: Stretches
     way: Doubles
     closed: Stretches
     begun: int
-    """What its trail is made of, as `Trail` has it."""
+    """Fields of its `Trail`, of the same names."""
 
 
 class Walk:
-    """Pressers and the poses that they have come to, in a fixed order."""
+    """Pressers and their present poses, in a fixed order."""
 
     def __init__(self, trail: Trail) -> None:
         self.trail, self.time = trail, 0.0
-        """The trail of all their discs, and the instant to which it has come [s]."""
-        self.who: list[Who] = []
+        """Trail of all their discs, and its present time [s]."""
+        self.pressers: list[EntityPresser] = []
         self._pose: Doubles = np.zeros((0, 3))
-        self._discs, self._owner = np.zeros((0, 3)), np.zeros(0, np.intp)
+        self._discs, self._presser_of_disc = np.zeros((0, 3)), np.zeros(0, np.intp)
         self._strength: Doubles = np.zeros(0)
 
-    def come(self, who: list[Who], pose: Doubles, time: float) -> bool:
-        """Let pressers come straight to their poses (n, 3) of `time` [s]; return whether anything is new.
+    def move(self, pressers: list[EntityPresser], pose: Doubles, time: float) -> bool:
+        """Move pressers straight to their poses (n, 3) at `time` [s]; return whether anything has changed.
 
-        Those that are new begin there. Those that were among them before and are not now let go of the grass.
+        New pressers begin there. Missing ones let go of the grass.
         """
-        if who != self.who:
-            self._take(who, pose, time)
+        if pressers != self.pressers:
+            self._replace_pressers(pressers, pose, time)
         elif time == self.time and np.array_equal(pose, self._pose):
             return False  # asked again in the same frame
         self._pose, self.time = pose, time
-        self.trail.tread(self._stood(pose), time)
+        self.trail.tread(self._discs_at(pose), time)
         return True
 
-    def stand(self) -> Stand:
-        """Return how far it has come."""
+    def state(self) -> WalkState:
+        """Return the walk's state."""
         trail = self.trail
-        return Stand(self.who, self._pose, self.time, trail.open.copy(), trail.way.copy(), trail.over(), trail.begun)
+        return WalkState(
+            self.pressers, self._pose, self.time, trail.open.copy(), trail.way.copy(), trail.over(), trail.begun
+        )
 
-    def resume(self, stand: Stand, who: list[Who]) -> None:
-        """Go on from where a walk stood, with these in the place of those who went."""
-        self._arrange(who)
-        self._pose, self.time = stand.pose, stand.time
-        self.trail.resume(stand.open, stand.way, stand.closed, stand.begun)
+    def resume(self, state: WalkState, pressers: list[EntityPresser]) -> None:
+        """Restore a walk's state, with the pressers `pressers` in place of its own."""
+        self._set_pressers(pressers)
+        self._pose, self.time = state.pose, state.time
+        self.trail.resume(state.open, state.way, state.closed, state.begun)
 
-    def _take(self, who: list[Who], pose: Doubles, time: float) -> None:
-        """Take over other pressers; those that stay go on where they are."""
-        first = {key: number for number, key in enumerate(self.who)}
-        before_starts = np.flatnonzero(np.diff(self._owner, prepend=-1))
-        counts = self._arrange(who)
+    def _replace_pressers(self, pressers: list[EntityPresser], pose: Doubles, time: float) -> None:
+        """Take over other pressers; those that stay continue their stretches."""
+        first = {key: number for number, key in enumerate(self.pressers)}
+        before_starts = np.flatnonzero(np.diff(self._presser_of_disc, prepend=-1))
+        counts = self._set_pressers(pressers)
         starts = np.cumsum(counts) - counts
         before, after = [np.zeros(0, np.intp)], [np.zeros(0, np.intp)]
-        for number, key in enumerate(who):
+        for number, key in enumerate(pressers):
             if key in first:
                 before.append(before_starts[first[key]] + np.arange(counts[number]))
                 after.append(starts[number] + np.arange(counts[number]))
-        self.trail.keep(np.concatenate(before), np.concatenate(after), self._stood(pose), time)
+        self.trail.keep(np.concatenate(before), np.concatenate(after), self._discs_at(pose), time)
 
-    def _arrange(self, who: list[Who]) -> NDArray[np.intp]:
-        """Let these be who go, and return how many discs each has, shape (n,)."""
-        each = [discs_of(presser) for _, presser in who]
-        counts = np.array([len(discs) for discs in each], np.intp)
-        self.who, self._owner = who, np.repeat(np.arange(len(who)), counts)
-        self._discs = np.concatenate([np.zeros((0, 3)), *each])
-        self._strength = np.array([presser.strength for _, presser in who])[self._owner]
+    def _set_pressers(self, pressers: list[EntityPresser]) -> NDArray[np.intp]:
+        """Set the pressers; return each one's number of discs, shape (n,)."""
+        discs = [discs_of(presser) for _, presser in pressers]
+        counts = np.array([len(discs) for discs in discs], np.intp)
+        self.pressers, self._presser_of_disc = pressers, np.repeat(np.arange(len(pressers)), counts)
+        self._discs = np.concatenate([np.zeros((0, 3)), *discs])
+        self._strength = np.array([presser.strength for _, presser in pressers])[self._presser_of_disc]
         return counts
 
-    def _stood(self, pose: Doubles) -> Discs:
-        """Return where the discs of pressers with these poses (n, 3) are."""
-        yaw, own = pose[self._owner, 2], self._discs
+    def _discs_at(self, pose: Doubles) -> Discs:
+        """Return the discs of the pressers at these poses (n, 3)."""
+        yaw, own = pose[self._presser_of_disc, 2], self._discs
         sine, cosine = np.sin(yaw), np.cos(yaw)
-        x = pose[self._owner, 0] + cosine * own[:, 0] - sine * own[:, 1]
-        z = pose[self._owner, 1] + sine * own[:, 0] + cosine * own[:, 1]
+        x = pose[self._presser_of_disc, 0] + cosine * own[:, 0] - sine * own[:, 1]
+        z = pose[self._presser_of_disc, 1] + sine * own[:, 0] + cosine * own[:, 1]
         return Discs(np.stack([x, z], axis=1), np.stack([sine, -cosine], axis=1), own[:, 2], self._strength)
 
 
-def staying(before: Sequence[Who], now: Sequence[Who], /) -> list[Who]:
-    """Return those of `before` that are there `now`."""
+def staying(before: Sequence[EntityPresser], now: Sequence[EntityPresser], /) -> list[EntityPresser]:
+    """Return the entries of `before` that are in `now`, in their order."""
     there = set(now)
     return [key for key in before if key in there]

@@ -16,7 +16,7 @@ from tallgrass.systems.press import marks
 from tallgrass.systems.press.footprint import discs_of
 from tallgrass.systems.press.lie import combined_message, pressed, touches
 from tallgrass.systems.press.marks import MOST_MARKS, UNTRODDEN, Marks, Memory, Trodden
-from tallgrass.systems.press.trail import BESIDE, Discs, Trail
+from tallgrass.systems.press.trail import REACH_RADII, Discs, Trail
 from tallgrass.testing.trial import grass_at
 
 Way = Callable[[float], tuple[float, float]]
@@ -96,7 +96,7 @@ def test_r3_many_who_walk_in_step_take_as_many_steps_of_the_program_as_two() -> 
 def test_f4_beside_a_way_grass_swings_past_rest_as_its_kind_answers_and_comes_to_rest() -> None:
     place, walk = (0.0, 0.55), walked(east_for(4.0), until=4.0, steps=240)
     pressed_at_first = float(felt(walked(east, until=2.0, steps=120), place)[0, 1])
-    since = 2.0 + float(np.sqrt((BESIDE * RADIUS) ** 2 - 0.55**2)) / 1.5
+    since = 2.0 + float(np.sqrt((REACH_RADII * RADIUS) ** 2 - 0.55**2)) / 1.5
     course = [float(felt(replace(walk, time=time), place)[0, 1]) for time in np.linspace(since + 0.01, 12.0, 300)]
     assert pressed_at_first > 0.25
     assert course[0] > 0.9 * pressed_at_first
@@ -225,7 +225,7 @@ def test_f4_a_footprint_is_made_of_discs_that_fill_it(
         return bool((np.hypot(*(discs[:, :2] - place).T) < part * discs[:, 2]).any())
 
     assert all(covered(place, 1.0) for place in inside)
-    assert not any(covered(place, BESIDE) for place in outside)
+    assert not any(covered(place, REACH_RADII) for place in outside)
 
 
 @pytest.mark.parametrize(
@@ -251,20 +251,20 @@ def test_f4_corners_may_stand_in_lists_and_in_arrays() -> None:
 def test_what_settles_is_told_a_little_in_each_frame_and_comes_to_what_it_is_told_at_once(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    told: list[int] = []
+    converted: list[int] = []
 
     def counted(stretches: NDArray[np.float64], since: float) -> NDArray[np.float32]:
-        told[-1] += len(stretches)
-        return tell(stretches, since)
+        converted[-1] += len(stretches)
+        return convert(stretches, since)
 
-    tell = marks.told
-    monkeypatch.setattr(marks, "told", counted)
+    convert = marks.as_marks
+    monkeypatch.setattr(marks, "as_marks", counted)
     random, trail = np.random.default_rng(4), Trail()
     middle, none, count = random.uniform(-30.0, 30.0, (300, 2)), np.zeros(0, np.intp), 0
     memory, radius = Memory([trail], 12.0), np.full(300, 0.2)
     for frame in range(20 * 60):
         time = frame / 60.0
-        told.append(0)
+        converted.append(0)
         place = middle + 5.0 * np.stack([np.cos(middle[:, 0] + 0.6 * time), np.sin(middle[:, 0] + 0.6 * time)], axis=1)
         discs = Discs(place, np.tile([1.0, 0.0], (300, 1)), radius, np.ones(300))
         if not frame:
@@ -272,9 +272,9 @@ def test_what_settles_is_told_a_little_in_each_frame_and_comes_to_what_it_is_tol
         trail.tread(discs, time)
         trodden = memory.at(time)
         if frame % 60 in (0, 7):
-            told.append(0)
-            at_once = marks.Listed(memory.kept, *marks.touched(memory.kept)).marks(since=memory.since)
-            told.pop()
+            converted.append(0)
+            at_once = marks.Listing(memory.kept, *marks.touched_squares(memory.kept)).marks(since=memory.since)
+            converted.pop()
             if len(memory.kept):
                 for one, other in zip(read(trodden.settled), read(at_once), strict=True):
                     np.testing.assert_array_equal(one, other)
@@ -282,4 +282,4 @@ def test_what_settles_is_told_a_little_in_each_frame_and_comes_to_what_it_is_tol
     assert count > 25
     kept = len(memory.kept)
     assert kept > 20_000
-    assert max(told[-240:]) < 0.25 * kept
+    assert max(converted[-240:]) < 0.25 * kept
