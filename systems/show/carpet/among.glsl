@@ -10,10 +10,10 @@ const float LEAST_STRIPS = 1e-3;  // leaf area on strips that counts at least
 // Strips in front, which bear so much of the leaf area, have stopped a part of the line of sight already, high up. The carpet
 // lies at RAISED of its share of their height and hides what they have below it: it shows what is left of what both together
 // would stop.
-vec2 among_strips(float on_strips, float slope, float share, float stands, float dense) {
+vec2 among_strips(float on_strips, float slope, float share, float stands, float leaf_area) {
     slope = max(slope, LOWEST);
-    float longer = 1.0 / slope, leaves = dense * longer, out_of_it = max(1.0 - RAISED * share / stands, 0.0);
-    vec2 depth = depth_met(max(dense, THINNEST) * longer * vec3(1.0, max(on_strips, LEAST_STRIPS), 1.0)).xy;
+    float longer = 1.0 / slope, leaves = leaf_area * longer, out_of_it = max(1.0 - RAISED * share / stands, 0.0);
+    vec2 depth = depth_met(max(leaf_area, THINNEST) * longer * vec3(1.0, max(on_strips, LEAST_STRIPS), 1.0)).xy;
     vec2 hides = 1.0 - comes_through(leaves * vec2(1.0, on_strips));
     float own = hides.x * depth.x - hides.y * out_of_it * depth.y, behind = max(hides.x - hides.y, TINY);
     float part = (1.0 - comes_through(leaves * (1.0 - on_strips))) / max(hides.x, TINY);
@@ -21,16 +21,16 @@ vec2 among_strips(float on_strips, float slope, float share, float stands, float
 }
 
 // How high leaves are that are seen, of how high the flattest image shows them: flatter lines of sight meet tips alone.
-float higher(float on_level, float dense) {
-    vec2 high = 1.0 - depth_met(max(dense, THINNEST) / max(vec3(LOWEST, FLATTEST, 1.0), on_level)).xy;
+float higher(float on_level, float leaf_area) {
+    vec2 high = 1.0 - depth_met(max(leaf_area, THINNEST) / max(vec3(LOWEST, FLATTEST, 1.0), on_level)).xy;
     return high.y / high.x;
 }
 
 // How deep leaves are that are seen, of how deep they are on level ground. Over a crest nothing is met that lies deeper than
 // the line of sight comes, which is `deep` below the top of the grass.
-float shallower(float deep, float on_level, float share, float crest, float stands, float dense) {
-    float most = max(1.0 - RAISED * (share * lifted(deep, crest, stands) / stands - deep), LEAST_DEEP);
+float shallower(float deep, float on_level, float share, float curvature, float stands, float leaf_area) {
+    float most = max(1.0 - RAISED * (share * carpet_lift(deep, curvature, stands) / stands - deep), LEAST_DEEP);
     if (most >= 1.0 / MET)
         return 1.0;
-    return clamp(MET * most / depth_met(max(dense, THINNEST) / max(LOWEST, on_level)), UNEVEN, 1.0);
+    return clamp(MET * most / depth_met(max(leaf_area, THINNEST) / max(LOWEST, on_level)), UNEVEN, 1.0);
 }

@@ -27,13 +27,13 @@ in vec3 place;
 #define OF_SLOPE FEW
 #endif
 
-WITHIN in float carpet;
+WITHIN in float mesh_share;
 OF_SLOPE vec2 rise;
-WITHIN in float crest;
+WITHIN in float curvature;
 WITHIN in float lowered;
-WITHIN in float past;
+WITHIN in float rim_path;
 BROUGHT float tall;
-BROUGHT float dense;
+BROUGHT float leaf_area;
 BROUGHT ByKind met;
 BROUGHT vec3 soil_seen;
 WITHIN in mat4 lit;
@@ -92,7 +92,7 @@ void work_out(float slope) {
 #endif
 #if KINDS > 4
     strips_before = 1.0;
-    slow = slow_seen(seen_at(place, slope, tall, dense), slope, tall);
+    slow = slow_seen(leaf_place(place, slope, tall, leaf_area), slope, tall);
     vec2 message = message_at(place.xz);
     stands = lodged(message);
     sways = sways_by(areas(grown), message);
@@ -109,7 +109,7 @@ Canopy canopy_here(Sight sight) {
 #endif
 #ifdef TRODDEN
     if (trodden_at(place.xz))
-        canopy = trodden(canopy, met, place, sight.slope, sight.on_level, seen_at(place, sight.slope, tall, dense));
+        canopy = trodden(canopy, met, place, sight.slope, sight.on_level, leaf_place(place, sight.slope, tall, leaf_area));
 #endif
     return canopy;
 }
@@ -117,29 +117,29 @@ Canopy canopy_here(Sight sight) {
 // What the carpet shows: of grass and of the ground between, as much as there is of each, as of blades in front of it; and how
 // much more leaves are met of plants that stand out of it. `cover` is how much of it is grass.
 vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
-    vec2 shown_at = shows_at(place.xz, sight.heading, lowered, sight.slope);
+    vec2 shown_at = image_place(place.xz, sight.heading, lowered, sight.slope);
     Patch own = patch_at(shown_at, sways, stands);
     Canopy canopy = canopy_here(sight);
     own.blown.xy += canopy.sways;
     vec2 among = vec2(1.0);
     if (min(sight.share, 1.0 - strips_before) < 1.0) {  // by pixel: between corners it bends too much
-        float on_strips = come_through(place.xz, max(sight.slope, TINY), carpet, tall, stands).y;
-        among = among_strips(on_strips, sight.on_level, carpet, stands, dense);
+        float on_strips = strips_met(place.xz, max(sight.slope, TINY), mesh_share, tall, stands).y;
+        among = among_strips(on_strips, sight.on_level, mesh_share, stands, leaf_area);
     }
-    float deep = deepest(sight.slope, crest, tall * stands), stubble = 1.0;
+    float deep = deepest(sight.slope, curvature, tall * stands), stubble = 1.0;
     ByKind area = all_kinds(0.0);
     if (anything_is_cut()) {
         area = areas(grown);
         stubble -= comes_through(weighed(area, leaves_left(left)) / max(sight.slope, LOWEST));
     }
 #ifndef HEADS
-    canopy.bent.yz *= higher(sight.on_level, dense);
+    canopy.bent.yz *= higher(sight.on_level, leaf_area);
 #endif
-    float shallow = shallower(deep, sight.on_level, sight.share, crest, stands, dense);
+    float shallow = shallower(deep, sight.on_level, sight.share, curvature, stands, leaf_area);
     vec4 sent = any_lamps() ? lamps_seen(sight) : vec4(0.0);
     View view = View(canopy.light, canopy.bent, among, shallow, left, stubble, area, sent, stretch(slow));
 #if KINDS > 4 || defined(EDGED)
-    elevation = elevation_seen(sight.on_level, dense);
+    elevation = elevation_seen(sight.on_level, leaf_area);
 #endif
     Reading read = reading(own, sight, shown_at, tall, elevation);
     float taller, grain = grain_of(read, sight, tall, stands, own.blown.z);
@@ -154,30 +154,30 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
 
 // How many leaves lines of sight meet over an outline, that of a crest or of a rim, where taller plants stand out so.
 vec4 met_behind(float slope) {
-    return past < NO_RIM ? vec4(RIM * dense * past * past) : met_over(slope, crest, tall, stands, dense, pixel_at(place));
+    return rim_path < NO_RIM ? vec4(RIM * leaf_area * rim_path * rim_path) : met_over(slope, curvature, tall, stands, leaf_area, pixel_height(place));
 }
 
 float stands_out(float taller) {
-    return past < NO_RIM ? sqrt(taller) : taller;
+    return rim_path < NO_RIM ? sqrt(taller) : taller;
 }
 
 // Where the ground ends with the terrain, so does the grass: how much of what a line of sight would meet it does.
 float before_rim(float slope) {
     vec2 way = heading_to(place.xz), rim = abs(mix(mesh_low, mesh_high, step(0.0, way)) - place.xz);
-    float on = min(rim.x / max(abs(way.x), TINY), rim.y / max(abs(way.y), TINY)), leaves = dense / max(slope, LOWEST);
-    float met = 1.0 - comes_through(dense * on / max(carpet * tall, LOWEST_GRASS));
+    float on = min(rim.x / max(abs(way.x), TINY), rim.y / max(abs(way.y), TINY)), leaves = leaf_area / max(slope, LOWEST);
+    float met = 1.0 - comes_through(leaf_area * on / max(mesh_share * tall, LOWEST_GRASS));
     return min(met / max(1.0 - comes_through(leaves), TINY), 1.0);
 }
 
 // How much of what is seen there is carpet's.
 float shares_here() {
-    return carpet > 0.0 ? share_at(ivec2(floor(place.xz * patches_a_metre))) : 0.0;
+    return mesh_share > 0.0 ? share_at(ivec2(floor(place.xz * patches_a_metre))) : 0.0;
 }
 
 #ifdef EDGED
 // Where the line of sight comes to grass, from the mesh on, is the place of the pixel; how much that hides of what is behind.
 float comes_to_grass() {
-    Way way = way_from(over, lies_over, raises, viewing_slope(rise, over), crest);
+    Way way = way_from(over, lies_over, raises, viewing_slope(rise, over), curvature);
     bool aside;
     float at = enters(way, aside);
     if (hung > 0.0 && at <= 0.0)  // it stands as high on both sides: the tile before shows it
@@ -186,15 +186,15 @@ float comes_to_grass() {
     grown = grows_at(place.xz);
     float left = left_here(place.xz);
     tall = carpet_high(grown, left);
-    dense = weighed(grown, areas(leaves_left(left)));
+    leaf_area = weighed(grown, areas(leaves_left(left)));
     return at < 0.0 ? 0.0 : hidden_behind(way, at, aside, areas(grown), left);
 }
 
 // How much of each kind is met there.
 void meet(float slope, float left) {
     ByKind ripe;
-    float on_level = max(level_slope(max(slope, 0.0), crest, carpet, tall, stands), FLATTEST);
-    met = kinds_met(grown, on_level, left, left_by_strips(1.0 - strips_before, carpet), ripe);
+    float on_level = max(level_slope(max(slope, 0.0), curvature, mesh_share, tall, stands), FLATTEST);
+    met = kinds_met(grown, on_level, left, left_by_strips(1.0 - strips_before, mesh_share), ripe);
     met = shared_out(met, grown, on_level);
 #ifdef HEADS
     riper = ripe;
@@ -205,25 +205,25 @@ void meet(float slope, float left) {
 // Show what is seen there, where a line of sight has this slope and the carpet this share, and return whether anything is: of what is
 // behind, grass hides `hidden` of what outlines say. To the next pixel it is so far (x, z) [m], and so far on the ground between.
 bool show(float slope, float ahead, float left, float share, float hidden, vec2 dx, vec2 dy, vec3 ground, vec2 soil_dx, vec2 soil_dy) {
-    vec3 pigment = pigment_lying(ground.xz, soil_dx, soil_dy, comes_through(dense / max(slope, LOWEST)), lush, left);
+    vec3 pigment = pigment_lying(ground.xz, soil_dx, soil_dy, comes_through(leaf_area / max(slope, LOWEST)), lush, left);
     vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way, soil_through), ground, left);
     vec3 color = shown_of(soil_light * pigment * pigment + lit[2].rgb);
     float cover = 0.0;
     if (over_hosts > 0.0)
         color = vec3(0.0);  // the game's ground is seen there
-    float top = slope + carpet * ahead, hides = min(share / SHOWN_FROM, 1.0);
+    float top = slope + mesh_share * ahead, hides = min(share / SHOWN_FROM, 1.0);
     vec4 met_there = met_behind(top);
     float covered = 1.0 - hides * comes_through(met_there.w * stands_out(standing_out(TALLER, 1.0)));  // at most
     // It writes its depth: where strips still stand on the patch, the thin edge of an outline would hide them.
     if (covered < max(part == 1 ? HALF : NOTHING, STANDING * (1.0 - share)))
         return false;
 #ifdef EDGED
-    vec3 before = over_hosts > 0.0 ? before_hosts(place, carpet * tall, slope) : place;
+    vec3 before = over_hosts > 0.0 ? before_hosts(place, mesh_share * tall, slope) : place;
     gl_FragDepth = gl_FragCoord.z + deeper(before, over);
 #endif
     if (share > 0.0) {
-        slope = past < NO_RIM ? slope : slope_below(slope, crest, pixel_at(place));
-        float on_level = level_slope(slope, crest, share, tall, stands);
+        slope = rim_path < NO_RIM ? slope : slope_below(slope, curvature, pixel_height(place));
+        float on_level = level_slope(slope, curvature, share, tall, stands);
         Sight sight = Sight(heading_to(place.xz), slope, on_level, smoothstep(ABOVE.x, ABOVE.y, slope), share, dx, dy);
         vec4 seen = carpet_seen(sight, left, color, cover);
         color = seen.rgb;

@@ -36,12 +36,12 @@ out vec3 place;
 #define OF_SLOPE FEW
 #endif
 
-WITHIN out float carpet;    // how much of what is seen is carpet's
+WITHIN out float mesh_share;    // how much of what is seen is carpet's
 OF_SLOPE vec2 rise;  // of the ground, along x and z
-WITHIN out float crest;     // how fast the rise falls off along the line of sight [1/m]
-WITHIN out float past;      // what it meets that passes over a rim, as past_rim has it
+WITHIN out float curvature;     // how fast the rise falls off along the line of sight [1/m]
+WITHIN out float rim_path;      // what it meets that passes over a rim, as past_rim has it
 BROUGHT float tall;     // height of the carpet [m]
-BROUGHT float dense;    // leaf area seen from the side, of the ground's area
+BROUGHT float leaf_area;    // leaf area seen from the side, of the ground's area
 BROUGHT ByKind met;     // by kind: how much of what a line of sight meets
 BROUGHT vec3 soil_seen;  // radiance of the soil, without haze
 WITHIN out mat4 lit;        // the light on leaves of the kinds that are met; beside it, how what is met changes as the wind bends them
@@ -85,31 +85,31 @@ float stands_out(Laid laid, vec3 place) {
     return 0.0;
 #else
     float tops = (laid.tops - 1.0) * laid.tall * max(outline, 1.0);
-    return laid.past < NO_RIM || over_hosts > 0.0 ? 0.0 : laid.share * laid.along * (tops + 0.5 * pixel_at(place));
+    return laid.rim_path < NO_RIM || over_hosts > 0.0 ? 0.0 : laid.share * laid.crest_weight * (tops + 0.5 * pixel_height(place));
 #endif
 }
 
 void hand_on(Laid laid) {
-    carpet = laid.share;
+    mesh_share = laid.share;
     rise = laid.rise;
-    crest = laid.crest;
-    past = laid.past;
+    curvature = laid.curvature;
+    rim_path = laid.rim_path;
 #ifndef COARSE
     lowered = laid.lowered;
 #endif
     tall = laid.tall;
-    dense = laid.dense;
+    leaf_area = laid.leaf_area;
     stands = laid.stands;
 }
 
 #ifdef COARSE
 // Where leaves are met that stand among strips, over a crest and in the wind, of where images show them.
 void see_among(float slope, vec2 bent) {
-    on_strips = sqrt(come_through(place.xz, max(slope, TINY), carpet, tall, stands).y);
+    on_strips = sqrt(strips_met(place.xz, max(slope, TINY), mesh_share, tall, stands).y);
 #ifndef HEADS
-    bent *= higher(on_level, dense);
+    bent *= higher(on_level, leaf_area);
 #endif
-    lies_at = vec4(bent, bent * shallower(deepest(slope, crest, tall * stands), on_level, carpet, crest, stands, dense));
+    lies_at = vec4(bent, bent * shallower(deepest(slope, curvature, tall * stands), on_level, mesh_share, curvature, stands, leaf_area));
 }
 
 // As much more of each kind as grass hides, seen at this slope, than images do in the mean. Heads stand scattered, and hide nothing.
@@ -130,7 +130,7 @@ ByKind filled_up(ByKind covers) {
 
 // The light on what is met.
 void light_up(float slope, float on, ByKind grows, vec2 message) {
-    vec3 there = seen_at(place, slope, tall, dense);
+    vec3 there = leaf_place(place, slope, tall, leaf_area);
     vec2 messages[KINDS];
     for (int kind = 0; kind < KINDS; kind++)
         messages[kind] = message;
@@ -175,7 +175,7 @@ void light_soil(vec3 ground, Laid laid) {
 
 void main() {
 #ifdef EDGED
-    place = on_ground(on_mesh_at(above_border() + piece.xy));
+    place = on_ground(on_mesh_at(skirt_top() + piece.xy));
 #else
     place = on_ground(on_mesh());
 #endif
@@ -187,22 +187,22 @@ void main() {
     over = place;
     lies_over = place.y - laid.ground;
     raises = lies_over / max(laid.tall, LOWEST_GRASS);
-    hung = hangs(over.xz);
+    hung = skirt_drop(over.xz);
     over.y -= hung * lies_over;
 #endif
     hand_on(laid);
     float slope = viewing_slope(rise, place), from_above = max(slope, FLATTEST);
-    strips_before = come_through(place.xz, from_above, carpet, tall, stands).x;
+    strips_before = strips_met(place.xz, from_above, mesh_share, tall, stands).x;
 #ifndef COARSE
     float on_level;
 #endif
-    on_level = max(level_slope(max(slope, 0.0), crest, carpet, tall, stands), FLATTEST);
+    on_level = max(level_slope(max(slope, 0.0), curvature, mesh_share, tall, stands), FLATTEST);
     ByKind ripe;
-    met = shared_out(kinds_met(laid.grows, on_level, laid.left, left_by_strips(1.0 - strips_before, carpet), ripe), laid.grows, on_level);
+    met = shared_out(kinds_met(laid.grows, on_level, laid.left, left_by_strips(1.0 - strips_before, mesh_share), ripe), laid.grows, on_level);
 #ifdef HEADS
     riper = ripe;
 #endif
-    elevation = elevation_seen(on_level, dense);
+    elevation = elevation_seen(on_level, leaf_area);
 #ifdef COARSE
     blown = sways_by(met, laid.message) * laid.message;
 #else

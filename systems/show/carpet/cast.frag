@@ -5,7 +5,7 @@
 uniform vec3 light;
 
 in vec3 place;
-in float carpet;
+in float mesh_share;
 in float high;
 in float stops;
 
@@ -17,7 +17,7 @@ float lot(int number) {
 
 void main() {
     float met = -log(max(1.0 - lot(0), LEAST_LENGTH));  // leaves that it meets before it is stopped
-    if (met > stops || lot(1) > carpet)
+    if (met > stops || lot(1) > mesh_share)
         discard;
     vec3 from = normalize(light - place);
     vec4 there = clip * vec4(place - from * (high * depth_passed(met / stops) / max(from.y, LEVEL)), 1.0);

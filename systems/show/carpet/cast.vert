@@ -7,7 +7,7 @@ uniform vec3 light;  // where it comes from [m]
 const float LEAST_TOLD = 1e-4;  // leaf area that divides at least
 
 out vec3 place;
-out float carpet;  // how much of what is seen is carpet's
+out float mesh_share;  // how much of what is seen is carpet's
 out float high;    // of the grass [m]
 out float stops;   // leaves that light meets on its way to the ground
 
@@ -25,7 +25,7 @@ void main() {
         sum += leaves;
     }
     high /= max(sum, LEAST_TOLD);
-    carpet = lowest_share(place.xz);
+    mesh_share = lowest_share(place.xz);
     place.y += high;
     gl_Position = clip * vec4(place, 1.0);
 }

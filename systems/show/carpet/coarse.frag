@@ -10,12 +10,12 @@
 #include "systems/show/carpet/within.glsl"
 
 in vec3 place;
-WITHIN in float carpet;
+WITHIN in float mesh_share;
 WITHIN in vec2 rise;
-WITHIN in float crest;
-WITHIN in float past;
+WITHIN in float curvature;
+WITHIN in float rim_path;
 WITHIN in float tall;
-WITHIN in float dense;
+WITHIN in float leaf_area;
 WITHIN in ByKind met;
 WITHIN in vec3 soil_seen;  // as it is shown, for litter whose brightness is 1
 WITHIN in vec3 soil_shaded;
@@ -120,27 +120,27 @@ Grass grass_seen(vec2 heading, float high) {
 // How much of what is behind an outline the grass hides, that of a crest or of a rim. What one image shows is twice as uneven as two
 // do, which are mixed.
 float hides_behind(float slope, float stands_out) {
-    if (past < NO_RIM)
-        return 1.0 - comes_through(RIM * dense * sqrt(stands_out) * past * past);
-    return outline_cover(met_over(slope, crest, tall, stands, dense, pixel_at(place)) * sqrt(stands_out));
+    if (rim_path < NO_RIM)
+        return 1.0 - comes_through(RIM * leaf_area * sqrt(stands_out) * rim_path * rim_path);
+    return outline_cover(met_over(slope, curvature, tall, stands, leaf_area, pixel_height(place)) * sqrt(stands_out));
 }
 
 void main() {
-    float share = carpet > 0.0 ? share_at(ivec2(floor(place.xz * patches_a_metre))) : 0.0, covered = 1.0;
+    float share = mesh_share > 0.0 ? share_at(ivec2(floor(place.xz * patches_a_metre))) : 0.0, covered = 1.0;
     float sunny = any_casters() ? past_casters(place) : 1.0;
     vec3 soil = any_casters() ? mix(soil_shaded, soil_seen, sunny) : soil_seen;
     vec3 color = soil * lying_seen(place.xz, dFdx(place.xz), dFdy(place.xz), share > 0.0 ? 0.0 : 1.0).x;
     if (share > 0.0) {
         vec3 ray = place - eye;
         float nearness = inversesqrt(max(dot(ray.xz, ray.xz), TINY * TINY)), facing = (dot(rise, ray.xz) - ray.y) * nearness;
-        float slope = max(past < NO_RIM ? facing : slope_below(facing, crest, pixel_at(place)), 0.0);
-        vec2 among = on_strips > 0.0 ? among_strips(on_strips * on_strips, on_level, carpet, stands, dense) : vec2(1.0);
+        float slope = max(rim_path < NO_RIM ? facing : slope_below(facing, curvature, pixel_height(place)), 0.0);
+        vec2 among = on_strips > 0.0 ? among_strips(on_strips * on_strips, on_level, mesh_share, stands, leaf_area) : vec2(1.0);
         Grass grass = grass_seen(ray.xz * nearness, among.y);
         Light light = unbundled(lit);
         if (any_casters())
             light = shaded(light, sunny, 1.0);
         vec3 leaves = shown_of(shade(leaf_at(grass.pigment, grass.height), light));
-        float deep = deepest(slope, crest, tall * stands);
+        float deep = deepest(slope, curvature, tall * stands);
         float covers = among.x * mix(min(grass.covers / LEAST_COVER, 1.0), grass.covers, smoothstep(ENDS.x * share, ENDS.y * share, deep));
         color = color * (1.0 - covers) + leaves * covers;
         covered = mix(1.0, hides_behind(facing, standing_out(grass.taller, share)), min(share / SHOWN_FROM, 1.0));

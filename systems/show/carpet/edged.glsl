@@ -37,19 +37,19 @@ struct Way {
     float high;    // how high the mesh lies over the ground [m]
     float raises;  // and of how high the carpet is on level ground
     float slope;   // of the line of sight to the ground
-    float crest;   // how fast the rise of the ground falls off along it [1/m]
+    float curvature;   // how fast the rise of the ground falls off along it [1/m]
     float pixels;  // how high whole grass is in the picture: so many places on the way are told apart
 };
 
-Way way_from(vec3 place, float high, float raises, float slope, float crest) {
+Way way_from(vec3 place, float high, float raises, float slope, float curvature) {
     vec3 ray = place - eye;
     float pixels = ceil(high * pixels_a_metre() / length(ray)), ground = high - place.y + height_near(place.xz);
-    return Way(place, heading_to(place.xz), -ray.y / max(length(ray.xz), TINY), ground, high, raises, slope, crest, pixels);
+    return Way(place, heading_to(place.xz), -ray.y / max(length(ray.xz), TINY), ground, high, raises, slope, curvature, pixels);
 }
 
 // How far over the ground it goes on until it comes to that, or is past where it comes nearest to it over a crest [m].
 float to_ground(Way way) {
-    float slope = max(way.slope, FLATTEST), turns = slope * slope - 2.0 * way.crest * way.high;
+    float slope = max(way.slope, FLATTEST), turns = slope * slope - 2.0 * way.curvature * way.high;
     return 2.0 * way.high / (slope + sqrt(max(turns, 0.0)));
 }
 

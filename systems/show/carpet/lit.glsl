@@ -31,7 +31,7 @@ vec3 turned_to(int kind, vec3 lean, vec3 ray) {
 
 // The slow noises of the pigment where leaves are seen: the mean of nearer and farther ones.
 vec2 slow_seen(vec3 there, float slope, float tall) {
-    vec2 apart = heading_to(there.xz) * min(SPREAD * along_ground(slope, tall), FARTHEST_SEEN);
+    vec2 apart = heading_to(there.xz) * min(SPREAD * ground_spread(slope, tall), FARTHEST_SEEN);
     return 0.5 * (slow_at(there.xz - apart) + slow_at(there.xz + apart));
 }
 

@@ -18,21 +18,21 @@ const float ENOUGH = 2.8;  // leaves that are met in the mean where taller plant
 const float OPAQUE = 12.0;  // optical depth of bare ground, which is its own outline
 
 // How much higher that is for a crest of this curvature, in pixels so high [m]: on a game's own ground the edge has none behind it.
-float counts_higher(float crest, float pixel) {
+float counts_higher(float curvature, float pixel) {
 #ifdef EDGED
     return 0.0;
 #else
-    return over_hosts > 0.0 ? 0.0 : HIGHER * bulging(crest) * pixel;
+    return over_hosts > 0.0 ? 0.0 : HIGHER * crest_amount(curvature) * pixel;
 #endif
 }
 
 // How many leaves lines of sight meet over a crest, in the parts of a pixel so high [m]. One that passes `deep` below the top of the
 // grass, whose leaf area falls off linearly with height, meets deep^2 of the whole over a way that goes by the root of how deep it
 // passes.
-vec4 met_over(float slope, float crest, float tall, float stands, float dense, float pixel) {
-    float curved = 2.0 * max(crest, EVEN), high = max(tall * stands, LOWEST_GRASS);
-    float leaves = CREST * dense * inversesqrt(curved) / (high * high);
-    vec4 all = max(slope * abs(slope) / curved + IN_PIXEL * pixel - counts_higher(crest, pixel), 0.0);
+vec4 met_over(float slope, float curvature, float tall, float stands, float leaf_area, float pixel) {
+    float curved = 2.0 * max(curvature, LEAST_CURVATURE), high = max(tall * stands, LOWEST_GRASS);
+    float leaves = CREST * leaf_area * inversesqrt(curved) / (high * high);
+    vec4 all = max(slope * abs(slope) / curved + IN_PIXEL * pixel - counts_higher(curvature, pixel), 0.0);
     return leaves * all * sqrt(all) + OPAQUE * max(1.0 - tall / (2.0 * LOWEST_GRASS), 0.0);
 }
 
@@ -42,8 +42,8 @@ float outline_cover(vec4 met) {
 }
 
 // The slope at which a line of sight of some slope would come to the mesh if it were no higher along an outline.
-float slope_below(float slope, float crest, float pixel) {
-    return slope > 0.0 ? sqrt(max(slope * slope - 2.0 * crest * counts_higher(crest, pixel), 0.0)) : slope;
+float slope_below(float slope, float curvature, float pixel) {
+    return slope > 0.0 ? sqrt(max(slope * slope - 2.0 * curvature * counts_higher(curvature, pixel), 0.0)) : slope;
 }
 
 // How steeply the carpet rises along the line of sight where taller grass begins: there it is seen, though the ground falls

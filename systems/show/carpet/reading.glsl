@@ -101,13 +101,13 @@ struct Reading {
 // Which of the viewing elevations' images a ray sees: the number of the first of two, plus how far it is on the way to the next.
 // At a low angle the way is told by how deep in the grass what it meets is in the mean, so that the mean of two images is as
 // deep; from above, where it meets leaves as the reciprocal of its slope, by the slope's logarithm.
-float elevation_seen(float slope, float dense) {
+float elevation_seen(float slope, float leaf_area) {
     const int HIDES = 2;  // so many of the lowest images show grass that hides most of itself
     slope = max(slope, slopes[0]);
     int low = 0;
     for (int next = 1; next < SLOPES - 1; next++)
         low += int(slope > slopes[next]);
-    vec3 of = vec3(slope, slopes[low], slopes[low + 1]), at = low < HIDES ? depth_met(max(dense, THINNEST) / of) : log(of);
+    vec3 of = vec3(slope, slopes[low], slopes[low + 1]), at = low < HIDES ? depth_met(max(leaf_area, THINNEST) / of) : log(of);
     return float(low) + clamp((at.x - at.y) / (at.z - at.y), 0.0, 1.0);
 }
 

@@ -49,7 +49,7 @@ void cut_down(int kind, inout Texel texel, inout Light light, View view, float u
 
 // Where a line of sight of this slope comes through the carpet so high over the ground [m].
 vec3 met_at(float height, float slope) {
-    float on = (carpet * tall - height) / max(slope, LOWEST);
+    float on = (mesh_share * tall - height) / max(slope, LOWEST);
     return gone_on(place, heading_to(place.xz) * clamp(on, -FARTHEST_SEEN, FARTHEST_SEEN));
 }
 
@@ -58,7 +58,7 @@ vec4 lamps_seen(Sight sight) {
     int kind = 0;
     for (int other = 1; other < KINDS; other++)
         kind = OF(met, other) > OF(met, kind) ? other : kind;
-    vec3 there = seen_at(place, sight.slope, tall, dense);
+    vec3 there = leaf_place(place, sight.slope, tall, leaf_area);
     vec2 bend = bending(kind, message_at(place.xz));
     there.y -= sight.share * tall;
     vec3 turned = turned_to(kind, leaning(bend), vec3(sight.heading, (there.y - eye.y) / max(distance(there.xz, eye.xz), TINY)).xzy);

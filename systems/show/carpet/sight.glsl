@@ -1,63 +1,63 @@
-// Lines of sight that enter the grass of the carpet: how steep they are to the ground, how deep they come and what they meet.
+// Lines of sight that enter the grass of the carpet: their slope to the ground, their depth in the grass, and what they meet.
 #include "lib/canopy.glsl"
 #include "lib/frame.glsl"
 #include "systems/show/carpet/grow.py"
 #include "systems/show/carpet/ground.py"
 
-const float TINY = 1e-4;  // what no divisor is below [m], or [m/m]
-const float CREST = 3.6;  // optical depth of a way over a crest, of a level one's as deep: as the reference shows it
-const float RIM = 1.25;  // the same of a way over a rim
-const float FARTHEST_SEEN = 15.0;  // how far behind where it enters the grass what it meets lies at most [m]
-const float BULGES = 5e-4;  // curvature from which on ground counts as a crest [1/m]
-const float EVEN = 1e-5;  // curvature that ground has at least [1/m]
-const vec2 LEAVES_BEGIN = vec2(0.5, 2.0);  // how deep lines of sight come along an outline, and where they meet as much as on level ground
-const float UPPER = 0.58;  // how much the upper part of a way through the grass counts: there most of it is met
-const float BEFORE = 0.27;  // how far before the carpet lines of sight meet the first leaves, in heights over their slope
-const float SPREAD = 0.17;  // how far before and behind the mean of what they meet it lies
-const float THINNEST = 0.01;  // leaf area that grass has at least, for where it is met
-const float THINNEST_LAYER = 1e-6;  // leaf area that a layer of it has at least
-const float LEAST_MET = 0.004;  // of a kind, as a part of all that is: of less, nothing is seen
-const float LEAST_HEADS = 1e-3;  // part of what is met of a kind that counts as heads at least, and as other leaves
-const float LOWEST_GRASS = 0.01;  // how tall grass is at least [m]
+const float TINY = 1e-4;  // least divisor [m], or [m/m]
+const float CREST = 3.6;  // optical depth of a path over a crest, relative to a level path as deep: matches the reference
+const float RIM = 1.25;  // the same over a rim
+const float FARTHEST_SEEN = 15.0;  // largest distance from where a line of sight enters the grass to what it meets [m]
+const float CREST_CURVATURE = 5e-4;  // curvature from which on ground counts fully as a crest [1/m]
+const float LEAST_CURVATURE = 1e-5;  // least curvature that divides [1/m]
+const vec2 LEAVES_BEGIN = vec2(0.5, 2.0);  // relative depths of lines of sight: at an outline, and where they meet as much as on level ground
+const float UPPER = 0.58;  // weight of the upper part of a path through the grass, where most leaves are met
+const float BEFORE = 0.27;  // distance before the carpet at which lines of sight meet the first leaves, in heights over slope
+const float SPREAD = 0.17;  // distance of the leaves that they meet from the mean of these, before and behind, in heights over slope
+const float THINNEST = 0.01;  // least leaf area index for finding where leaves are met
+const float THINNEST_LAYER = 1e-6;  // least leaf area index of a layer
+const float LEAST_MET = 0.004;  // least share of a kind in what is met that is drawn
+const float LEAST_HEADS = 1e-3;  // least share of heads, and of other leaves, in what is met of a kind
+const float LOWEST_GRASS = 0.01;  // least height of grass [m]
 
-const float NO_RIM = 500.0;  // what a line of sight meets, as past_rim has it, from which on it passes over no rim
+const float NO_RIM = 500.0;  // value of rim_path_at from which on a line of sight passes over no rim
 
-uniform float outline;  // how high the carpet lies along an outline, of how high it lies elsewhere; 0 where that is the same
+uniform float outline;  // height of the carpet along outlines, as a fraction of its height elsewhere; 0: the same
 
-// How far below the top of the grass, of its height `tall` [m], a line of sight comes at most that enters it at this slope over
-// a crest of this curvature [1/m].
-float deepest(float slope, float crest, float tall) {
-    return slope * slope / (2.0 * max(crest, EVEN) * max(tall, LOWEST_GRASS));
+// Greatest depth that a line of sight reaches below the top of the grass, as a fraction of its height `tall` [m], where it enters at
+// this slope over ground of this curvature [1/m].
+float deepest(float slope, float curvature, float tall) {
+    return slope * slope / (2.0 * max(curvature, LEAST_CURVATURE) * max(tall, LOWEST_GRASS));
 }
 
-// How high a pixel is at a place [m].
-float pixel_at(vec3 place) {
+// Height of a pixel at a place [m].
+float pixel_height(vec3 place) {
     return distance(place, eye) / pixels_a_metre();
 }
 
-// How far ground of this curvature counts as a crest, over which lines of sight pass.
-float bulging(float crest) {
-    return clamp(crest / BULGES, 0.0, 1.0);
+// Degree to which ground of this curvature counts as a crest, in [0, 1].
+float crest_amount(float curvature) {
+    return clamp(curvature / CREST_CURVATURE, 0.0, 1.0);
 }
 
-// How far a line of sight that comes so deep passes over a crest there.
-float along_outline(float deep, float crest) {
-    return bulging(crest) * (1.0 - smoothstep(LEAVES_BEGIN.x, LEAVES_BEGIN.y, deep));
+// Degree to which a line of sight with this greatest depth passes over a crest, in [0, 1].
+float crest_weight(float deep, float curvature) {
+    return crest_amount(curvature) * (1.0 - smoothstep(LEAVES_BEGIN.x, LEAVES_BEGIN.y, deep));
 }
 
-// How high the carpet lies where a line of sight comes so deep, of how high it lies on level ground. Over a crest lines of sight
-// pass through: there it lies where leaves begin. Grass stands so high, of its height at rest.
-float lifted(float deep, float crest, float stands) {
-    return outline > 0.0 ? mix(1.0, outline * sqrt(stands), along_outline(deep, crest)) : 1.0;
+// Height of the carpet, as a fraction of that on level ground, for a line of sight with this greatest depth. Over a crest, where lines
+// of sight pass through the grass, the carpet lies at the first leaves. `stands` is the height of the grass relative to rest.
+float carpet_lift(float deep, float curvature, float stands) {
+    return outline > 0.0 ? mix(1.0, outline * sqrt(stands), crest_weight(deep, curvature)) : 1.0;
 }
 
-// The slope on level ground of a line of sight that goes as far through the grass as one of this slope does over ground
-// that bulges, or is hollow: from the top of the grass to the ground, or to where it comes nearest to it.
-float level_slope(float slope, float crest, float share, float tall, float stands) {
-    share *= lifted(deepest(slope, crest, tall * stands), crest, stands);
-    vec2 way = 2.0 * crest * tall * vec2(max(stands / RAISED - share, 0.0), -share);
+// Slope of a line of sight on level ground whose path through the grass is as long as that at this slope over curved ground: from
+// the top of the grass to the ground, or to the point nearest to it.
+float level_slope(float slope, float curvature, float share, float tall, float stands) {
+    share *= carpet_lift(deepest(slope, curvature, tall * stands), curvature, stands);
+    vec2 way = 2.0 * curvature * tall * vec2(max(stands / RAISED - share, 0.0), -share);
     way = sqrt(max(slope * abs(slope) + way, 0.0));
-    return mix(way.y, way.x, UPPER) / stands;  // bent grass has less of its leaf area across the way
+    return mix(way.y, way.x, UPPER) / stands;  // bent grass has less of its leaf area across the path
 }
 
 // The unit vector over the ground from the eye to a place.
@@ -71,38 +71,39 @@ float viewing_slope(vec2 rise, vec3 place) {
     return (dot(rise, ray.xz) - ray.y) / max(length(ray.xz), TINY);
 }
 
-// How far along a line of sight what it meets spreads, for each height of the carpet, over the ground [m].
-float along_ground(float slope, float tall) {
+// Distance over the ground in which a line of sight falls by the height of the carpet [m].
+float ground_spread(float slope, float tall) {
     return tall / max(slope, LOWEST);
 }
 
-// Where images are read for a place of the carpet, which lies so much lower than where no strips stand [m]: where its line of
-// sight is as high as that. While the carpet rises where strips give way, what it shows stays where it is.
-vec2 shows_at(vec2 place, vec2 heading, float lowered, float slope) {
+// Place at which images are read for a place of the carpet, which lies `lowered` [m] below its height without strips: where the line
+// of sight has that height. So what the carpet shows keeps its place in the picture while it rises.
+vec2 image_place(vec2 place, vec2 heading, float lowered, float slope) {
     return place - heading * min(lowered / max(slope, LOWEST), FARTHEST_SEEN);
 }
 
-// Where a line of sight through a place is that has gone on so far over the ground [m].
+// The point of the line of sight through a place that is `way` (x, z) farther over the ground [m].
 vec3 gone_on(vec3 place, vec2 way) {
     vec3 ray = place - eye;
     return place + vec3(way.x, ray.y * dot(way, ray.xz) / max(dot(ray.xz, ray.xz), TINY), way.y);
 }
 
-// Where leaves are that are seen: the less densely they grow, the farther behind where a line of sight comes to the carpet.
-vec3 seen_at(vec3 place, float slope, float tall, float dense) {
-    float behind = (sqrt(max(slope, LOWEST) / max(dense, THINNEST)) - BEFORE) * along_ground(slope, tall);
+// Mean place of the leaves that are seen: the thinner the grass, the farther behind the place on the carpet.
+vec3 leaf_place(vec3 place, float slope, float tall, float leaf_area) {
+    float behind = (sqrt(max(slope, LOWEST) / max(leaf_area, THINNEST)) - BEFORE) * ground_spread(slope, tall);
     vec2 on = heading_to(place.xz) * clamp(behind, -FARTHEST_SEEN, FARTHEST_SEEN);
     return vec3(place.x + on.x, place.y, place.z + on.y);
 }
 
-// How far the ground that a game draws may be off this one's, up and down: 0.1 m, and 0.05 m by which cells of 4 m sag on a
-// hilltop of 40 m radius. How many times that the carpet is taken to be above it, and how far before its own place at most [m].
+// HOSTS_OFF: largest height difference between a game's own ground and this one [m]: 0.1 m, and 0.05 m by which cells of 4 m sag on a
+// hilltop of 40 m radius. NEAREST_HOSTS: least height over this ground that the carpet's depth has, in HOSTS_OFF. MOST_NEARER: largest shift of
+// its depth towards the eye [m].
 const float HOSTS_OFF = 0.15, NEAREST_HOSTS = 1.2, MOST_NEARER = 25.0;
 
-// Where a place so `high` over the ground is taken to be, before itself, for no ground to hide it that a game draws about as
-// high as this one: where its line of sight, of this slope to the ground, is so high above that.
+// The point on the line of sight whose depth a place `high` [m] over the ground takes, so that a game's own ground, which is about as
+// high as this one, does not hide it. `slope` is that of the line of sight to the ground.
 vec3 before_hosts(vec3 place, float high, float slope) {
     float off = max(NEAREST_HOSTS * HOSTS_OFF - high, 0.0);
-    float over = max(slope, TINY) * distance(place.xz, eye.xz);  // how high the eye is above the ground there, as it rises
+    float over = max(slope, TINY) * distance(place.xz, eye.xz);  // height of the eye above the plane of the ground there
     return place + (eye - place) * min(off / max(over, off), min(MOST_NEARER / distance(place, eye), 0.5));
 }

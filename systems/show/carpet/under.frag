@@ -7,7 +7,7 @@ in vec3 over;
 centroid in float lies_over;
 centroid in float raises;
 centroid in float slope;
-centroid in float crest;
+centroid in float curvature;
 #endif
 centroid in vec3 color;
 
@@ -16,7 +16,7 @@ out vec4 pixel;
 void main() {
 #ifdef EDGED
     bool aside;
-    float way = enters(way_from(over, lies_over, raises, slope, crest), aside);
+    float way = enters(way_from(over, lies_over, raises, slope, curvature), aside);
     if (way < 0.0)
         discard;
     gl_FragDepth = gl_FragCoord.z + deeper(farther(over, way), over);

@@ -21,27 +21,27 @@ out vec3 over;   // place, where all grass is whole; with EDGED it ends there, o
 centroid out float lies_over;  // how high that is over the ground [m],
 centroid out float raises;  // and of how high the carpet is on level ground
 centroid out float slope; // of the line of sight to the ground
-centroid out float crest; // how fast the rise of the ground falls off along it [1/m]
+centroid out float curvature; // how fast the rise of the ground falls off along it [1/m]
 #endif
 
 // How deep it lies, of the height of the grass: as deep as is seen into it, from above and through a crest.
 float sunk_by(Laid laid, vec3 place) {
-    float dense = max(laid.dense, TINY), bulges = max(laid.crest, 0.0);
-    float sunk = sqrt(SUNK * max(laid.slope, 0.0) / dense);
-    float over_crest = laid.stands * pow(THROUGH_CREST * sqrt(2.0 * bulges * laid.tall * laid.stands) / (CREST * dense), CUBE_ROOT);
-    over_crest += LAIN * (1.0 - laid.stands) * min(bulges / BULGES, 1.0) * clamp(1.0 - laid.slope / BEHIND.y, 0.0, 1.0);
+    float leaf_area = max(laid.leaf_area, TINY), bulges = max(laid.curvature, 0.0);
+    float sunk = sqrt(SUNK * max(laid.slope, 0.0) / leaf_area);
+    float over_crest = laid.stands * pow(THROUGH_CREST * sqrt(2.0 * bulges * laid.tall * laid.stands) / (CREST * leaf_area), CUBE_ROOT);
+    over_crest += LAIN * (1.0 - laid.stands) * min(bulges / CREST_CURVATURE, 1.0) * clamp(1.0 - laid.slope / BEHIND.y, 0.0, 1.0);
     float behind = clamp((-laid.slope - BEHIND.x) / (BEHIND.y - BEHIND.x), 0.0, 1.0);  // nobody sees it
     behind *= clamp((eye.y - place.y) / WITHIN, 0.0, 1.0);  // from within the grass, what stands around is seen
 #ifdef MIRRORED
-    behind *= 1.0 - smoothstep(COARSE.x, COARSE.y, spaced);
+    behind *= 1.0 - smoothstep(COARSE.x, COARSE.y, grid_spacing);
 #endif
     return max(clamp(max(sunk, over_crest), SINKS_IN.x, SINKS_IN.y), behind);
 }
 
 // How far down what is seen stands, of the height of the grass. Where flat lines of sight come through it, those that meet some
 // of it do not meet tips alone.
-float seen_down(float sunk, float dense) {
-    float flat_way = max(dense, THINNEST) / FLAT_SIGHT;
+float seen_down(float sunk, float leaf_area) {
+    float flat_way = max(leaf_area, THINNEST) / FLAT_SIGHT;
     return mix(sunk, max(sunk, depth_met(flat_way)), comes_through(flat_way));
 }
 
@@ -51,7 +51,7 @@ vec3 grass_seen(Laid laid, ByKind met, vec3 place, float sunk) {
     vec3 sum = vec3(0.0);
     for (int kind = 0; kind < KINDS; kind++) {
         Light light = light_on(kind, vec2(0.0), place, lies, laid.grows);
-        float high = ON_TOP - SHADED * seen_down(sunk, laid.dense);
+        float high = ON_TOP - SHADED * seen_down(sunk, laid.leaf_area);
         if (anything_is_cut()) {
             light = mown_to(laid.left, light, kind, areas(laid.grows));
             high *= min(laid.left / max(OF(crown, kind), LOWEST_GRASS), 1.0);
@@ -66,8 +66,8 @@ void main() {
     vec3 place = on_ground(on_mesh());
     Laid laid = laid_on(place);
     float sunk = sunk_by(laid, place);
-    place.y -= laid.share * laid.tall * laid.lies * sunk;
-    if (laid.past < NO_RIM)  // over a rim grass is seen through down to the ground
+    place.y -= laid.share * laid.tall * laid.trodden_height * sunk;
+    if (laid.rim_path < NO_RIM)  // over a rim grass is seen through down to the ground
         place.y = laid.ground;
     float sight = viewing_slope(laid.rise, place), from_above = max(sight, FLATTEST);
 #ifdef EDGED
@@ -75,10 +75,10 @@ void main() {
     lies_over = place.y - laid.ground;
     raises = lies_over / max(laid.tall, LOWEST_GRASS);
     slope = sight;
-    crest = laid.crest;
+    curvature = laid.curvature;
 #endif
-    float on_level = max(level_slope(max(sight, 0.0), laid.crest, laid.share, laid.tall, laid.stands), FLATTEST);
-    float came = come_through(place.xz, from_above, laid.share, laid.tall, laid.stands).x;
+    float on_level = max(level_slope(max(sight, 0.0), laid.curvature, laid.share, laid.tall, laid.stands), FLATTEST);
+    float came = strips_met(place.xz, from_above, laid.share, laid.tall, laid.stands).x;
     ByKind ripe, met = kinds_met(laid.grows, on_level, laid.left, left_by_strips(1.0 - came, laid.share), ripe);
     float part = min(total(laid.grows), 1.0) / max(total(met), THINNEST_LAYER);
     for (int group = 0; group < GROUPS; group++)
