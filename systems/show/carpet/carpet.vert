@@ -1,5 +1,5 @@
-// The carpet: what is the same over a few pixels is made out at the corners of the mesh. With EDGED, grass ends or has been
-// cut there: pixels make out themselves what is BROUGHT along otherwise.
+// The carpet: what varies little over a few pixels is computed at the vertices of the mesh. With EDGED, where grass ends or has been cut,
+// pixels compute themselves what is PER_VERTEX otherwise.
 #define PIXELS_ASK  // pools of light and shadows are smaller than the mesh
 #include "lib/light.glsl"
 #include "systems/show/carpet/within.glsl"
@@ -13,74 +13,74 @@
 #include "systems/show/carpet/texel.glsl"
 #endif
 
-// No more than 60 numbers are sure to come through: with many kinds, pixels work out themselves what FEW kinds bring along.
+// OpenGL guarantees only 60 varying components: with many kinds, pixels compute themselves what is a varying for FEW_KINDS.
 #if KINDS > 4
-#define FEW
+#define FEW_KINDS
 #else
-#define FEW WITHIN out
+#define FEW_KINDS WITHIN out
 #endif
 
 #ifdef EDGED
-#define BROUGHT
+#define PER_VERTEX
 #define OF_SOIL
 #define OF_SLOPE WITHIN out
 vec3 place;
-out vec3 over;       // place on the mesh, which is raised to the carpet of whole grass,
-WITHIN out float lies_over;      // how high that is over the ground [m],
-WITHIN out float raises;      // and of how high the carpet is on level ground
-WITHIN out float hung;        // how far it hangs down there from the border of its tile, of how high that lies
+out vec3 mesh_place;           // place on the mesh, which is as high as the carpet of uncut grass
+WITHIN out float mesh_height;  // height of that over the ground [m]
+WITHIN out float mesh_lift;    // the same, as a fraction of the carpet's height on level ground
+WITHIN out float skirt;        // drop of the skirt below the border of its piece, as a fraction of the border's height
 #else
-#define BROUGHT WITHIN out
+#define PER_VERTEX WITHIN out
 out vec3 place;
-#define OF_SOIL FEW
-#define OF_SLOPE FEW
+#define OF_SOIL FEW_KINDS
+#define OF_SLOPE FEW_KINDS
 #endif
 
-WITHIN out float mesh_share;    // how much of what is seen is carpet's
-OF_SLOPE vec2 rise;  // of the ground, along x and z
-WITHIN out float curvature;     // how fast the rise falls off along the line of sight [1/m]
-WITHIN out float rim_path;      // what it meets that passes over a rim, as past_rim has it
-BROUGHT float tall;     // height of the carpet [m]
-BROUGHT float leaf_area;    // leaf area seen from the side, of the ground's area
-BROUGHT ByKind met;     // by kind: how much of what a line of sight meets
-BROUGHT vec3 soil_seen;  // radiance of the soil, without haze
-WITHIN out mat4 lit;        // the light on leaves of the kinds that are met; beside it, how what is met changes as the wind bends them
+WITHIN out float mesh_share;  // the carpet's share of the grass, in [0, 1]
+OF_SLOPE vec2 rise;           // gradient of the ground along x and z [m/m]
+WITHIN out float curvature;   // curvature of the ground along the line of sight [1/m]
+WITHIN out float rim_path;    // from rim_path_at
+PER_VERTEX float tall;        // height of the carpet [m]
+PER_VERTEX float leaf_area;   // leaf area index, seen from the side
+PER_VERTEX ByKind met;        // by kind: weight of its image
+PER_VERTEX vec3 soil_seen;    // radiance of the soil, without haze
+WITHIN out mat4 lit;          // light on the leaves that are met, and what their bending changes: from bundled
 #ifdef HEADS
-BROUGHT ByKind riper;   // by kind: how much more of its heads than an image shows; all the others at 1, none at -1
+PER_VERTEX ByKind riper;  // by kind: excess of heads over its image, from kinds_met
 #endif
-FEW float stands;         // how high the grass stands, of its height at rest
-FEW float strips_before;  // how much strips show of what lines of sight come through above the carpet
+FEW_KINDS float stands;         // height of the grass in the wind, as a fraction of that at rest
+FEW_KINDS float strips_before;  // mean share of strips above the carpet, along the line of sight
 #ifdef COARSE
-WITHIN out vec2 blown;           // how far leaves are moved [m]
-WITHIN out float on_level;       // slope on level ground of a line of sight that goes as far through the grass
-WITHIN out float on_strips;      // root of the leaf area on strips above it, of the grass's: that falls off more evenly
-WITHIN out vec3 soil_shaded;     // the soil where nothing is seen of the sun, as it is shown, for litter whose brightness is 1
-WITHIN out vec4 lies_at;         // places along blades and heights at the top of the grass, and by how much less they are at its bottom
+WITHIN out vec2 blown;        // displacement of leaves [m]
+WITHIN out float on_level;    // from level_slope
+WITHIN out float on_strips;   // root of the leaf area on strips above it, as a fraction of the grass's: that is more linear
+WITHIN out vec3 soil_shaded;  // display colour of shaded soil, for litter whose brightness is 1
+WITHIN out vec4 leaf_range;   // place along blades and height at the top of the grass; their decrease down to its bottom
 #else
-WITHIN out float lowered;        // how much lower the carpet lies than where no strips stand [m]
-FEW float sways;          // how far leaves sway, of the wind's message [m]
-FEW vec2 slow;            // slow noises of the pigment, where leaves are seen
+WITHIN out float lowered;   // depth of the carpet below its height where no strips stand [m]
+FEW_KINDS float sway;       // displacement of leaves per message of the wind [m]
+FEW_KINDS vec2 slow_noise;  // slow noises of the pigment at the leaves that are seen
 #endif
-OF_SOIL float elevation;  // of elevation_seen
+OF_SOIL float elevation;  // from elevation_seen
 #ifndef COARSE
-OF_SOIL vec3 sunlit;      // radiance of the soil without any grass: of the sun's light,
-OF_SOIL vec3 skylit;      // and of the sky's
-OF_SOIL float soil_way;   // how many leaves the sun's light meets
-OF_SOIL float soil_through; // how much of it comes through the grass
-OF_SOIL vec3 lush;        // pigment of the understorey, of that of the ground between
+OF_SOIL vec3 sunlit;         // radiance of the soil without any grass: from the sun
+OF_SOIL vec3 skylit;         // and from the sky
+OF_SOIL float soil_way;      // leaves that sunlight meets, per leaf area seen from the side
+OF_SOIL float soil_through;  // transmittance of the grass for sunlight
+OF_SOIL vec3 lush;           // pigment of the understorey, relative to that of the ground between
 #endif
 
-const float UNEVENNESS = 0.4;  // of the grass's height
+const float UNEVENNESS = 0.4;  // amplitude, as a fraction of the grass's height
 const vec4 UNEVEN_WAVES = vec4(5.3, 4.7, 0.2, 0.7);  // [1/m], along x, along z, and across the latter; phase
 
-// How much higher or lower the carpet lies where it gives way to strips, of the grass's height. A row of strips that lies as
-// the carpet does would come out of it all at once; so it does here and there.
+// Unevenness of the carpet where it gives way to strips, as a fraction of the grass's height. Over an even carpet, a row of strips would
+// come out all at once; so it does here and there.
 float uneven(vec2 at) {
     return UNEVENNESS * sin(UNEVEN_WAVES.x * at.x + UNEVEN_WAVES.w) * sin(UNEVEN_WAVES.y * at.y + UNEVEN_WAVES.z * at.x);
 }
 
-// How much higher it lies along an outline, where the tallest kinds are seen alone, and over half a pixel of which it shows less [m].
-float stands_out(Laid laid, vec3 place) {
+// Raise of the carpet along an outline [m]: to the tops of the tallest kinds, and by half a pixel, in which coverage fades.
+float outline_height(Laid laid, vec3 place) {
 #ifdef EDGED
     return 0.0;
 #else
@@ -89,7 +89,7 @@ float stands_out(Laid laid, vec3 place) {
 #endif
 }
 
-void hand_on(Laid laid) {
+void write_varyings(Laid laid) {
     mesh_share = laid.share;
     rise = laid.rise;
     curvature = laid.curvature;
@@ -103,17 +103,18 @@ void hand_on(Laid laid) {
 }
 
 #ifdef COARSE
-// Where leaves are met that stand among strips, over a crest and in the wind, of where images show them.
-void see_among(float slope, vec2 bent) {
+// Set leaf_range, by which places and heights of the images are changed over a crest and in the wind, and the leaf area on strips.
+void set_leaf_range(float slope, vec2 bent) {
     on_strips = sqrt(strips_met(place.xz, max(slope, TINY), mesh_share, tall, stands).y);
 #ifndef HEADS
-    bent *= higher(on_level, leaf_area);
+    bent *= height_factor(on_level, leaf_area);
 #endif
-    lies_at = vec4(bent, bent * shallower(deepest(slope, curvature, tall * stands), on_level, mesh_share, curvature, stands, leaf_area));
+    float deep = deepest(slope, curvature, tall * stands);
+    leaf_range = vec4(bent, bent * depth_factor(deep, on_level, mesh_share, curvature, stands, leaf_area));
 }
 
-// As much more of each kind as grass hides, seen at this slope, than images do in the mean. Heads stand scattered, and hide nothing.
-ByKind filled_up(ByKind covers) {
+// Weights of images, scaled up to the opacity of grass at this slope. Kinds with heads stand scattered, and stay as they are.
+ByKind filled_covers(ByKind covers) {
     int low = min(int(elevation), SLOPES - 2);
     for (int kind = 0; kind < KINDS; kind++) {
 #ifdef HEADS
@@ -128,30 +129,30 @@ ByKind filled_up(ByKind covers) {
 }
 #endif
 
-// The light on what is met.
-void light_up(float slope, float on, ByKind grows, vec2 message) {
+// Light the leaves that are met.
+void light_leaves(float slope, float on, ByKind grows, vec2 message) {
     vec3 there = leaf_place(place, slope, tall, leaf_area);
     vec2 messages[KINDS];
     for (int kind = 0; kind < KINDS; kind++)
         messages[kind] = message;
     Canopy canopy = canopy_lit(met, slope, on, there, lie_at(there.xz), messages);
-#ifndef HEADS  // among plants in flower, grass is as bright as its images show it
-    canopy.bent.y *= tips_met(met, grows, on);
+#ifndef HEADS  // among plants in flower, grass is as bright as in its images
+    canopy.bent.y *= tip_ratio(met, grows, on);
 #endif
 #ifdef COARSE
     vec3 fresh = stretch(slow_seen(there, slope, tall));
-    canopy.light.sun *= fresh * fresh;  // a factor of the pigment, whose square is what is sent
+    canopy.light.sun *= fresh * fresh;  // a factor of the pigment, whose square is the albedo
     canopy.light.sky *= fresh * fresh;
-    see_among(slope, canopy.bent.yz);
+    set_leaf_range(slope, canopy.bent.yz);
     canopy.bent.x = comes_through(canopy.bent.x);
 #else
-    slow = slow_seen(there, slope, tall);
+    slow_noise = slow_seen(there, slope, tall);
 #endif
     lit = bundled(veiled(canopy.light, place), canopy.bent);
 }
 
 #ifndef EDGED
-// The soil that is seen between, and what lies on it.
+// Light the soil that is seen between, and what lies on it.
 void light_soil(vec3 ground, Laid laid) {
     Lie lies = lie_at(ground.xz);
     ByKind grows = grown_at(ground.xz, laid);
@@ -181,16 +182,16 @@ void main() {
 #endif
     Laid laid = laid_on(place);
     float moved = laid.share * (1.0 - laid.share) * laid.tall * uneven(place.xz);
-    place.y += moved + stands_out(laid, place);
+    place.y += moved + outline_height(laid, place);
     laid.lowered -= moved;
 #ifdef EDGED
-    over = place;
-    lies_over = place.y - laid.ground;
-    raises = lies_over / max(laid.tall, LOWEST_GRASS);
-    hung = skirt_drop(over.xz);
-    over.y -= hung * lies_over;
+    mesh_place = place;
+    mesh_height = place.y - laid.ground;
+    mesh_lift = mesh_height / max(laid.tall, LOWEST_GRASS);
+    skirt = skirt_drop(mesh_place.xz);
+    mesh_place.y -= skirt * mesh_height;
 #endif
-    hand_on(laid);
+    write_varyings(laid);
     float slope = viewing_slope(rise, place), from_above = max(slope, FLATTEST);
     strips_before = strips_met(place.xz, from_above, mesh_share, tall, stands).x;
 #ifndef COARSE
@@ -198,30 +199,31 @@ void main() {
 #endif
     on_level = max(level_slope(max(slope, 0.0), curvature, mesh_share, tall, stands), FLATTEST);
     ByKind ripe;
-    met = shared_out(kinds_met(laid.grows, on_level, laid.left, left_by_strips(1.0 - strips_before, mesh_share), ripe), laid.grows, on_level);
+    met = kinds_met(laid.grows, on_level, laid.left, height_past_strips(1.0 - strips_before, mesh_share), ripe);
+    met = image_weights(met, laid.grows, on_level);
 #ifdef HEADS
     riper = ripe;
 #endif
     elevation = elevation_seen(on_level, leaf_area);
 #ifdef COARSE
-    blown = sways_by(met, laid.message) * laid.message;
+    blown = sway_of(met, laid.message) * laid.message;
 #else
-    sways = sways_by(met, laid.message);
+    sway = sway_of(met, laid.message);
 #endif
-    light_up(slope, on_level, laid.grows, laid.message);
+    light_leaves(slope, on_level, laid.grows, laid.message);
 #ifdef COARSE
-    met = filled_up(met);
+    met = filled_covers(met);
 #endif
 #ifndef EDGED
     light_soil(seen_behind(place, laid.ground, from_above), laid);
 #endif
 #ifdef EDGED
-    lies_over *= 1.0 - hung;
-    gl_Position = clip * vec4(over, 1.0);
+    mesh_height *= 1.0 - skirt;
+    gl_Position = clip * vec4(mesh_place, 1.0);
 #else
     gl_Position = clip * vec4(place, 1.0);
 #endif
-#ifndef EDGED  // where pixels make out how far off grass is
+#ifndef EDGED  // there, pixels compute their depth
     if (over_hosts > 0.0) {
         vec4 before = clip * vec4(before_hosts(place, place.y - laid.ground, slope), 1.0);
         gl_Position.z = before.z * gl_Position.w / before.w;

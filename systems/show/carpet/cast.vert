@@ -1,15 +1,15 @@
-// The carpet in a shadow map: a sheet over the top of the grass, whose pixels lie where light is stopped on its way down.
+// The carpet in a shadow map: a surface over the top of the grass, whose pixels have the depth at which light is stopped.
 #include "lib/light.glsl"
 #include "systems/show/carpet/laid.glsl"
 
-uniform vec3 light;  // where it comes from [m]
+uniform vec3 light;  // place that it comes from [m]
 
-const float LEAST_TOLD = 1e-4;  // leaf area that divides at least
+const float LEAST_AREA = 1e-4;  // least leaf area that divides
 
 out vec3 place;
-out float mesh_share;  // how much of what is seen is carpet's
-out float high;    // of the grass [m]
-out float stops;   // leaves that light meets on its way to the ground
+out float mesh_share;     // the carpet's share of the grass, in [0, 1]
+out float grass_height;   // height of the grass [m]
+out float optical_depth;  // of the grass, in leaves, for light down to the ground
 
 void main() {
     place = on_ground(on_mesh());
@@ -17,15 +17,15 @@ void main() {
     float left = anything_is_cut() ? left_about(place.xz, tile.z) : tallest_grass;
     float up = max(dot(lie_at(place.xz).normal, normalize(light - place)), 0.0), sum = 0.0;
     ByKind area = areas(grows), stays = leaves_left(left);
-    high = stops = 0.0;
+    grass_height = optical_depth = 0.0;
     for (int kind = 0; kind < KINDS; kind++) {
         float leaves = OF(area, kind) * OF(stays, kind);
-        high += leaves * min(OF(crown, kind), left);
-        stops += leaves * sun_way(kind, up);
+        grass_height += leaves * min(OF(crown, kind), left);
+        optical_depth += leaves * sun_way(kind, up);
         sum += leaves;
     }
-    high /= max(sum, LEAST_TOLD);
+    grass_height /= max(sum, LEAST_AREA);
     mesh_share = lowest_share(place.xz);
-    place.y += high;
+    place.y += grass_height;
     gl_Position = clip * vec4(place, 1.0);
 }

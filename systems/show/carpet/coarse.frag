@@ -27,7 +27,7 @@ WITHIN in float stands;
 WITHIN in vec2 blown;
 WITHIN in float on_level;
 WITHIN in float on_strips;
-WITHIN in vec4 lies_at;
+WITHIN in vec4 leaf_range;
 WITHIN in float elevation;
 
 out vec4 pixel;
@@ -43,9 +43,9 @@ struct Look {
     vec2 at;
     int image;
     ivec2 between;  // the images of both slopes
-    float next;    // how far the line of sight is on the way from the first to the second
+    float next;     // how far the line of sight is on the way from the first to the second
     float level;
-    float grain;   // how far what is read is from its mean, of how far it is in images
+    float grain;  // how far what is read is from its mean, of how far it is in images
 };
 
 // How far what is read at a level is from its mean, where a pixel is so broad [m].
@@ -87,7 +87,7 @@ void add_kind(inout Grass sum, int kind, Look look, vec2 facing, float high) {
     vec4 image = max(mean + (layer_at(images, vec3(look.at, from + float(look.image)), look.level) - own) * look.grain, 0.0);
     float covers = max(1.0 - (1.0 - min(image.a, 1.0)) * told_beside(lit).x, 0.0);
     vec3 shown = min(image.rgb / max(image.a, LEAST_TEXEL), 1.0);
-    vec2 at = lies_at.xy - lies_at.zw * (1.0 - high * shown.rg);
+    vec2 at = leaf_range.xy - leaf_range.zw * (1.0 - high * shown.rg);
 #ifdef HEADS
     float ripe = OF(riper, kind);
     at.x += ripe * (ripe > 0.0 ? 1.0 - at.x : at.x);
@@ -119,10 +119,10 @@ Grass grass_seen(vec2 heading, float high) {
 
 // How much of what is behind an outline the grass hides, that of a crest or of a rim. What one image shows is twice as uneven as two
 // do, which are mixed.
-float hides_behind(float slope, float stands_out) {
+float hides_behind(float slope, float spikes) {
     if (rim_path < NO_RIM)
-        return 1.0 - comes_through(RIM * leaf_area * sqrt(stands_out) * rim_path * rim_path);
-    return outline_cover(met_over(slope, curvature, tall, stands, leaf_area, pixel_height(place)) * sqrt(stands_out));
+        return 1.0 - comes_through(RIM * leaf_area * sqrt(spikes) * rim_path * rim_path);
+    return outline_cover(leaves_over_crest(slope, curvature, tall, stands, leaf_area, pixel_height(place)) * sqrt(spikes));
 }
 
 void main() {
@@ -143,7 +143,7 @@ void main() {
         float deep = deepest(slope, curvature, tall * stands);
         float covers = among.x * mix(min(grass.covers / LEAST_COVER, 1.0), grass.covers, smoothstep(ENDS.x * share, ENDS.y * share, deep));
         color = color * (1.0 - covers) + leaves * covers;
-        covered = mix(1.0, hides_behind(facing, standing_out(grass.taller, share)), min(share / SHOWN_FROM, 1.0));
+        covered = mix(1.0, hides_behind(facing, spike_factor(grass.taller, share)), min(share / SHOWN_FROM, 1.0));
     }
     if (covered < max(NOTHING, STANDING * (1.0 - share)))
         discard;

@@ -3,11 +3,11 @@
 
 // The soil as it is lit: under the grass that stands there, and under none by the sun and by the sky alone.
 struct Soil {
-    vec3 seen;    // radiance, without haze
+    vec3 seen;  // radiance, without haze
     vec3 sunlit;
     vec3 skylit;
-    float way;    // how many leaves the sun's light meets, of those seen from the side
-    float through; // how much of the sun's light comes through the grass
+    float way;      // how many leaves the sun's light meets, of those seen from the side
+    float through;  // how much of the sun's light comes through the grass
 };
 
 Soil soil_lit(vec3 place, Lie lies, ByKind grows, float clear) {

@@ -1,4 +1,4 @@
-// Ground that no carpet lies on. With EDGED, grass ends or has been cut on it, and pixels make out themselves what light gets there.
+// Ground without carpet. With EDGED, grass ends or has been cut on it, and light is computed by pixel.
 #define PIXELS_ASK
 #include "lib/light.glsl"
 #include "systems/show/carpet/litter.glsl"

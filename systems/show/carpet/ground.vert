@@ -4,17 +4,17 @@
 #include "systems/show/carpet/mesh.glsl"
 #include "systems/show/carpet/floor.glsl"
 
-uniform float pushed;  // how much farther it is taken to lie, of the depths that there are
+uniform float pushed;  // added depth, as a fraction of the depth range
 
 out vec3 place;
-centroid out vec3 haze;       // radiance of what lies before it
+centroid out vec3 haze;  // radiance of the haze before it
 #ifndef EDGED
-centroid out vec3 soil_seen;  // its radiance, without haze
-centroid out vec3 sunlit;     // that of the sun's light without any grass,
-centroid out vec3 skylit;     // and of the sky's
-centroid out float soil_way;  // how many leaves the sun's light meets
-centroid out float soil_through; // how much of it comes through the grass
-centroid out vec3 lush;       // pigment of the understorey, of that of the ground between
+centroid out vec3 soil_seen;      // radiance of the soil, without haze
+centroid out vec3 sunlit;         // its radiance without any grass: from the sun
+centroid out vec3 skylit;         // and from the sky
+centroid out float soil_way;      // leaves that sunlight meets, per leaf area seen from the side
+centroid out float soil_through;  // transmittance of the grass for sunlight
+centroid out vec3 lush;           // pigment of the understorey, relative to that of the ground between
 #endif
 
 void main() {

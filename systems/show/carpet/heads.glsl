@@ -17,7 +17,7 @@ vec2 profile_above(int kind, float height) {
 struct Met {
     ByKind all;
     ByKind heads;
-    ByKind alone;       // of each kind, did it grow alone, in the image that shows it
+    ByKind alone;  // of each kind, did it grow alone, in the image that shows it
     ByKind heads_alone;
     ByKind through_alone;
     float through;
@@ -75,6 +75,6 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
 }
 
 // How much an image of a kind hides where it grows densely and alone; one with heads is taken in parts of its mean.
-float hidden_by_image(int kind, ByKind leaves) {
+float image_opacity(int kind, ByKind leaves) {
     return OF(bears, kind) > 0.0 ? 1.0 : 1.0 - comes_through(OF(leaves, kind));
 }

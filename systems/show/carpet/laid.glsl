@@ -8,33 +8,33 @@
 #include "systems/press/press.glsl"
 #endif
 
-const float STOPPED = 0.6;  // typical depth at which a line of sight is stopped, as a fraction of the height of the grass
-const float FARTHEST = 5.0; // largest distance ahead at which curvature is measured, in distances close by
-const float NEAR_CELLS = 4.0;  // the distance close by, in cells of the terrain
+const float STOPPED = 0.6;          // typical depth at which a line of sight is stopped, as a fraction of the height of the grass
+const float FARTHEST = 5.0;         // largest distance ahead at which curvature is measured, in distances close by
+const float NEAR_CELLS = 4.0;       // the distance close by, in cells of the terrain
 const float TRODDEN_HEIGHT = 0.05;  // height of the carpet where all grass lies flat, as a fraction of its usual height
-const float UNCUT = 1e9;      // cut height of uncut grass [m]
-const float SPARSEST = 0.02;  // least density at which a neighbour tells what grows around a vertex
-const float EDGE = 0.01;    // a vertex this near to a patch's edge counts for both patches [m]
+const float UNCUT = 1e9;            // cut height of uncut grass [m]
+const float SPARSEST = 0.02;        // least density at which a neighbour tells what grows around a vertex
+const float EDGE = 0.01;            // a vertex this near to a patch's edge counts for both patches [m]
 
 uniform ByKind raised; // by kind: height of the carpet above the ground [m]
 
 struct Laid {
-    float ground;  // height of the ground [m]
-    float share;   // the carpet's share of the grass, in [0, 1]
-    ByKind grows;  // density of each kind
-    float left;    // height to which it is cut [m]
-    float tall;    // height of the carpet [m]
-    float tops;    // height of the tops that form the silhouette over a crest, as a fraction of `tall`
-    float trodden_height;    // fraction of `tall` that is left where grass is trodden
-    float lowered; // how much lower the carpet lies than where no strips stand [m]
-    float leaf_area;   // leaf area index, seen from the side
-    vec2 rise;     // gradient of the ground along x and z [m/m]
-    float curvature;   // decrease of the gradient along the line of sight [1/m]; positive over a crest
-    float stands;  // height of the grass in the wind, as a fraction of that at rest
-    vec2 message;  // message of the wind
-    float slope;   // slope of the line of sight to the ground [m/m]
-    float crest_weight;   // from crest_weight
-    float rim_path;    // from rim_path_at
+    float ground;          // height of the ground [m]
+    float share;           // the carpet's share of the grass, in [0, 1]
+    ByKind grows;          // density of each kind
+    float left;            // height to which it is cut [m]
+    float tall;            // height of the carpet [m]
+    float tops;            // height of the tops that form the silhouette over a crest, as a fraction of `tall`
+    float trodden_height;  // fraction of `tall` that is left where grass is trodden
+    float lowered;         // how much lower the carpet lies than where no strips stand [m]
+    float leaf_area;       // leaf area index, seen from the side
+    vec2 rise;             // gradient of the ground along x and z [m/m]
+    float curvature;       // decrease of the gradient along the line of sight [1/m]; positive over a crest
+    float stands;          // height of the grass in the wind, as a fraction of that at rest
+    vec2 message;          // message of the wind
+    float slope;           // slope of the line of sight to the ground [m/m]
+    float crest_weight;    // from crest_weight
+    float rim_path;        // from rim_path_at
 };
 
 // The least of the carpet's shares of the patches that a place lies on or next to.

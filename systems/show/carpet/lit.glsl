@@ -11,7 +11,7 @@ uniform sampler2D mean_air;
 struct Canopy {
     Light light;  // on the leaves of the kinds that are met
     vec3 bent;    // how what is met changes as they are bent: of bent_to
-    vec2 sways;   // how far they are moved by that [m]
+    vec2 sway;    // how far they are moved by that [m]
 };
 
 const float SWAYS = 0.35;  // how far leaves are moved that are seen, of the canopy's height and the posture index
@@ -58,7 +58,7 @@ Canopy canopy_lit(ByKind met, float slope, float on_level, vec3 there, Lie lies,
         light.sky *= turned * turned;
         sum.light = plus(sum.light, light, part);
         sum.bent += part * bent_to(kind, bend, ray.xz, slope, -ray.y, on_level * OF(leaf, kind) / area);
-        sum.sways += part * SWAYS * OF(crown, kind) * bend;
+        sum.sway += part * SWAYS * OF(crown, kind) * bend;
     }
     return sum;
 }

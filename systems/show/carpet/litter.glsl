@@ -10,7 +10,7 @@ const float STUBS_FROM = 0.25;  // height [m] below which what a cut leaves show
 const float PALER = 0.3;  // how much brighter their pigment is
 
 // How far grass lies there that is trodden, of the posture index: the most of any kind.
-float lies_at(vec2 at) {
+float flatness_at(vec2 at) {
     float most = 0.0;
 #ifdef TRODDEN
     if (trodden_at(at)) for (int kind = 0; kind < KINDS; kind++)
@@ -22,7 +22,7 @@ float lies_at(vec2 at) {
 // What becomes of what lies there where grass is left to stand so high [m] and is trodden: how bright its pigment is, of what
 // it was, and how much is left of low leaves.
 vec2 after(float left, vec2 at) {
-    float kept = 1.0 - TRODDEN_AWAY * lies_at(at);
+    float kept = 1.0 - TRODDEN_AWAY * flatness_at(at);
     if (!anything_is_cut())
         return vec2(1.0, kept);
     float stubs_from = min(STUBS_FROM, tallest_grass), low = min(left / min(LOW_LEAVES, tallest_grass), 1.0);

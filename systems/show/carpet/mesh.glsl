@@ -5,8 +5,8 @@
 #include "systems/show/carpet/tiles.py"
 
 in vec2 corner;  // grid coordinates on the tile, or on the piece
-in vec3 piece;   // grid coordinates of the piece's start, 0 for whole tiles; bits of its sides with skirts
-in vec4 tile;    // low corner (x, z) [m]; grid spacing [m]; distance at which the next coarser spacing has taken over [m], negative if only rims count
+in vec3 piece;  // grid coordinates of the piece's start, 0 for whole tiles; bits of its sides with skirts
+in vec4 tile;  // low corner (x, z) [m]; grid spacing [m]; distance at which the next coarser one has taken over [m], negative if only rims count
 
 uniform sampler2D rims;  // over the terrain: distance from the nearest rim of a cliff [m]
 
@@ -15,9 +15,9 @@ const float QUARTER_MORPH_FROM = 0.6;  // the same where a quarter of a tile mor
 
 uniform float stride = 1.0;  // grid points from one vertex to the next along an axis
 
-float grid_spacing;  // spacing of the morphed grid at the vertex [m]; equal on both sides where tiles meet, and so is all that depends on it
+float grid_spacing;  // spacing of the morphed grid at the vertex [m]; the same from both sides where tiles meet
 
-const vec2 ON_RIM = vec2(2.0, 4.0);  // distances from a rim up to which vertices lie on the terrain's samples, and from which on they do not [cells]
+const vec2 ON_RIM = vec2(2.0, 4.0);  // distances from a rim between which vertices leave the terrain's samples [cells]
 
 // Distance from the nearest rim [m]; beyond the terrain, at least the distance from the terrain.
 float rim_at(vec2 at) {

@@ -1,7 +1,7 @@
-// How much of each kind lines of sight meet: at a low angle, taller kinds hide the others.
+// Shares of kinds in what lines of sight meet: at a low angle, taller kinds hide the others.
 #include "systems/show/carpet/sight.glsl"
 
-// How many leaves of each kind a line of sight of this slope meets on its way to the ground, where that grows densely.
+// Optical depth of each kind, in leaves, for a line of sight of this slope down to the ground, where the kind grows densely.
 ByKind leaves_met(float slope) {
     ByKind leaves = all_kinds(0.0);
     for (int kind = 0; kind < KINDS; kind++)
@@ -15,8 +15,8 @@ ByKind leaves_met(float slope) {
 
 const int LAYERS = 4;
 
-// How much of what a line of sight meets is of each kind. The grass is taken in layers from the top, up to `below` of its
-// height, or from `left` [m]; its leaf area falls off linearly with height.
+// Share of each kind in what a line of sight meets. The grass is taken in layers, down from its top or from the cut height `left` [m],
+// beginning at a fraction `below` of that; leaf area falls off linearly with height.
 ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind riper) {
     float top = 0.0;
     ByKind leaves = leaves_met(slope);
@@ -42,35 +42,34 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
     return met;
 }
 
-// How much an image of a kind hides where it grows densely and alone.
-float hidden_by_image(int kind, ByKind leaves) {
+// Opacity of a kind that grows densely and alone, as its image shows it.
+float image_opacity(int kind, ByKind leaves) {
     return 1.0 - comes_through(OF(leaves, kind));
 }
 #endif
 
-// What is met of each kind, as parts of all that is hidden. Images show how much a kind hides where it grows densely and
-// alone. A line of sight that meets half of its leaves is stopped by more than half as many, and leaves of two kinds stop more
-// than either.
-ByKind shared_out(ByKind met, ByKind grows, float slope) {
+// Weights of the images of kinds, by what is met of each. Images have the opacity of a kind that grows densely and alone. Half of its
+// leaves have more than half of its opacity, and the leaves of two kinds have more than those of either.
+ByKind image_weights(ByKind met, ByKind grows, float slope) {
     float all = max(total(met), THINNEST_LAYER), alone = 0.0;
     ByKind leaves = leaves_met(slope);
     for (int kind = 0; kind < KINDS; kind++)
-        alone += OF(met, kind) / all * hidden_by_image(kind, leaves);
+        alone += OF(met, kind) / all * image_opacity(kind, leaves);
     float hides = (1.0 - comes_through(weighed(leaves, grows))) / max(alone, TINY);
     for (int group = 0; group < GROUPS; group++)
         met[group] = met[group] / all * hides;
     return met;
 }
 
-// Up to which height a line of sight has met no strips, of the grass's height: where strips stand out of the carpet, it has
-// met the tops of grass on them. Where the carpet itself gives way to strips, these leave more to it than their heights tell.
-float left_by_strips(float met_carpet, float share) {
+// Height below which a line of sight has met no strips, as a fraction of the grass's: where strips stand out of the carpet, it has met
+// the tops of grass on them. Where the carpet itself gives way to strips, these leave more to it than their heights tell.
+float height_past_strips(float met_carpet, float share) {
     return mix(1.0, mix(RAISED, 1.0, met_carpet), share * share * share * share);
 }
 
-// How much of its tips is met, in the mean over the kinds, of what their images show, which have each grow densely and alone.
-// What grows thinly, or stands out of a lower kind, is met farther down; as blades differ in length, that is less far down each.
-float tips_met(ByKind met, ByKind grows, float slope) {
+// Factor of the mean place along blades that is met, averaged over kinds, relative to images, in which each kind grows densely and
+// alone. Thin grass, or grass that stands out of a lower kind, is met farther down; as blades differ in length, less so along each.
+float tip_ratio(ByKind met, ByKind grows, float slope) {
     ByKind area = areas(grows);
     float tips = 0.0;
     slope = max(slope, LOWEST);

@@ -9,22 +9,22 @@ uniform ByKind first;           // by kind: first layer of the images
 uniform ByKind coming;          // the same of what it is to be
 uniform ivec3 stock;            // patch models; seed; coarsest level of the images
 
-const float SHARP = 0.6;        // size of what is taken from the images for a pixel, of the pixel's own: filtering takes more
+const float SHARP = 0.6;  // size of what is taken from the images for a pixel, of the pixel's own: filtering takes more
 const vec2 LONGEST = vec2(0.25, 1.0);  // how much finer that is over a crest: at most, and at least
 const vec2 ROOTS_SEEN = vec2(0.25, 0.9);  // viewing slopes from which on it is seen how far apart blades stand, and that alone
 const vec2 STEEP = vec2(0.05, 0.3);  // viewing slopes from which on grass is seen from the side hardly, and not
-const vec2 ABOVE = vec2(0.0, 2.0);   // from which on it is seen from above a little, and wholly
-const float GRAIN = 1.5;        // how far images are from their mean, for what filtering takes away
+const vec2 ABOVE = vec2(0.0, 2.0);  // from which on it is seen from above a little, and wholly
+const float GRAIN = 1.5;  // how far images are from their mean, for what filtering takes away
 const vec2 GRAIN_ABOVE = vec2(1.19, 2.3);  // the same from above, and from so far that a pixel takes in whole tufts
-const float FILTERED = 0.4;     // level of the mip-maps at which filtering begins to take grain away, below the finest
-const float ALIKE = 0.6;        // how the two steepest images correlate
+const float FILTERED = 0.4;  // level of the mip-maps at which filtering begins to take grain away, below the finest
+const float ALIKE = 0.6;  // how the two steepest images correlate
 const vec2 TUFTS = vec2(0.12, 0.4);  // breadths of a pixel from which on it takes in tufts, and whole ones [m]
-const float EVENER = 0.15;      // from above, how much less uneven grass is that lies
-const float EVENER_ASIDE = 0.6; // the same from the side
-const float FEATURE = 0.3;      // height of what can be told apart in the grass from the side, of the grass's
-const float TIPS = 1.7;         // how far bent grass moves its tips, of how far it moves the leaves that are seen
-const float TOO_STEEP = 1.7;    // viewing slope from which on hardly any of it is seen
-const float SHORTEST = 0.35;    // blades that lean towards the eye are so long at least, of how long they are seen at rest
+const float EVENER = 0.15;  // from above, how much less uneven grass is that lies
+const float EVENER_ASIDE = 0.6;  // the same from the side
+const float FEATURE = 0.3;  // height of what can be told apart in the grass from the side, of the grass's
+const float TIPS = 1.7;  // how far bent grass moves its tips, of how far it moves the leaves that are seen
+const float TOO_STEEP = 1.7;  // viewing slope from which on hardly any of it is seen
+const float SHORTEST = 0.35;  // blades that lean towards the eye are so long at least, of how long they are seen at rest
 const float THINNEST_PIXEL = 1e-6;  // breadth that a pixel has at least, in patches
 
 // What is the same all over a patch.
@@ -38,7 +38,7 @@ struct Patch {
 const uint UPPER_HALF = 16u;  // of what is drawn: where the lower one draws the model, it draws the heading
 
 // How far leaves sway that a message moves, in the mean over the kinds that are met: of the message [m].
-float sways_by(ByKind met, vec2 message) {
+float sway_of(ByKind met, vec2 message) {
     float sum = 0.0;
     for (int kind = 0; kind < KINDS; kind++)
         sum += OF(met, kind) * OF(crown, kind) * length(bending(kind, message));
@@ -47,11 +47,11 @@ float sways_by(ByKind met, vec2 message) {
 
 // The patch of a place whose leaves sway so far, of the wind's message [m], and stand so high, of their height at rest. It is
 // one wind for all of a patch: images that are sheared here and there otherwise would curl.
-Patch patch_at(vec2 at, float sways, float stands) {
+Patch patch_at(vec2 at, float sway, float stands) {
     ivec2 cell = ivec2(floor(at * patches_a_metre));
     uint drawn = hash3(stock.y, cell.x, cell.y);
     vec2 message = message_at((vec2(cell) + 0.5) * patch_side);
-    return Patch(cell, int(drawn % uint(stock.x)), int(drawn >> UPPER_HALF) & (HEADINGS - 1), vec3(sways * message, stands));
+    return Patch(cell, int(drawn % uint(stock.x)), int(drawn >> UPPER_HALF) & (HEADINGS - 1), vec3(sway * message, stands));
 }
 
 // The rotation that turns the line of sight into the heading of the images that are taken: of four headings, one on each

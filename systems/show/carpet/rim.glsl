@@ -1,7 +1,7 @@
 // Grass on the rim of a cliff. Over a crest the ground curves evenly; over a rim it breaks off. There a line of sight is as deep in the
 // grass as it passes below its top at the rim, and the slopes on both sides give the length of its path.
-const int LOOKS = 12;       // places on a line of sight that may be the rim
-const float APART_BY = 0.5; // distance from one to the next, in grid spacings
+const int LOOKS = 12;           // places on a line of sight that may be the rim
+const float APART_BY = 0.5;     // distance from one to the next, in grid spacings
 const float LEAST_TURN = 0.05;  // least slope at which it enters the grass, or leaves it
 
 // Depth of a line of sight below the top of the grass at a rim, as a fraction of its height, times the root of its path through grass

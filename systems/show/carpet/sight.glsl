@@ -10,7 +10,7 @@ const float RIM = 1.25;  // the same over a rim
 const float FARTHEST_SEEN = 15.0;  // largest distance from where a line of sight enters the grass to what it meets [m]
 const float CREST_CURVATURE = 5e-4;  // curvature from which on ground counts fully as a crest [1/m]
 const float LEAST_CURVATURE = 1e-5;  // least curvature that divides [1/m]
-const vec2 LEAVES_BEGIN = vec2(0.5, 2.0);  // relative depths of lines of sight: at an outline, and where they meet as much as on level ground
+const vec2 LEAVES_BEGIN = vec2(0.5, 2.0);  // depths of lines of sight at an outline, and where they meet as much as on level ground
 const float UPPER = 0.58;  // weight of the upper part of a path through the grass, where most leaves are met
 const float BEFORE = 0.27;  // distance before the carpet at which lines of sight meet the first leaves, in heights over slope
 const float SPREAD = 0.17;  // distance of the leaves that they meet from the mean of these, before and behind, in heights over slope
@@ -96,8 +96,8 @@ vec3 leaf_place(vec3 place, float slope, float tall, float leaf_area) {
 }
 
 // HOSTS_OFF: largest height difference between a game's own ground and this one [m]: 0.1 m, and 0.05 m by which cells of 4 m sag on a
-// hilltop of 40 m radius. NEAREST_HOSTS: least height over this ground that the carpet's depth has, in HOSTS_OFF. MOST_NEARER: largest shift of
-// its depth towards the eye [m].
+// hilltop of 40 m radius. NEAREST_HOSTS: least height over this ground that the carpet's depth has, in HOSTS_OFF. MOST_NEARER: largest
+// shift of its depth towards the eye [m].
 const float HOSTS_OFF = 0.15, NEAREST_HOSTS = 1.2, MOST_NEARER = 25.0;
 
 // The point on the line of sight whose depth a place `high` [m] over the ground takes, so that a game's own ground, which is about as

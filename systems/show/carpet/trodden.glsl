@@ -23,6 +23,6 @@ Canopy trodden(Canopy canopy, ByKind met, vec3 place, float slope, float on_leve
     canopy.light.sun = max(canopy.light.sun, 0.0);
     canopy.light.sky = max(canopy.light.sky, 0.0);
     canopy.bent += with.bent - without.bent;
-    canopy.sways = with.sways - without.sways;
+    canopy.sway = with.sway - without.sway;
     return canopy;
 }

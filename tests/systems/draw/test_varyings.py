@@ -108,5 +108,5 @@ def test_of_several_samples_a_pixel_none_asks_beyond_a_tiles_edge_where_numbers_
     folder = Path(shaders.__file__).parents[2] / "systems/show/carpet"
     text = (folder / f"{name}.frag").read_text("utf-8")
     wild = re.findall(r"^in \w+ (\w+);", text, re.MULTILINE)
-    assert {*wild} <= {"place", "over"}, "of these, only differences count, to the next pixel"
+    assert {*wild} <= {"place", "mesh_place"}, "of these, only differences count, to the next pixel"
     assert not re.search(r"^#define \w+ in$", text, re.MULTILINE)
