@@ -64,7 +64,7 @@ def _must_be_alike(then: SavedScene, now: SavedScene, /, *, cleared: int) -> Non
     if then.seed != now.seed:
         unfit(f"its seed is {then.seed}, and this one's {now.seed}")
     if (then.size, then.cell) != (now.size, now.cell):
-        unfit(f"its ground is {_told(then)}, and this one's {_told(now)}")
+        unfit(f"its ground is {_ground_text(then)}, and this one's {_ground_text(now)}")
     if then.wind != now.wind:
         unfit(f"its scene declares {_listed(then.wind, 'wind')}, and this one {_listed(now.wind, 'wind')}")
     if cleared and then.patch != now.patch:
@@ -87,7 +87,7 @@ def _open(heights: Floats, holes: Mask) -> Floats:
     return np.where(holes, np.float32(np.nan), heights)
 
 
-def _told(scene: SavedScene) -> str:
+def _ground_text(scene: SavedScene) -> str:
     return f"{scene.size[0]:g} by {scene.size[1]:g} m with a sample every {scene.cell:g} m"
 
 

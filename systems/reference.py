@@ -1,4 +1,4 @@
-"""The truth to compare with: every blade in 3D at the finest level, supersampled."""
+"""The reference picture to compare with: every blade in 3D at the finest level, supersampled."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -30,21 +30,21 @@ from .wind.grass import grass_of
 
 Place = tuple[float, float, float]
 ROOM = 1.5
-"""How far a blade may reach from its root, in its own lengths: more than it can be bent and leaned to."""
+"""Upper bound of a bent and leaning blade's distance from its root, in its own lengths."""
 
 CHUNK = 400
-"""Patches drawn at a time in a reference, so that a large terrain needs no large buffers."""
+"""Number of patches drawn at a time in a reference, so that a large terrain needs no large buffers."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Truth:
-    """A supersampled picture, and how far it may be from one with any number of samples."""
+    """A supersampled picture, and an estimate of its error against one with infinitely many samples."""
 
     picture: NDArray[np.uint8]
     """sRGB bytes, top row first, shape (height, width, 3)."""
 
     doubt: NDArray[np.float32]
-    """How unsure each pixel is, shape (height, width, 3): half the difference between the means of two halves of its
+    """Uncertainty of each pixel, shape (height, width, 3): half the difference between the means of two halves of its
     samples, taken like the white and black fields of a chessboard. Its mean square is at least that of the noise."""
 
 
@@ -59,7 +59,7 @@ def terrain_cells(ground: Ground, /) -> Ints:
 
 
 def cells_within(ground: Ground, eye: Place, cone: tuple[float, float], /, *, sway: float) -> Ints:
-    """Return the cells of the terrain inside a view cone from an eye, (n, 2); `sway` is how far grass may reach [m]."""
+    """Return the cells of the terrain inside an eye's view cone, (n, 2); `sway` is as a site has it [m]."""
     cells = terrain_cells(ground)
     middles = (cells + np.float32(0.5)) * np.float32(ground.patch)
     radius = ground.patch * HALF_DIAGONAL + sway
@@ -67,7 +67,7 @@ def cells_within(ground: Ground, eye: Place, cone: tuple[float, float], /, *, sw
 
 
 def cells_in_picture(prairie: Prairie, cells: Ints, seen: View, /) -> Ints:
-    """Return those of `cells` (n, 2) whose blades might reach into the picture however they are bent, shape (m, 2)."""
+    """Return those of `cells` (n, 2) whose blades may reach into the picture in some posture, shape (m, 2)."""
     site = prairie.site
     patch, terrain = site.ground.patch, site.ground.terrain
     corners = (cells[:, None] + np.array([(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)])) * patch
@@ -79,9 +79,9 @@ def cells_in_picture(prairie: Prairie, cells: Ints, seen: View, /) -> Ints:
 
 
 def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /, *, seen: View | None = None) -> int:
-    """Send all blades of `cells` (n, 2) to a painter, bent by the wind of now; return how many.
+    """Upload all blades of `cells` (n, 2) to a painter, bent by the present wind; return their number.
 
-    Where it is told what is `seen`, those that cannot come into the picture are left out.
+    With a view `seen`, blades that cannot reach into the picture are left out.
     """
     site = prairie.site
     (stock,) = (each.stock for each in site.representations if isinstance(each, BladeRepresentation))
@@ -100,7 +100,7 @@ def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /, *, seen: 
 
 
 def near_picture(blades: NDArray[np.void], seen: View, /) -> NDArray[np.bool_]:
-    """Return which blades, records (n,), might reach into the picture however they are bent, shape (n,)."""
+    """Return whether each blade, a record of (n,), may reach into the picture in some posture, shape (n,)."""
     root = blades["root"].astype(np.float64)
     length = blades["height"] + (blades["stem"] if "stem" in (blades.dtype.names or ()) else 0.0)
     reach = ROOM * length.astype(np.float64) + blades["width"]
@@ -108,16 +108,16 @@ def near_picture(blades: NDArray[np.void], seen: View, /) -> NDArray[np.bool_]:
 
 
 def carpet_painter(painter: Painter, /) -> CarpetPainter:
-    """Return what draws ground and carpet."""
+    """Return the painter of ground and carpet."""
     carpet = painter.coarsest
     assert isinstance(carpet, CarpetPainter)
     return carpet
 
 
 class EveryBlade:
-    """Draws a prairie with every blade in 3D at the finest level, and every leaf; shares the prairie's painter.
+    """Draws a prairie with every blade in 3D at the finest level and every leaf, by the prairie's own painter.
 
-    The prairie must have been drawn once, so that it knows where it is looked at from.
+    The prairie must have been drawn once, as its viewer's eye is used.
     """
 
     def __init__(self, prairie: Prairie) -> None:
@@ -137,11 +137,11 @@ class EveryBlade:
         leaves_from: float = 0.0,
         seen_at: Sequence[Place] = (),
     ) -> None:
-        """Draw sky, ground, all trees and all blades of `cells` (n, 2) into the framebuffer that is bound.
+        """Draw sky, ground, all trees and all blades of `cells` (n, 2) into the bound framebuffer.
 
-        With `reach` only blades up to this discrete distance are drawn; beyond them lies the prairie's own carpet.
-        Trees whose own pictures are no higher than `leaves_from` from any place of `seen_at` are drawn as the prairie
-        has them far off [pixels, m]; without those, from the viewer's.
+        With `reach`, blades are drawn up to this discrete distance, and the prairie's own carpet beyond it. Trees are
+        drawn as the prairie's far trees if they are no higher than `leaves_from` [pixels], seen from every place of
+        `seen_at` [m], or else from the viewer's eye.
         """
         cover = None
         if reach is not None:
@@ -164,13 +164,13 @@ class EveryBlade:
                 yield self.blades
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release the blades' GL objects."""
         self.blades.release()
 
 
 @contextmanager
 def without_trees(prairie: Prairie) -> Iterator[None]:
-    """Draw no trees of a prairie that has been drawn once, though their shade."""
+    """Hide the trees of a prairie that has been drawn once, but not their shade, inside this context."""
     assert prairie.painter is not None
     trees = prairie.painter.part(TreePart)
     trees.hidden = True
@@ -181,11 +181,10 @@ def without_trees(prairie: Prairie) -> Iterator[None]:
 
 
 def patch_distances(prairie: Prairie, view: object, projection: object, size: tuple[int, int]) -> NDArray[np.int32]:
-    """Return the discrete distance of what each pixel shows, top row first, shape (height, width).
+    """Return the discrete distance of the patch that each pixel shows, top row first, shape (height, width).
 
-    -1 is the sky, and ground beyond the terrain, where no patch is.
-
-    What a pixel shows is taken at the carpet's height, about the middle of the grass.
+    It is -1 for the sky, and for ground beyond the terrain, where there are no patches. The patch is found at half the
+    grass's height.
     """
     seen, every = view_of(view, projection), prairie.painter
     if every is None:
@@ -198,7 +197,7 @@ def patch_distances(prairie: Prairie, view: object, projection: object, size: tu
         target.use()
         target.clear(depth=1.0)
         carpet = carpet_painter(every)
-        carpet.lay_everywhere(prairie.viewers["main"], height=0.5)  # about the middle of the grass
+        carpet.lay_everywhere(prairie.viewers["main"], height=0.5)  # half the grass's height
         every.draw(seen, blades=[])
         carpet.lay_as_always()
         fine = np.frombuffer(depth.read(alignment=1), np.float32).reshape(height, width)[::-1]
@@ -234,12 +233,12 @@ def draw_truth(
     reach: int | None = None,
     seen_at: Sequence[Place] = (),
 ) -> Truth:
-    """Return the reference picture of a prairie that has been drawn, and how sure it is.
+    """Return the reference picture of a prairie that has been drawn once, and its uncertainty.
 
-    Each pixel is the mean of `samples` by `samples` of a larger picture, in display space as blending is. With
-    `reach`, blades stand only up to this discrete distance, and beyond it lies the carpet that the prairie draws; trees
-    that the prairie draws as they are far off, from here or from every place of `seen_at` [m], are drawn so. The
-    matrices may show a part of what the prairie was drawn with, as those of `cropped` do.
+    Each pixel is the mean of `samples` by `samples` pixels of a larger picture, in display space as blending is. With
+    `reach`, blades are drawn up to this discrete distance, and the prairie's own carpet beyond it; far trees, seen from
+    here or from every place of `seen_at` [m], are drawn as the prairie draws them. The matrices may show a part of the
+    picture that the prairie was drawn with, as those of `cropped` do.
     """
     seen = view_of(view, projection)
     every = EveryBlade(prairie)
@@ -250,7 +249,7 @@ def draw_truth(
     color, depth = ctx.texture(large, 3, alignment=1), ctx.depth_renderbuffer(large)
     target = ctx.framebuffer([color], depth)
     try:
-        quarantine.live = False  # all of the picture is in the same winds
+        quarantine.live = False  # so that no wind is left out part of the way
         target.use()
         target.clear(depth=1.0)
         site = prairie.site
@@ -267,7 +266,7 @@ def draw_truth(
 
 
 def box_filtered(target: moderngl.Framebuffer, size: tuple[int, int], samples: int) -> Truth:
-    """Return a framebuffer's picture with `samples` by `samples` pixels averaged into each, top row first."""
+    """Return a framebuffer's picture with each `samples` by `samples` pixels averaged into one, top row first."""
     width, height = size
     fine = np.frombuffer(target.read(components=3, alignment=1), np.uint8)
     fine = fine.reshape(height, samples, width, samples, 3)
@@ -275,8 +274,8 @@ def box_filtered(target: moderngl.Framebuffer, size: tuple[int, int], samples: i
     for down, across in np.ndindex(samples, samples):  # many times as fast as one sum over two axes
         halves[(down + across) % 2] += fine[:, down, :, across]
     count = samples * samples
-    one, other = halves[0] / max(count - count // 2, 1), halves[1] / max(count // 2, 1)
-    doubt = 0.5 * (one - other) if count > 1 else np.zeros_like(one)
+    white, black = halves[0] / max(count - count // 2, 1), halves[1] / max(count // 2, 1)
+    doubt = 0.5 * (white - black) if count > 1 else np.zeros_like(white)
     picture = np.round(halves.sum(axis=0) / count).astype(np.uint8)
     return Truth(np.ascontiguousarray(picture[::-1]), np.ascontiguousarray(doubt[::-1], np.float32))
 
@@ -284,7 +283,7 @@ def box_filtered(target: moderngl.Framebuffer, size: tuple[int, int], samples: i
 def cropped(
     projection: NDArray[np.float32], corner: tuple[int, int], part: tuple[int, int], whole: tuple[int, int], /
 ) -> NDArray[np.float32]:
-    """Return the projection (4, 4) that shows a part of a picture alone.
+    """Return the projection (4, 4) that shows only a part of a picture.
 
     `corner` is the column and row of the part's first pixel from the top left, `part` and `whole` are (width, height)
     [pixels].
