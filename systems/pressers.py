@@ -32,12 +32,10 @@ from .wearing import Wearing
 from .wind.blow import ReceiverArrays
 
 REMEMBERED = 2.0
-"""Time for which marks are remembered, in times that grass takes to stand again: they affect later marks."""
-
+"""Time for which marks are remembered, as a multiple of the grass's recovery time: they affect later marks."""
 
 RATE = 30
 """Number of instants a second at which the poses of the scene's pressers are sampled; between them they go straight."""
-
 
 EVERY = 60.0
 """Interval at which the scene's pressers begin new stretches [s]: a replay can begin there, after forgotten ones."""
@@ -79,9 +77,10 @@ class Pressers(Feature):
         self._world, self._density, self._wearing = world, density, Wearing()
         self._generation = world.generation
         self._declared: dict[int, PresserOnPath] = {}
-        self._scenes, self._games = Walk(Trail(begun=FIRST_OF_SCENE, every=EVERY)), Walk(Trail())
+        """The scene's pressers by their entities, in its order."""
+        self._scene_walk, self._game_walk = Walk(Trail(begun=FIRST_OF_SCENE, every=EVERY)), Walk(Trail())
         """Walks of the scene's pressers, and of a game's own."""
-        self._memory = Memory([self._scenes.trail, self._games.trail])
+        self._memory = Memory([self._scene_walk.trail, self._game_walk.trail])
         self._is_anew = True
         """Whether the whole way of the scene's pressers is still to be replayed."""
         self._scene = scene
@@ -101,7 +100,7 @@ class Pressers(Feature):
         self.change(grown.scene, grown.growths)
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> PressPart:
-        """Return the part that passes over receivers read marks from."""
+        """Return the part that uploads marks for passes over receivers."""
         del block
         return PressPart(ctx, units["pressed"])
 
@@ -124,15 +123,15 @@ class Pressers(Feature):
         found = self._world.both(Presser, Pose)
         if len(found) < len(self._world.rows(Presser)):
             self._report_without_pose()
-        if not found and not self._scenes.pressers and not self._games.pressers and not self.trodden:
+        if not found and not self._scene_walk.pressers and not self._game_walk.pressers and not self.trodden:
             return self.trodden
         wearing = [row for row in found if row[1].wear and row[0] not in self._declared and is_somewhere(row[2])]
         self._wearing.go(wearing, self._density)
-        who, rows = self._standing(found)
-        is_scenes = np.array([entity in self._declared for entity, _ in who], np.bool_)
-        games, scenes = ([who[number] for number in np.flatnonzero(which)] for which in (~is_scenes, is_scenes))
-        is_new = self._games.move(games, rows[~is_scenes], time)
-        if self._walk_declared(scenes, rows[is_scenes], time) or is_new:
+        pressers, poses = self._posed(found)
+        is_declared = np.array([entity in self._declared for entity, _ in pressers], np.bool_)
+        own, declared = ([*compress(pressers, which)] for which in (~is_declared, is_declared))
+        is_new = self._game_walk.move(own, poses[~is_declared], time)
+        if self._walk_declared(declared, poses[is_declared], time) or is_new:
             self.trodden = self._memory.at(time)
         return self.trodden
 
@@ -141,18 +140,19 @@ class Pressers(Feature):
         every = (entity for entity, _ in self._world.all(Presser))
         self._world.standing([(each, None) for each in every if self._world.find(each, Pose) is None], "the presser")
 
-    def _standing(self, found: list[tuple[int, Presser, Pose]]) -> tuple[list[EntityPresser], Doubles]:
+    def _posed(self, found: list[tuple[int, Presser, Pose]]) -> tuple[list[EntityPresser], Doubles]:
         """Return the pressers whose pose is finite, and their poses (x, z, yaw), shape (n, 3)."""
-        rows = as_places_of(pose for _, _, pose in found)
-        if rows is None:
-            found = [*compress(found, self._world.standing([(who, pose) for who, _, pose in found], "the presser"))]
-            rows = _rows([pose for _, _, pose in found])
-        return [row[:2] for row in found], rows
+        poses = as_places_of(pose for _, _, pose in found)
+        if poses is None:
+            is_posed = self._world.standing([(entity, pose) for entity, _, pose in found], "the presser")
+            found = [*compress(found, is_posed)]
+            poses = _pose_rows([pose for _, _, pose in found])
+        return [row[:2] for row in found], poses
 
     def go_back(self) -> None:
         """Forget all marks, as time goes back: the scene's pressers will be replayed."""
-        self._games, self.trodden, self._wearing = Walk(Trail()), UNTRODDEN, Wearing()
-        self._memory = Memory([self._scenes.trail, self._games.trail], self._memory.lasts)
+        self._game_walk, self.trodden, self._wearing = Walk(Trail()), UNTRODDEN, Wearing()
+        self._memory = Memory([self._scene_walk.trail, self._game_walk.trail], self._memory.lasts)
         self._begin_anew()
 
     def games(self) -> list[tuple[int, Presser, Pose]]:
@@ -168,7 +168,7 @@ class Pressers(Feature):
     def treading(self) -> Treading:
         """Return the present state, for `resume`."""
         numbers = {entity: -1 - number for number, entity in enumerate(self._declared)}
-        scenes, games = self._scenes.state(), self._games.state()
+        scenes, games = self._scene_walk.state(), self._game_walk.state()
         scenes = replace(scenes, pressers=[(numbers[entity], presser) for entity, presser in scenes.pressers])
         there = dict(self._world.all(Presser))
         return Treading(
@@ -190,17 +190,17 @@ class Pressers(Feature):
                 self._world.add(now, presser)
             declared[now] = path
         self._declared, numbers = declared, [*declared]
-        self._scenes, self._games = Walk(Trail(begun=FIRST_OF_SCENE, every=EVERY)), Walk(Trail())
+        self._scene_walk, self._game_walk = Walk(Trail(begun=FIRST_OF_SCENE, every=EVERY)), Walk(Trail())
         scenes, games = treading.walks
-        self._scenes.resume(scenes, [(numbers[-1 - number], presser) for number, presser in scenes.pressers])
-        self._games.resume(games, [(entities.get(entity, entity), presser) for entity, presser in games.pressers])
-        self._memory = Memory([self._scenes.trail, self._games.trail], self._memory.lasts)
+        self._scene_walk.resume(scenes, [(numbers[-1 - number], presser) for number, presser in scenes.pressers])
+        self._game_walk.resume(games, [(entities.get(entity, entity), presser) for entity, presser in games.pressers])
+        self._memory = Memory([self._scene_walk.trail, self._game_walk.trail], self._memory.lasts)
         self._memory.resume(treading.kept, treading.since)
         self._is_anew = treading.anew
         self.trodden = UNTRODDEN if treading.trodden is None else self._memory.at(treading.trodden)
 
     def over(self, message: Floats, receivers: ReceiverArrays, /) -> Floats:
-        """Return the messages (n, 2) to receivers of the wind's messages and of pressers together, shape (n, 2).
+        """Lay the messages of pressers over the wind's messages (n, 2) to receivers, in place, and return these.
 
         Receivers without small oscillations stand for whole patches: their messages stay as they are.
         """
@@ -228,8 +228,8 @@ class Pressers(Feature):
         self._begin_anew()
 
     def _begin_anew(self) -> None:
-        self._scenes, self._is_anew = Walk(Trail(begun=FIRST_OF_SCENE, every=EVERY)), True
-        self._memory.replace(self._scenes.trail)
+        self._scene_walk, self._is_anew = Walk(Trail(begun=FIRST_OF_SCENE, every=EVERY)), True
+        self._memory.replace(self._scene_walk.trail)
 
     def _place_declared(self, time: float) -> None:
         """Put the scene's pressers at their poses of `time` [s]; those that a game has deleted stay away."""
@@ -241,37 +241,37 @@ class Pressers(Feature):
             self._generation = self._world.generation
         for entity, declared in self._declared.items():
             if self._world.find(entity, Presser) is not None:
-                self._world.add(entity, _on_way(declared, time))
+                self._world.add(entity, _pose_at(declared, time))
 
-    def _walk_declared(self, who: list[EntityPresser], pose: Doubles, time: float) -> bool:
-        """Move the scene's pressers along their paths to their poses (n, 3) of `time` [s].
+    def _walk_declared(self, pressers: list[EntityPresser], poses: Doubles, time: float) -> bool:
+        """Move the scene's pressers along their paths to their `poses` (n, 3) at `time` [s].
 
         Their poses are sampled at all instants since the last call. Instants before all paths begin and after all have
         ended are skipped. Returns whether anything is new.
         """
-        if time - self._scenes.time > self._memory.lasts + EVERY:
+        if time - self._scene_walk.time > self._memory.lasts + EVERY:
             self._begin_anew()  # what they trod before is forgotten
-        walk, is_anew = self._scenes, self._is_anew
+        walk, is_anew = self._scene_walk, self._is_anew
         if is_anew:
-            declared = [self._declared[entity] for entity, _ in who]
-            for number in _lead(declared, _start(declared, floor(time) - self._memory.lasts)):
-                walk.move(who, self._poses_at(who, number / RATE), number / RATE)
+            declared = [self._declared[entity] for entity, _ in pressers]
+            for number in _replay_instants(declared, _replay_start(declared, floor(time) - self._memory.lasts)):
+                walk.move(pressers, self._poses_at(pressers, number / RATE), number / RATE)
             self._is_anew = False
-        stay = staying(walk.pressers, who)
+        stay = staying(walk.pressers, pressers)
         for number in _instants([self._declared[entity].path for entity, _ in stay], walk.time, time):
             walk.move(stay, self._poses_at(stay, number / RATE), number / RATE)
-        return walk.move(who, pose, time) or is_anew
+        return walk.move(pressers, poses, time) or is_anew
 
-    def _poses_at(self, who: list[EntityPresser], time: float) -> Doubles:
+    def _poses_at(self, pressers: list[EntityPresser], time: float) -> Doubles:
         """Return the poses (x, z, yaw) of some of the scene's pressers at `time` [s], shape (n, 3)."""
-        return _rows([self._declared[entity].pose(time=time) for entity, _ in who])
+        return _pose_rows([self._declared[entity].pose(time=time) for entity, _ in pressers])
 
 
-def _rows(poses: Sequence[Pose]) -> Doubles:
+def _pose_rows(poses: Sequence[Pose]) -> Doubles:
     return np.array([(pose.x, pose.z, pose.yaw) for pose in poses], np.float64).reshape(-1, 3)
 
 
-def _start(pressers: Sequence[PresserOnPath], latest: float) -> float:
+def _replay_start(pressers: Sequence[PresserOnPath], latest: float) -> float:
     """Return the latest time [s] from which a replay of all paths leaves the same marks after `latest` [s].
 
     It is a multiple of `EVERY` at which each presser moves, has not set out yet, or has arrived.
@@ -284,7 +284,7 @@ def _start(pressers: Sequence[PresserOnPath], latest: float) -> float:
     return next((then for then in starts if all(is_possible(presser, then) for presser in pressers)), 0.0)
 
 
-def _lead(pressers: Sequence[PresserOnPath], start: float) -> list[int]:
+def _replay_instants(pressers: Sequence[PresserOnPath], start: float) -> list[int]:
     """Return the numbers of the instants up to `start` [s] that a replay samples, in ascending order.
 
     For pressers that have arrived by then, it samples the end of their path, from a multiple of `EVERY` on.
@@ -316,7 +316,7 @@ def _instants(paths: Sequence[Sequence[Waypoint]], since: float, until: float) -
     return range(max(floor(since * RATE) + 1, first), min(ceil(until * RATE), last + 1))
 
 
-def _on_way(declared: PresserOnPath, time: float) -> Pose:
+def _pose_at(declared: PresserOnPath, time: float) -> Pose:
     """Return the pose of a presser at `time` [s], interpolated between the two instants around it."""
     before, after = (declared.pose(time=at / RATE) for at in (floor(time * RATE), ceil(time * RATE)))
     part = time * RATE - floor(time * RATE)
