@@ -62,7 +62,7 @@ class Ripening:
             if moved is site or not waits:
                 break
             site = moved
-        return self._at(moved, time)
+        return self._with_progress(moved, time)
 
     def _next(self, site: Site, time: float, *, waits: bool) -> _Pending | None:
         """Return the next site that is due, if there is one."""
@@ -82,9 +82,9 @@ class Ripening:
         begun = Batch(grows, since, {name: over[name] for name in grows}) if grows else None
         return self._made(site, at_once, begun, waits=waits)
 
-    def _made(self, site: Site, stood: Mapping[str, GrassKind], batch: Batch | None, *, waits: bool) -> _Pending:
-        """Return the site on which the kinds of `stood` have grown and those of `batch` change, or its future."""
-        stands = self._seasons.standing | dict(stood)
+    def _made(self, site: Site, changed: Mapping[str, GrassKind], batch: Batch | None, *, waits: bool) -> _Pending:
+        """Return the site on which the `changed` kinds have grown and those of `batch` are changing, or its future."""
+        stands = self._seasons.standing | dict(changed)
         wanted = site, self._known, stands, {} if batch is None else batch.kinds
         if waits:
             return _Pending(ripened(*wanted), stands, batch)
@@ -108,7 +108,7 @@ class Ripening:
         self._pending = None
         return made
 
-    def _at(self, site: Site, time: float) -> Site:
+    def _with_progress(self, site: Site, time: float) -> Site:
         came = () if self._seasons.batch is None else self._seasons.batch.came(site.scene.grass, time)
         return site if came == site.came else site.come(came)
 

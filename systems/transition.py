@@ -171,18 +171,18 @@ def _refine(
     now, before, progress = (
         levels[level] for levels in (patches.sublevel, patches.sublevel_before, patches.sublevel_progress)
     )
-    has, (shows, both) = now[rows], _standing(patches, rows, level)
-    shows &= (patches.was_visible & patches.visible)[rows] & (has >= 0) & (not outlook.viewer.jumped)
+    present, (slowly, between) = now[rows], _standing(patches, rows, level)
+    slowly &= (patches.was_visible & patches.visible)[rows] & (present >= 0) & (not outlook.viewer.jumped)
     slack = SLACK if transitions.hysteresis else 0
-    due = representation.sublevels(outlook, rows, np.where(shows, has, np.int8(-1)), slack=slack)
-    shows &= transitions.gradual
-    wanted = np.where(both & shows, has, due)
-    nearer = np.where(progress[rows] < 0.5, before[rows], has)
-    wanted = np.where(waits & shows, nearer, wanted)
-    here = unsettled(has, before[rows], progress[rows], wanted)
+    due = representation.sublevels(outlook, rows, np.where(slowly, present, np.int8(-1)), slack=slack)
+    slowly &= transitions.gradual
+    wanted = np.where(between & slowly, present, due)
+    nearer = np.where(progress[rows] < 0.5, before[rows], present)
+    wanted = np.where(waits & slowly, nearer, wanted)
+    here = unsettled(present, before[rows], progress[rows], wanted)
     if here.size:
-        progress[rows[both]] = 1.0
-        move_rows(now, before, progress, rows[here], wanted[here], shows[here], step=step)
+        progress[rows[between]] = 1.0
+        move_rows(now, before, progress, rows[here], wanted[here], slowly[here], step=step)
 
 
 def _standing(patches: PatchTable, rows: Rows, level: int) -> tuple[Mask, Mask]:

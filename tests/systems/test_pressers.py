@@ -318,7 +318,7 @@ def test_n5_what_a_scene_has_forgotten_is_not_gone_again_and_changes_nothing(
     stops = ((0, -9, 0), (60, 9, 4), (160, -3, -9), (200, 9, 0))
     ways = ", ".join(f"{{ at: {at}, position: [{east}, {south}] }}" for at, east, south in stops)
     scene = f"{LITTLE}pressers:\n  - {{ radius: 0.4, path: [{ways}] }}\n  - {{ length: 1, path: [{ways}] }}\n{still}"
-    start, begun, found, bent = pressers_module._start, list[float](), [], []  # noqa: SLF001 - as above
+    start, begun, found, bent = pressers_module._replay_start, list[float](), [], []  # noqa: SLF001 - as above
     x, z = np.random.default_rng(5).uniform(-10.0, 10.0, (2, 4000))
 
     def late(*given: object) -> float:
@@ -326,7 +326,7 @@ def test_n5_what_a_scene_has_forgotten_is_not_gone_again_and_changes_nothing(
         return begun[-1]
 
     for way in (late, lambda *_: 0.0):
-        monkeypatch.setattr(pressers_module, "_start", way)
+        monkeypatch.setattr(pressers_module, "_replay_start", way)
         with little_prairie(scene=scene) as prairie:
             prairie.advance(181.4)
             bent.append(prairie.bent_at(np.stack([x, z], axis=1)))
