@@ -152,7 +152,7 @@ class WindPrimitive(Declaration, metaclass=_Making):
     """When it ends [s]; without it, never."""
 
     ease: float = Field(default=0.0, ge=0.0, le=60.0)
-    """How long it takes to set in and to die down [s]; a wind that starts at 0 is there from the beginning."""
+    """Time to set in and to die down [s]; a wind that starts at 0 is there from the beginning."""
 
     swing: float = Field(default=0.12, ge=0.0, le=0.5)
     """Largest posture index of a blade's own small oscillations in it, of random direction."""

@@ -85,7 +85,7 @@ def receivers_shown(outlook: Outlook, growths: Sequence[Growth], /, *, patch: fl
     `patch` is a patch's side, and `margin` the distance that receivers may stand outside of their patch [m].
     """
     every = hearing(outlook)
-    shown = [receiving.told for receiving in every]
+    shown = [receiving.addressed for receiving in every]
     places = [receiving.pool.places(slots).reshape(-1, 2) for receiving, (_, slots) in zip(every, shown, strict=True)]
     rows = np.concatenate([rows for rows, _ in shown])
     counts = [np.full(len(slots), receiving.per_slot) for receiving, (_, slots) in zip(every, shown, strict=True)]

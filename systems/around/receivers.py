@@ -201,8 +201,8 @@ class Receiving:
         self.rows, self.slots, self.letters.shown = rows, slots, slots
 
     @property
-    def told(self) -> tuple[Rows, Rows]:
-        """Rows and slots that winds without a twin compute messages for: all of a still pool, as their mean counts."""
+    def addressed(self) -> tuple[Rows, Rows]:
+        """Rows and slots that winds without a twin send messages to: all of a still pool, as their mean counts."""
         if not self.still:
             return self.rows, self.slots
         every = np.arange(self.pool.slots)

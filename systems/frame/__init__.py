@@ -1,1 +1,1 @@
-"""What every program knows of a frame: its uniform block."""
+"""The frame block, which all programs share, and the interface of features."""

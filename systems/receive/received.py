@@ -81,7 +81,7 @@ def numbers_of(outlook: Outlook, first: Mapping[str, Sequence[int]], /) -> NDArr
     parts: list[tuple[bool, NDArray[np.intp]]] = []
     for name, kept in outlook.kept.items():
         for receiving, start in zip(kept.receiving, first[name], strict=True):
-            slots = receiving.told[1]
+            slots = receiving.addressed[1]
             index = slots if receiving.still else np.arange(len(slots) * receiving.per_slot)
             parts.append((receiving.still, start + index))
     return np.concatenate([numbers for _, numbers in sorted(parts, key=lambda part: part[0])])

@@ -1,1 +1,1 @@
-"""Where things are: the ground, its cells, the grass on it, and what a view cone holds; arrays in, arrays out."""
+"""Geometry: ground, cells, canopy, view cone and frustum; arrays in, arrays out."""

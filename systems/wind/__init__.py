@@ -1,1 +1,1 @@
-"""Wind: the primitives, and what carries their messages to the receivers."""
+"""Wind: its kinds, in numpy and GLSL, and the sending of their messages to receivers."""

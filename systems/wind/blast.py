@@ -42,7 +42,7 @@ class Shape(Declaration):
     """Picture file, relative to the scene file, whose bright or opaque part is the shape; its top lies ahead."""
 
     width: float = Field(default=6.0, gt=0.05, le=1000.0)
-    """How wide the picture is on the ground [m]."""
+    """Width of the picture on the ground [m]."""
 
     _loaded: Outline | None = PrivateAttr(None)
 
@@ -90,16 +90,16 @@ class Blast(PlacedWind):
     """Largest posture index in it."""
 
     soft: float = Field(default=1.5, ge=0.0, le=1000.0)
-    """Over what distance from its outline it sets in, unless winds meet by priority [m]."""
+    """Distance from its outline over which it sets in, unless winds meet by priority [m]."""
 
     swing: float = Field(default=0.18, ge=0.0, le=0.5)
     """Largest posture index of a blade's own small oscillations in it, of random direction."""
 
     body: Model | None = None
-    """What is drawn flying there; without it, nothing."""
+    """Body that is drawn flying over it, if any."""
 
     height: float = Field(default=2.0, ge=0.5, le=100.0)
-    """How high the body flies above the grass [m]."""
+    """Height of the body above the grass [m]."""
 
     def hover(self) -> Hover | None:
         """Return the body that flies over it."""

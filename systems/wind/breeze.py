@@ -25,7 +25,7 @@ class Breeze(MeanWind):
     """A gentle breeze."""
 
     gustiness: float = Field(default=0.5, ge=0.0, le=1.0)
-    """How far its strength and direction drift in waves, 0 is steady."""
+    """Amplitude of the waves in which its strength and direction drift; 0 is steady."""
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
         """Return its messages at ground positions (n, 2): a mean that drifts slowly, shape (n, 2)."""

@@ -36,7 +36,7 @@ def eddy_tables(seed: int, /) -> tuple[Floats, Floats]:
     random = np.random.default_rng((seed, 0x65646479))
     coarse, fine = _waves(WIDE, PERIOD), _waves(WIDE / FINER, FINE)
     powers = [_power(coarse, 0.0, BETWEEN), _power(fine, BETWEEN, SMALLEST)]
-    felt = sum(float((power.sum(axis=0) * _left(len(power[0]))).sum()) / 2.0 for power in powers)
+    felt = sum(float((power.sum(axis=0) * _power_left(len(power[0]))).sum()) / 2.0 for power in powers)
     made = [_velocity(waves, power / felt, random) for waves, power in zip((coarse, fine), powers, strict=True)]
     for table in made:
         table.setflags(write=False)
@@ -67,19 +67,19 @@ def _power(waves: Doubles, least: float, most: float) -> Doubles:
 
     across = over(11.0 / 6.0) - low * over(17.0 / 6.0)
     along = across - square * over(17.0 / 6.0)
-    held = _share(square, most, SOFT if least == 0.0 else SOFT_END)
-    held -= 0.0 if least == 0.0 else _share(square, least, SOFT)
-    cell = (waves[0, 0, 1] ** 2 + waves[1, 0, 1] ** 2) * held / _left(len(square))
+    held = _low_pass(square, most, SOFT if least == 0.0 else SOFT_END)
+    held -= 0.0 if least == 0.0 else _low_pass(square, least, SOFT)
+    cell = (waves[0, 0, 1] ** 2 + waves[1, 0, 1] ** 2) * held / _power_left(len(square))
     return np.stack([along * cell, across * cell])
 
 
-def _left(points: int) -> Doubles:
+def _power_left(points: int) -> Doubles:
     """Return the part of each wave's power that interpolation between a table's points leaves, (points, points)."""
     axis = power_left(2.0 * pi * np.fft.fftfreq(points).astype(np.float64))
     return axis[:, None] * axis
 
 
-def _share(square: Doubles, most: float, soft: float) -> Doubles:
+def _low_pass(square: Doubles, most: float, soft: float) -> Doubles:
     """Return 1 for wave numbers well below `most` and 0 for those well above it, from their squares.
 
     The step is `soft` wide in the logarithm of the wave number.

@@ -42,7 +42,7 @@ class Gust(WindPrimitive):
     """The highest priority at a place cancels the others; a gust's goes over a breeze's."""
 
     ease: float = Field(default=0.6, ge=0.0, le=60.0)
-    """How long it takes to set in and to die down [s]; a wind that starts at 0 is there from the beginning."""
+    """Time to set in and to die down [s]; a wind that starts at 0 is there from the beginning."""
 
     position: Pair = Field(default=[0.0, 0.0])
     """Ground position (x, z) of the front's middle where it sets out [m]."""
@@ -54,31 +54,31 @@ class Gust(WindPrimitive):
     """Length of the front, across its travel [m]."""
 
     speed: float = Field(default=8.0, gt=0.1, le=60.0)
-    """How fast it travels [m/s]."""
+    """Speed at which it travels [m/s]."""
 
     reach: float = Field(default=80.0, gt=0.1, le=100000.0)
-    """How far it travels [m]."""
+    """Distance that it travels [m]."""
 
     strength: float = Field(default=0.8, ge=0.0, le=1.0)
     """Posture index of the grass in it; grass first swings beyond it."""
 
     hold: float = Field(default=1.0, ge=0.0, le=60.0)
-    """How long it blows at a place before it lets go [s]."""
+    """Time that it blows at a place before it lets go [s]."""
 
     tail: float = Field(default=3.0, gt=0.0, le=60.0)
-    """How long the grass it leaves behind still swings [s]."""
+    """Time that the grass behind it still swings [s]."""
 
     ragged: float = Field(default=1.5, ge=0.0, le=50.0)
-    """How far parts of the front lag behind others [m]."""
+    """Largest lag of parts of the front behind others [m]."""
 
     soft: float = Field(default=4.0, ge=0.0, le=1000.0)
-    """Over what distance from its sides and ends it sets in, unless winds meet by priority [m]."""
+    """Distance from its sides and ends over which it sets in, unless winds meet by priority [m]."""
 
     every: Pair | None = None
     """Shortest and longest time after which it comes again, at random; without it, it comes once [s]."""
 
     wander: float = Field(default=0.0, ge=0.0, le=10000.0)
-    """How far to either side of `position` it may start when it comes again [m]."""
+    """Largest distance to either side of `position` at which it starts when it comes again [m]."""
 
     @model_validator(mode="after")
     def _sensible_intervals(self) -> Self:

@@ -22,7 +22,7 @@ class MeanWind(WindPrimitive):
     """Mean posture index of the grass in it."""
 
     speed: float = Field(default=4.0, ge=0.0, le=40.0)
-    """How fast its waves or eddies travel [m/s]."""
+    """Speed of its waves or eddies [m/s]."""
 
     @property
     def velocity(self) -> tuple[float, float]:

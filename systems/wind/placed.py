@@ -10,4 +10,4 @@ class PlacedWind(Placed, WindPrimitive):
     """A wind with a place of its own, that may travel and turn; its mask and action are asked in its own frame."""
 
     ease: float = Field(default=0.6, ge=0.0, le=60.0)
-    """How long it takes to set in and to die down [s]; a wind that starts at 0 is there from the beginning."""
+    """Time to set in and to die down [s]; a wind that starts at 0 is there from the beginning."""

@@ -44,7 +44,7 @@ class Turbulence(MeanWind):
     """Largest posture index of a blade's own small oscillations; more of them stand out of the spectrum at 1 Hz."""
 
     scale: float = Field(default=12.0, ge=2.0, le=1000.0)
-    """How large its eddies are: the integral length scale along its direction [m]."""
+    """Size of its eddies: the integral length scale along its direction [m]."""
 
     def rates(self) -> tuple[float, ...]:
         """Return the velocity of its eddies along x and z, and their speed [length scales/s]."""

@@ -40,10 +40,10 @@ class Whirlwind(PlacedWind):
     """Which way it turns, seen from above."""
 
     turning: float = Field(default=0.35, ge=0.0, le=10.0)
-    """How fast its stronger sides go round [turns/s]."""
+    """Speed of its stronger sides [turns/s]."""
 
     soft: float = Field(default=1.5, ge=0.0, le=1000.0)
-    """Over what distance from its edge it sets in, unless winds meet by priority [m]."""
+    """Distance from its edge over which it sets in, unless winds meet by priority [m]."""
 
     def rates(self) -> tuple[float]:
         """Return the speed of its stronger sides, clockwise seen from above [turns/s]."""

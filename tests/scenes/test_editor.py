@@ -154,7 +154,7 @@ def test_d4_an_editor_shows_the_docstring_over_a_key_and_offers_the_keys_of_a_ki
     path = folder / "hover.yaml"
     editor.open(path, text)
     speed = editor.hover(path, 7, 6)
-    assert "How fast it travels" in speed
+    assert "Speed at which it travels" in speed
     assert "m/s" in speed
     assert "Default: 8. Range: above 0.1 and at most 60." in speed
     assert "Sun, sky, clouds and haze, which light grass" in editor.hover(path, 4, 2)

@@ -121,7 +121,7 @@ def test_a_wind_has_the_keys_of_its_kind(fits: Fits) -> None:
 
 def test_an_editor_shows_docstrings_with_units_defaults_and_ranges(schema: dict[str, Any]) -> None:
     speed = schema["definitions"]["Gust"]["properties"]["speed"]
-    assert speed["description"] == "How fast it travels [m/s].\n\nDefault: 8. Range: above 0.1 and at most 60."
+    assert speed["description"] == "Speed at which it travels [m/s].\n\nDefault: 8. Range: above 0.1 and at most 60."
     assert schema["properties"]["grass"]["description"] == "Grass kinds by name."
     for name, model in schema["definitions"].items():
         assert model["description"], name
