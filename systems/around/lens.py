@@ -21,11 +21,11 @@ def reach_under(reach: tuple[int, ...], lens: float, /) -> tuple[float, ...]:
     Each reach is multiplied by `lens`, but never exceeds the next coarser one's reach without a lens. A representation
     that has no range of its own ends where the finer one does.
     """
-    found: list[float] = []
+    far: list[float] = []
     for number, limit in enumerate(reach[:-1]):
         has_range = limit >= 0 and (number == 0 or limit > reach[number - 1])
-        found.append(min(limit * lens, max(limit, reach[number + 1])) if has_range else found[-1] if number else limit)
-    return (*found, reach[-1])
+        far.append(min(limit * lens, max(limit, reach[number + 1])) if has_range else far[-1] if number else limit)
+    return (*far, reach[-1])
 
 
 def zoom_of(view: View, /) -> float:

@@ -23,17 +23,17 @@ Other = TypeVar("Other")
 
 
 @dataclass(slots=True, eq=False)
-class _Rest:
+class _LastRun:
     """Inputs and result of a system's last run for a viewer; while they stay the same, the system is skipped."""
 
     system: object = None
-    seen: object = None
+    inputs: object = None
     """Inputs beside the patch table."""
 
     table: bytearray = field(default_factory=bytearray)
     """Copy of `PatchTable.changing` before the run; empty if the run changed it."""
 
-    made: object = None
+    result: object = None
     """Result of the run, of a system that makes a new one in each frame."""
 
 
@@ -105,7 +105,7 @@ class Outlook:
     _noted: dict[type, object] = field(default_factory=dict)
     """Last record that systems have noted, by its class."""
 
-    _rests: dict[type, _Rest] = field(default_factory=dict)
+    _last_runs: dict[type, _LastRun] = field(default_factory=dict)
     """Last run of each system, by its class."""
 
     def note(self, record: object, /) -> None:
@@ -118,16 +118,16 @@ class Outlook:
 
     def keeps(self, kept: type[Record], /) -> Record:
         """Return the pools of this class, of whichever representation; raises LookupError where there are none."""
-        for each in self.kept.values():  # faster than `next`, which counts at many calls a frame
-            if type(each) is kept:
-                return each
+        for pools in self.kept.values():  # faster than `next`; this is called many times a frame
+            if type(pools) is kept:
+                return pools
         raise LookupError(kept)
 
     def shows(self, shown: type[Record], /) -> Record:
         """Return the shown grass of this class, of whichever representation; raises LookupError where there is none."""
-        for each in self.shown.values():
-            if type(each) is shown:
-                return each
+        for grass in self.shown.values():
+            if type(grass) is shown:
+                return grass
         raise LookupError(shown)
 
     def unless_at_rest(
@@ -144,18 +144,18 @@ class Outlook:
         `seen` has its inputs beside the patch table, to be compared. `made` returns its result, if it makes one in
         each frame. Until `settled`, the system also runs on the same inputs.
         """
-        rest = self._rests.setdefault(type(system), _Rest())
-        is_same, rest.system = rest.system is system, system
-        if rest.seen != seen:
-            rest.seen, rest.table = seen, bytearray()
+        last = self._last_runs.setdefault(type(system), _LastRun())
+        is_same, last.system = last.system is system, system
+        if last.inputs != seen:
+            last.inputs, last.table = seen, bytearray()
             run()
             return
         table = self.patches.changing.data
-        if is_same and rest.table == table and made() is rest.made:
+        if is_same and last.table == table and made() is last.result:
             return
-        found = bytearray(table)
+        before = bytearray(table)
         run()
-        rest.table, rest.made = found if found == table and settled() else bytearray(), made()
+        last.table, last.result = before if before == table and settled() else bytearray(), made()
 
     def settle(self) -> None:
         """End the frame: messages that a game has written are dropped."""
@@ -192,8 +192,8 @@ class Outlooks:
         return self._all[name]
 
     def __contains__(self, name: object) -> bool:
-        found = self._all.get(str(name))
-        return found is not None and self._world.find(found.entity, Viewer) is found.viewer
+        outlook = self._all.get(str(name))
+        return outlook is not None and self._world.find(outlook.entity, Viewer) is outlook.viewer
 
     def values(self) -> list[Outlook]:
         """Return the outlooks whose viewers still exist, in the order of their first look."""
@@ -208,10 +208,10 @@ class Outlooks:
             self.forget(gone)
         if name not in self._all:
             viewer = Viewer(name)
-            self._all[name] = made = make(viewer, self._world.create(viewer))
-            made.generation = self._world.check()
-        self._looking = found = self._all[name]
-        return found
+            self._all[name] = make(viewer, self._world.create(viewer))
+            self._all[name].generation = self._world.check()
+        self._looking = outlook = self._all[name]
+        return outlook
 
     def begin_anew(self) -> None:
         """Treat the next frame of each viewer as its first, because time has leapt."""

@@ -46,8 +46,8 @@ def view_cone(seen: View, /) -> tuple[float, float]:
     return azimuth[0] + (max(apart) + min(apart)) / 2, (max(apart) - min(apart)) / 2
 
 
-def _is_near(one: float, other: float) -> bool:
-    return isclose(one, other, rel_tol=1e-5, abs_tol=1e-8)
+def _is_near(a: float, b: float) -> bool:
+    return isclose(a, b, rel_tol=1e-5, abs_tol=1e-8)
 
 
 def _azimuth(x: float, y: float, axes: Rows) -> float:

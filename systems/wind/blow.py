@@ -87,9 +87,9 @@ def blowing(
     a source may be given more than once, at other poses. `winds` overrides the primitive of each source, if not None,
     by one that carries the course of its phases.
     """
-    given = zip(sources, chain(poses, repeat(None)), chain(winds, repeat(None)), strict=False)
-    found = [wind for source, pose, own in given for wind in _parts(source, quarantine, time, seed, pose, own)]
-    tied = (list(winds) for _, winds in groupby(sorted(found, key=_claim, reverse=True), key=_claim))
+    placed = zip(sources, chain(poses, repeat(None)), chain(winds, repeat(None)), strict=False)
+    parts = [part for source, pose, wind in placed for part in _parts(source, quarantine, time, seed, pose, wind)]
+    tied = (list(winds) for _, winds in groupby(sorted(parts, key=_claim, reverse=True), key=_claim))
     return [wind for winds in tied for wind in (winds if len(winds) == 1 else _untied(winds, quarantine))]
 
 
@@ -157,8 +157,8 @@ def _summed(
         winds = [wind for wind in winds if wind.primitive.weight > 0.0]
         groups = (list(group) for _, group in groupby(winds, key=lambda wind: wind.primitive.priority))
     for group in groups:
-        sent = [one for wind in group if (one := send(wind, receivers, sums.unclaimed, quarantine, time, mixing))]
-        _cover(sums, sent)
+        sent = [send(wind, receivers, sums.unclaimed, quarantine, time, mixing) for wind in group]
+        _cover(sums, list(filter(None, sent)))
     return sums
 
 
@@ -203,11 +203,11 @@ def _parts(
 ) -> Iterator[Blowing]:
     """Yield the parts of a source's wind that act at `time` [s]; none where one of its answers fails."""
     wind = on_course or source.primitive
-    own = _own_seed(seed, source.name)
+    wind_seed = _wind_seed(seed, source.name)
     try:
         if not quarantine.ask(source, "its timeline", partial(is_on, wind, time)):
             return
-        parts = quarantine.ask(source, "parts", partial(wind.parts, time=time, seed=own))
+        parts = quarantine.ask(source, "parts", partial(wind.parts, time=time, seed=wind_seed))
         if type(parts) is not tuple:  # the quicker check, as this runs for each wind in each frame
             quarantine.must_be(source, "parts", parts, Sequence)
         for part in parts:
@@ -220,13 +220,14 @@ def _parts(
             quarantine.must_stand(source, part, pose, extent)
             strength = _envelope(part, wind.stop, time)
             if strength > 0.0:
-                yield Blowing(source, part, pose, extent, own, strength)
+                yield Blowing(source, part, pose, extent, wind_seed, strength)
     except QuarantinedError:
         return
 
 
 @lru_cache(maxsize=1024)
-def _own_seed(seed: int, name: str) -> int:
+def _wind_seed(seed: int, name: str) -> int:
+    """Return the seed of the wind of this name in a scene with a `seed`."""
     return int(hash3(seed, crc32(name.encode()), 0))
 
 

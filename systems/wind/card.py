@@ -198,9 +198,9 @@ class CardWinds:
     def _fit(self, numbers: Sequence[int]) -> list[int]:
         """Fit winds of these twins into the runs of programs, or change their order; return the row after each run."""
         if self._ready:
-            found, ends = fit_runs(self._ready, numbers)
-            self._order = found if found == self._ready else [ANY]
-            return ends if found == self._ready else [len(numbers) + 1]
+            order, ends = fit_runs(self._ready, numbers)
+            self._order = order if order == self._ready else [ANY]
+            return ends if order == self._ready else [len(numbers) + 1]
         self._order, ends = fit_few_runs(self._order, numbers)
         return ends
 

@@ -47,11 +47,11 @@ class Outline:
     def at(self, place: Floats, /) -> tuple[Floats, Floats]:
         """Return the depth [m], shape (n,), and the direction outwards (n, 2) at positions (n, 2) in its frame."""
         rows, columns = self.field.shape[:2]
-        away = (place - np.array(self.corner, np.float32)) / np.float32(self.step)
-        at = np.clip(away, np.float32(0.0), np.array([columns - 1.001, rows - 1.001], np.float32))
-        low = at.astype(np.int32)
-        part = at - low.astype(np.float32)
-        s, t = part[:, :1], part[:, 1:]
+        grid = (place - np.array(self.corner, np.float32)) / np.float32(self.step)
+        inside = np.clip(grid, np.float32(0.0), np.array([columns - 1.001, rows - 1.001], np.float32))
+        low = inside.astype(np.int32)
+        fraction = inside - low.astype(np.float32)
+        s, t = fraction[:, :1], fraction[:, 1:]
         flat, first = self.field.reshape(-1, 3), low[:, 1] * columns + low[:, 0]
         far = flat.take(first, axis=0)
         far += s * (flat.take(first + 1, axis=0) - far)
@@ -59,7 +59,7 @@ class Outline:
         near = flat.take(first, axis=0)
         near += s * (flat.take(first + 1, axis=0) - near)
         found = far + t * (near - far)
-        beyond = np.abs(away - at).max(axis=1) > 1.0
+        beyond = np.abs(grid - inside).max(axis=1) > 1.0
         return np.where(beyond, -np.float32(self.step), found[:, 0]), found[:, 1:]
 
 

@@ -57,27 +57,30 @@ class Turbulence(MeanWind):
         record = {name: np.asarray(each, np.float32) for name, each in cast(Record, values.numbers).items()}
         (ahead_x, ahead_z), (across, along) = record["mean"], record["lie"]
         x, z = place[:, 0], place[:, 1]
-        at = np.stack([across * x - along * z, along * x + across * z], axis=1)
-        faster, aside = self._eddies(at, record, values.sheets)
-        faster += np.float32(1.0)
-        x, z = ahead_x * faster - ahead_z * aside, ahead_z * faster + ahead_x * aside
+        grid = np.stack([across * x - along * z, along * x + across * z], axis=1)
+        ahead, aside = self._eddies(grid, record, values.sheets)
+        ahead += np.float32(1.0)
+        x, z = ahead_x * ahead - ahead_z * aside, ahead_z * ahead + ahead_x * aside
         length = np.maximum(np.sqrt(x * x + z * z), np.float32(1.0))
         return np.stack([x / length, z / length], axis=1)
 
     @staticmethod
-    def _eddies(at: Floats, record: Mapping[str, Floats], tables: Sequence[Floats]) -> tuple[Floats, Floats]:
-        """Return the fluctuations along the mean wind and to its right, relative to the mean, shape (n,) each."""
+    def _eddies(grid: Floats, record: Mapping[str, Floats], tables: Sequence[Floats]) -> tuple[Floats, Floats]:
+        """Return the fluctuations along the mean wind and to its right, relative to the mean, shape (n,) each.
+
+        `grid` (n, 2) has the places in the table of large eddies [samples].
+        """
         shift, share = record["shift"], record["share"]
-        large = smooth_noise(tables[0], at, shift=(shift[0], shift[1]))
-        small = smooth_noise(tables[1], np.float32(CLOSER) * at, shift=(shift[2], shift[3]))
-        faster, aside = (
+        large = smooth_noise(tables[0], grid, shift=(shift[0], shift[1]))
+        small = smooth_noise(tables[1], np.float32(CLOSER) * grid, shift=(shift[2], shift[3]))
+        ahead, aside = (
             share[0] * large[:, part]
             + share[1] * large[:, part + 2]
             + share[2] * small[:, part]
             + share[3] * small[:, part + 2]
             for part in (0, 1)
         )
-        return faster, aside
+        return ahead, aside
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
         """Return the mean message, the tables' rotation and scale, their shifts, and the weights of their halves."""

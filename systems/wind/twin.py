@@ -220,25 +220,25 @@ def fit_runs(order: Sequence[int], numbers: Sequence[int], /) -> tuple[list[int]
 
     The first wind has row 1. Runs may be empty.
     """
-    found, counts, run = list(order), [0] * len(order), -1
+    fitted, counts, run = list(order), [0] * len(order), -1
     for number in numbers:
-        if run < 0 or found[run] != number:
+        if run < 0 or fitted[run] != number:
             run += 1
-            if number in found[run:]:
-                run = found.index(number, run)
+            if number in fitted[run:]:
+                run = fitted.index(number, run)
             else:
-                found.insert(run, number)
+                fitted.insert(run, number)
                 counts.insert(run, 0)
         counts[run] += 1
-    return found, list(accumulate(counts, initial=1))[1:]
+    return fitted, list(accumulate(counts, initial=1))[1:]
 
 
 def fit_few_runs(order: Sequence[int], numbers: Sequence[int], /) -> tuple[list[int], list[int]]:
     """Return `fit_runs`, but with `MOST_RUNS` runs at most: else of the needed runs alone, or of one for all winds."""
     for before in (order, ()):
-        found, ends = fit_runs(before, numbers)
-        if len(found) <= MOST_RUNS:
-            return found, ends
+        fitted, ends = fit_runs(before, numbers)
+        if len(fitted) <= MOST_RUNS:
+            return fitted, ends
     return [ANY], [len(numbers) + 1]
 
 
@@ -326,9 +326,9 @@ def _count(reads: re.Pattern[str], text: Sequence[str]) -> int:
 
 def _beside(module: str, name: str) -> Traversable | None:
     """Return a file in the folder of a module; None for a module without one, such as an interactive session."""
-    found = sys.modules.get(module)
-    spec = getattr(found, "__spec__", None)
+    loaded = sys.modules.get(module)
+    spec = getattr(loaded, "__spec__", None)
     if spec is not None and spec.parent:
         return files(spec.parent).joinpath(name)
-    place = getattr(found, "__file__", None)
-    return None if place is None else Path(place).with_name(name)
+    path = getattr(loaded, "__file__", None)
+    return None if path is None else Path(path).with_name(name)
