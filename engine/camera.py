@@ -1,4 +1,4 @@
-"""Matrices of the viewer, and camera paths walked in time."""
+"""View and projection matrices, and camera paths in time."""
 
 import math
 from collections.abc import Callable
@@ -17,19 +17,19 @@ from .handed import FARTHEST, as_floats
 Place = tuple[float, float, float]
 
 Heights = Callable[[Floats], Floats]
-"""Heights [m], shape (n,), of ground positions (x, z) [m], shape (n, 2)."""
+"""Returns heights [m], shape (n,), at ground positions (x, z) [m], shape (n, 2)."""
 
 NEAR = 0.1
 """Distance of the near plane [m]: a viewer stands in the grass."""
 
 FAR = 5000.0
-"""Distance of the far plane [m]; with `NEAR`, 24 bits of depth still part 6 mm at 100 m."""
+"""Distance of the far plane [m]; with `NEAR`, 24 bits of depth still resolve 6 mm at 100 m."""
 
 OUTERMOST = 1e9
 """Largest coordinate of an eye that a game hands in [m]: cells are counted in 32 bits."""
 
 LARGEST = float(np.finfo(np.float32).max)
-"""Largest number that single precision holds, which shaders are told the matrices in."""
+"""Largest number of single precision, in which shaders get the matrices."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,35 +85,35 @@ class View:
 
     @cached_property
     def _numbers(self) -> Doubles:
-        """View, projection, and both in turn; and the inverse of each, shape (2, 3, 4, 4)."""
+        """View, projection and their product, and the inverse of each, shape (2, 3, 4, 4)."""
         numbers = np.empty((2, 3, 4, 4))
-        each, inverse = numbers
-        each[0], each[1] = self.view, self.projection
-        np.matmul(each[1], each[0], out=each[2])
-        inverse[:] = np.linalg.inv(each)  # all three at once: every frame asks, and a call costs more than its numbers
+        matrices, inverses = numbers
+        matrices[0], matrices[1] = self.view, self.projection
+        np.matmul(matrices[1], matrices[0], out=matrices[2])
+        inverses[:] = np.linalg.inv(matrices)  # in one call a frame: a call costs more than its arithmetic
         return numbers
 
 
 def forward(yaw: float, pitch: float, /) -> tuple[float, float, float]:
-    """Return the unit vector that a camera of this yaw and pitch [rad] looks along: yaw 0 is -z, 90° is +x."""
+    """Return the unit vector in which a camera of this yaw and pitch [rad] looks: yaw 0 is -z, 90° is +x."""
     return math.sin(yaw) * math.cos(pitch), math.sin(pitch), -math.cos(yaw) * math.cos(pitch)
 
 
 def is_mirrored(view: View, /) -> bool | None:
-    """Return whether a view shows the world as a mirror does, as pictures of what water reflects may be drawn.
+    """Return whether a view shows a mirror image of the world, as for a reflection in water.
 
-    It is None where that cannot be told, without perspective.
+    It is None for a view without perspective, where this is unknown.
     """
     (a, b, c, _), (d, e, f, _), _, (g, h, i, _) = view.clip.tolist()
-    turn = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)  # to the right, up and ahead
-    return turn > 0.0 if turn else None
+    handedness = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)  # of the axes right, up and ahead
+    return handedness > 0.0 if handedness else None
 
 
 def is_reversed(view: View, /) -> bool:
-    """Return whether a view has less depth farther off, as a projection for `GL_GREATER` does."""
+    """Return whether depth decreases with distance in a view, as in a projection for `GL_GREATER`."""
     (a, b), (c, d) = view.projection[2:, 2:].tolist()
-    rises = a * d - b * c  # how depth changes behind the eye, or with perspective as `w` does
-    return bool(rises * c < 0.0 if c else rises > 0.0)
+    slope = a * d - b * c  # of depth along the eye's z; with perspective, times a positive factor
+    return bool(slope * c < 0.0 if c else slope > 0.0)
 
 
 def view_matrix(camera: Camera, /) -> Floats:
@@ -147,10 +147,10 @@ def projection_matrix(view_angle: float, aspect: float, /) -> Floats:
 
 
 def camera_at(source: CameraSource, time: float | None, height_at: Heights, /) -> Camera:
-    """Return the camera that a scene declares: on its path at `time` [s], or its fixed place.
+    """Return a scene's camera on its path at `time` [s]; at its fixed place where `time` is None or there is no path.
 
-    The fixed place is taken where `time` is None or there is no path. Before the first stop and after the last one
-    the path holds. The eye is `source.eye` above the ground; a target's height counts from the ground under it.
+    Before the first stop and after the last one the camera rests. The eye is `source.eye` above the ground; a target's
+    height counts from the ground under it.
     """
     if time is None or not source.path:
         place: Doubles = np.array(source.position, np.float64)
@@ -242,10 +242,10 @@ def _look_on_path(
 def view_of(view: object, projection: object, origin: Place = (0.0, 0.0, 0.0)) -> View:
     """Return the two matrices as numpy arrays for column vectors.
 
-    Each is a 4x4 array, or pyglet's `Mat4`, whose 16 numbers run column by column. `origin` is where the scene's is in
-    the world of `view` [m]; what is far away from both cancels out in double precision. Raises ValueError for anything
-    that has not 16 finite numbers or has no inverse, for a view with perspective, for an eye beyond a million
-    kilometres, and for two matrices that come to more together than single precision holds.
+    Each is a 4x4 array, or pyglet's `Mat4`, whose 16 numbers run column by column. `origin` is the scene's origin in
+    the world of `view` [m]; it is subtracted in double precision, so that large coordinates cancel. Raises ValueError
+    for anything but 16 finite numbers, a singular matrix, a view with perspective, an eye beyond a million kilometres,
+    and a product beyond single precision.
     """
     one, other = _matrix(view, "view"), _matrix(projection, "projection")
     if any(origin):
@@ -257,7 +257,7 @@ def view_of(view: object, projection: object, origin: Place = (0.0, 0.0, 0.0)) -
 
 
 def as_origin(place: object, /) -> Place:
-    """Return where a scene's origin is [m]. Raises ValueError for what are no three numbers up to `OUTERMOST`."""
+    """Return a scene's origin [m]. Raises ValueError for anything but three numbers up to `OUTERMOST`."""
     due = "an origin is a place (x, y, z) [m]"
     found = as_floats(place, due)
     if found.shape != (3,) or np.abs(found).max() > OUTERMOST:
@@ -267,12 +267,12 @@ def as_origin(place: object, /) -> Place:
 
 
 NO_PERSPECTIVE = 1e-3
-"""How much single precision may leave in the last row of a view matrix, where 0 is due."""
+"""Tolerance for zeros in the last row of a view matrix, for rounding errors of single precision."""
 
 
 @lru_cache(maxsize=16)
 def _usable(view: bytes, projection: bytes) -> View:
-    """Return the view of two matrices, row by row: who looks as before has the same one."""
+    """Return the view of two matrices' bytes, row by row; cached, so that equal matrices give the same object."""
     seen = View(*(np.frombuffer(each, np.float32).reshape(4, 4) for each in (view, projection)))
     if np.abs(seen.view[3, :3]).max() > NO_PERSPECTIVE:
         raise ValueError(
@@ -284,7 +284,7 @@ def _usable(view: bytes, projection: bytes) -> View:
 
 
 def _must_be_usable(seen: View) -> None:
-    """Raise ValueError for the first of all that is wrong with the matrices of a view."""
+    """Raise ValueError for the first fault of a view's matrices."""
     for name, matrix in (("view", seen.view), ("projection", seen.projection)):
         if np.linalg.det(matrix.astype(np.float64)) == 0.0:
             raise ValueError(f"the {name} matrix has no inverse")
@@ -304,11 +304,11 @@ def _matrix(matrix: object, name: str) -> NDArray[np.float32]:
 
 
 FAR_OFF = 2e4
-"""How far a light is taken to be whose rays are parallel [m]: as far as single precision parts centimetres there."""
+"""Distance of a light with parallel rays [m]: single precision still resolves centimetres there."""
 
 
 def light_from(view: View, place: tuple[float, float, float], /) -> tuple[float, float, float]:
-    """Return where a light is that sees this view, [m]; for parallel rays, far away from a place."""
+    """Return the position of a light whose view this is [m]; for parallel rays, `FAR_OFF` from a place."""
     if view.projection[3, :3].any():
         return view.eye
     x, y, z = (float(at + FAR_OFF * part) for at, part in zip(place, view.view[2, :3], strict=True))

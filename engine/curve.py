@@ -1,4 +1,4 @@
-"""Smooth curves through points in time, for cameras and winds on their way."""
+"""Smooth curves through points in time, for paths of cameras and winds."""
 
 from bisect import bisect_right
 from collections.abc import Sequence
@@ -13,17 +13,17 @@ from ..components.arrays import Doubles
 class Curve:
     """A curve with a continuous first derivative; between two stops it is a cubic Hermite polynomial.
 
-    It is read in plain numbers: for one time at once, arrays cost more than what they compute.
+    It holds plain lists: for a single time, arrays cost more than the arithmetic.
     """
 
     times: list[float]
-    """When it comes through each stop, rising [s]."""
+    """Time of each stop, rising [s]."""
 
     values: list[list[float]]
-    """What it comes through."""
+    """Value at each stop."""
 
     tangents: list[list[float]]
-    """Its slope there: of the parabola through a stop and its neighbours."""
+    """Derivative at each stop: of the parabola through the stop and its neighbours [1/s]."""
 
     @classmethod
     def through(cls, times: Doubles, values: Doubles, /) -> "Curve":
@@ -32,7 +32,7 @@ class Curve:
         return cls(times.tolist(), values.tolist(), tangents.tolist())
 
     def at(self, time: float, /) -> Sequence[float]:
-        """Return the value at one time; outside the curve that of its nearer end."""
+        """Return the value at one time; outside of the curve, the value of its nearer end."""
         times = self.times
         if len(times) == 1 or time <= times[0]:
             return self.values[0]

@@ -1,4 +1,4 @@
-"""What a game hands in: numbers made into arrays, and what is refused."""
+"""Checking and converting what a game hands in."""
 
 from collections.abc import Iterable
 from reprlib import repr as shortened
@@ -10,28 +10,28 @@ from ..components.arrays import Doubles
 from ..components.pose import Pose
 
 NUMBERS = (float, int, np.floating, np.integer)
-"""What is taken for a number where one is handed in."""
+"""Types that are accepted as a number."""
 
 _PLAIN = frozenset({float, np.float64, np.float32})
 
 FARTHEST = 1e6
-"""Largest coordinate that is taken for a place [m]: beyond, the numbers of cells and squares would overflow."""
+"""Largest coordinate of a place [m]: beyond it, numbers of cells and squares would overflow."""
 
 SOMEWHERE = f"x, y, z [m] and yaw [rad] are finite numbers, at most {FARTHEST:.0e} either way"
-"""What a pose has to be that is a place."""
+"""Message on poses that are no place."""
 
 MOST_SEED = 2**31 - 1
 """The largest seed of a scene."""
 
 LONGEST = 1e9
-"""Longest step, and latest instant, that is taken [s]: beyond, time is not exact to the microsecond."""
+"""Longest step and latest time that are accepted [s]: beyond, time is not exact to the microsecond."""
 
 
 def as_floats(thing: object, due: str, /, *, holes: bool = False) -> NDArray[np.float32]:
-    """Return what is handed in as numbers, of any shape.
+    """Return a thing of any shape as an array of numbers.
 
-    Raises ValueError where it is nothing of the kind, or not finite, or with `holes` infinite. `due` begins the
-    sentence: what it has to be.
+    Raises ValueError for anything else, and for NaN and infinity; with `holes`, NaN is allowed. `due` begins the
+    message and says what the thing has to be.
     """
     try:
         array = thing if type(thing) is np.ndarray and thing.dtype == np.float32 else _as_singles(thing)
@@ -44,7 +44,7 @@ def as_floats(thing: object, due: str, /, *, holes: bool = False) -> NDArray[np.
 
 
 def _unfit(thing: object, *, holes: bool) -> str:
-    """Return what numbers are that no single precision holds."""
+    """Return the words for numbers that are not finite in single precision."""
     wide = np.asarray(thing, np.float64)
     if not (np.isinf(wide) if holes else ~np.isfinite(wide)).any():
         return f"numbers as large as {np.nanmax(np.abs(wide)):.3g}"
@@ -54,14 +54,14 @@ def _unfit(thing: object, *, holes: bool) -> str:
 def _as_singles(thing: object) -> NDArray[np.float32]:
     if isinstance(thing, np.ndarray) and np.iscomplexobj(thing):
         raise TypeError("complex numbers are no places")
-    with np.errstate(over="ignore"):  # what is too large for single precision is refused as infinity
+    with np.errstate(over="ignore"):  # a number too large for single precision is refused as infinite
         return np.asarray(thing, np.float32)
 
 
 def as_rays(origin: object, direction: object, /) -> tuple[Doubles, Doubles]:
-    """Return where rays begin and where they go, each of shape (n, 3); one of either may serve all of the other.
+    """Return origins and directions of rays, each (n, 3); a single one is repeated for all of the other.
 
-    Raises ValueError for anything else, and for a direction that leads nowhere.
+    Raises ValueError for anything else, and for a direction of length 0.
     """
     due = "rays have an origin and a direction (x, y, z), one of each in a row"
     each = []
@@ -79,13 +79,13 @@ def as_rays(origin: object, direction: object, /) -> tuple[Doubles, Doubles]:
 
 
 def is_somewhere(pose: Pose, /) -> bool:
-    """Return whether a pose that a game has made is a place on the ground and a heading."""
+    """Return whether a game's pose has numbers within `FARTHEST` for its position and yaw."""
     numbers = (pose.x, pose.z, pose.yaw, 0.0 if pose.y is None else pose.y)
     return all(isinstance(n, NUMBERS) and -FARTHEST <= n <= FARTHEST for n in numbers)
 
 
 def as_places_of(poses: Iterable[Pose], /) -> Doubles | None:
-    """Return where poses are and head (x, z, yaw), shape (n, 3); None where `is_somewhere` may not hold for one."""
+    """Return the poses' (x, z, yaw), shape (n, 3); None where `is_somewhere` might not hold for one of them."""
     numbers = [number for pose in poses for number in (pose.x, pose.z, pose.yaw)]
     if not _PLAIN.issuperset(map(type, numbers)):
         return None
@@ -94,44 +94,44 @@ def as_places_of(poses: Iterable[Pose], /) -> Doubles | None:
 
 
 def must_be_a(due: type, thing: object, what: str, /) -> None:
-    """Raise TypeError for what is not of a class; `what` begins the sentence."""
+    """Raise TypeError for a thing that is no instance of `due`; `what` begins the message."""
     if not isinstance(thing, due):
         raise TypeError(f"{what}, unlike {shortened(thing)}")
 
 
 def must_be_flags(**flags: object) -> None:
-    """Raise TypeError for what is neither true nor false."""
+    """Raise TypeError for a flag that is no bool."""
     for name, flag in flags.items():
         if not isinstance(flag, bool | np.bool_):
             raise TypeError(f"{name} is True or False, not {shortened(flag)}")
 
 
 def must_be_viewer(thing: object, /) -> None:
-    """Raise TypeError for what is no viewer's name."""
+    """Raise TypeError for a viewer's name that is no text."""
     if not isinstance(thing, str):
         raise TypeError(f"a viewer is called by a text such as 'main', not by {shortened(thing)}")
 
 
 def must_be_seed(thing: object, /) -> None:
-    """Raise ValueError for what is no seed that a scene may have."""
+    """Raise ValueError for a thing that is no valid seed of a scene."""
     if not isinstance(thing, int) or not 0 <= thing <= MOST_SEED:
         raise ValueError(f"a seed is a whole number from 0 to {MOST_SEED}, not {shortened(thing)}")
 
 
 def must_be_known(what: str, name: str | None, known: Iterable[str], /) -> None:
-    """Raise ValueError for the name of a `what` that there is not; without a name there is nothing to know."""
+    """Raise ValueError for a name of a `what` that is not `known`; None is accepted."""
     there = tuple(known)
     if name is not None and name not in there:
         raise ValueError(f"unknown {what} '{name}'; there are {', '.join(there)}")
 
 
 def must_be_step(thing: object, /) -> None:
-    """Raise TypeError for what is no number, ValueError for one that time cannot move on by."""
+    """Raise TypeError for a step of time that is no number, ValueError for one out of range."""
     _must_be_seconds(thing, "a prairie advances", "by")
 
 
 def must_be_time(thing: object, what: str = "a wind is asked for", at: str = "at", /) -> None:
-    """Raise TypeError for what is no number, ValueError for one that is no instant of a scene's."""
+    """Raise TypeError for a time that is no number, ValueError for one out of range."""
     _must_be_seconds(thing, what, at)
 
 

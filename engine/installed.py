@@ -1,4 +1,4 @@
-"""What installed packages bring by entry points: which of it is used, and who brings it."""
+"""Entry points of installed packages: which of them are used, and which distribution brings each."""
 
 import os
 import re
@@ -8,31 +8,32 @@ from importlib.metadata import Distribution, EntryPoint
 from typing import Literal
 
 CHOSEN = "TALLGRASS_PLUGINS"
-"""The environment variable that names what to use of what is installed: kinds, systems or distributions, `a,b`.
+"""Environment variable with the installed kinds, systems or distributions to use, as in `a,b`.
 
-Without it all is used, and if it is empty nothing. What tallgrass itself brings always is.
+Without it all are used; if it is empty, none but those of tallgrass itself, which are always used.
 """
 
 OURS = "tallgrass"
-"""The distribution of what is built in."""
+"""Distribution of the built-in entries."""
 
 Status = Literal["ready", "claimed twice", "name taken", "left out"]
-"""What is known of an entry before it is imported."""
+"""State of an entry, known without importing it."""
 
 
 class Installed:
     """The entry points of a group by name: those in use, those whose name is taken, and those left out.
 
-    `chosen` are names of entries or distributions to use beside those of tallgrass; None is all. A name that tallgrass
-    itself brings is taken: others that have it too are not in use, so that no package breaks what is built in.
+    `chosen` are names of entries or distributions to use in addition to those of tallgrass; None is all. The names of
+    tallgrass's own entries are taken: other entries of the same name are not used, so that no package breaks what is
+    built in.
     """
 
     def __init__(self, entries: Iterable[EntryPoint], *, chosen: Collection[str] | None = None) -> None:
         self.used: dict[str, list[EntryPoint]] = {}
         self.left_out: dict[str, list[EntryPoint]] = {}
         for entry in entries:
-            kept = self.used if _is_chosen(entry, chosen) else self.left_out
-            kept.setdefault(entry.name, []).append(entry)
+            entries_by_name = self.used if _is_chosen(entry, chosen) else self.left_out
+            entries_by_name.setdefault(entry.name, []).append(entry)
         self.taken: dict[str, list[EntryPoint]] = {}
         for name, used in self.used.items():
             ours = [entry for entry in used if owner(entry)[0] == OURS]
@@ -41,11 +42,11 @@ class Installed:
 
     def all(self) -> list[EntryPoint]:
         """Return all entries, those left out last."""
-        every = (self.used, self.taken, self.left_out)
-        return [entry for kept in every for entries in kept.values() for entry in entries]
+        groups = (self.used, self.taken, self.left_out)
+        return [entry for group in groups for entries in group.values() for entry in entries]
 
     def status(self, entry: EntryPoint) -> Status:
-        """Return whether an entry is used, once it is asked for; it is not imported for that."""
+        """Return the state of an entry, without importing it."""
         used = self.used.get(entry.name, [])
         if _has(used, entry):
             return "ready" if len(used) == 1 else "claimed twice"
@@ -53,7 +54,7 @@ class Installed:
 
 
 def chosen_names() -> list[str] | None:
-    """Return what the environment names to be used; None is all."""
+    """Return the names to use by the environment; None is all."""
     chosen = os.environ.get(CHOSEN)
     return None if chosen is None else [name for part in chosen.split(",") if (name := part.strip())]
 
@@ -66,35 +67,35 @@ def unknown_names(chosen: Collection[str] | None, entries: Iterable[EntryPoint])
 
 def owner(entry: EntryPoint) -> tuple[str, str]:
     """Return the distribution that brings an entry, and its version."""
-    return _told(entry.dist) if entry.dist else (f"the entry point {entry.value}", "")
+    return _name_and_version(entry.dist) if entry.dist else (f"the entry point {entry.value}", "")
 
 
 @lru_cache(maxsize=64)
-def _told(distribution: Distribution) -> tuple[str, str]:
-    """Return what a distribution says of itself: it reads its own file each time it is asked."""
+def _name_and_version(distribution: Distribution) -> tuple[str, str]:
+    """Return a distribution's name and version; cached, as each access reads the metadata file again."""
     return distribution.name or "a distribution without a name", distribution.version or ""
 
 
 def owners(entries: list[EntryPoint]) -> str:
-    """Return the distributions that bring entries, with their versions, as a sentence names them."""
+    """Return the distributions that bring entries and their versions, joined by "and" for a sentence."""
     return " and ".join(" ".join(owner(entry)).strip() for entry in entries)
 
 
 def claimed(what: str, entries: list[EntryPoint]) -> str:
-    """Return the sentence on several entries of one name."""
+    """Return the message on several entries of one name."""
     choice = f"uninstall all but one of them, or name it in {CHOSEN}"
     return f"{what} is claimed by {owners(entries)}; {choice}"
 
 
 def outdone(what: str, entries: list[EntryPoint]) -> str:
-    """Return the sentence on entries whose name is that of something built in."""
+    """Return the message on entries that have the name of something built in."""
     names = " and ".join(owner(entry)[0] for entry in entries)
     choice = f"uninstall {names}, or leave it out by {CHOSEN}, which names what to use"
     return f"{what} is built in, and the one of {owners(entries)} is not used; {choice}"
 
 
 def _has(entries: list[EntryPoint], entry: EntryPoint) -> bool:
-    """Return whether this very entry is among others: equal ones may be of two distributions."""
+    """Return whether this very object is among entries: equal entries may be of two distributions."""
     return any(entry is other for other in entries)
 
 
@@ -109,5 +110,5 @@ def _names(entry: EntryPoint) -> set[str]:
 
 
 def _normal(name: str) -> str:
-    """Return a name as package indexes compare it."""
+    """Return a name normalised as package indexes do."""
     return re.sub(r"[-_.]+", "-", name).lower()

@@ -1,4 +1,4 @@
-"""Files that are kept from one run to the next, in one folder: none is ever found in halves, and none is needed."""
+"""The file cache between runs, in one folder: files are written atomically, and the program works without them."""
 
 import logging
 import os
@@ -11,11 +11,11 @@ from pathlib import Path
 log = logging.getLogger("tallgrass")
 
 DIGEST = 32
-"""Bytes of a checksum."""
+"""Length of a checksum [bytes]."""
 
 
 def cache_folder() -> Path | None:
-    """Return where growth is kept: TALLGRASS_CACHE, or tallgrass in XDG_CACHE_HOME or ~/.cache; None if nowhere."""
+    """Return the cache folder: TALLGRASS_CACHE, or tallgrass in XDG_CACHE_HOME or ~/.cache; None if there is none."""
     if chosen := os.environ.get("TALLGRASS_CACHE"):
         return Path(chosen)
     base = Path(os.environ.get("XDG_CACHE_HOME", ""))
@@ -29,7 +29,7 @@ def cache_folder() -> Path | None:
 
 @cache
 def tell_nothing_is_kept(folder: str, reason: str, /) -> None:
-    """Say once that nothing is kept."""
+    """Log that nothing can be cached, once for each folder and reason."""
     log.warning(
         "what has been grown cannot be kept in %s (%s), so it is grown each time: TALLGRASS_CACHE may name a folder",
         folder, reason,
@@ -37,26 +37,26 @@ def tell_nothing_is_kept(folder: str, reason: str, /) -> None:
 
 
 def checksum(data: bytes | memoryview, key: str, /) -> bytes:
-    """Return a checksum over some bytes and the name that they are kept under."""
+    """Return a checksum over some bytes and their key."""
     return blake2b(data, digest_size=DIGEST, key=key.encode()).digest()
 
 
 def kept(name: str, key: str, /) -> memoryview | None:
-    """Return the bytes that were kept under a name; None where none are, or where they are not those of its key."""
+    """Return the bytes cached under a name; None where there are none, or they were not stored under this key."""
     folder = cache_folder()
     if folder is None:
         return None
     with suppress(OSError):
         data = (folder / name).read_bytes()
-        told = memoryview(data)[DIGEST:]
-        if data[:DIGEST] == checksum(told, key):
+        content = memoryview(data)[DIGEST:]
+        if data[:DIGEST] == checksum(content, key):
             mark_used(folder / name)
-            return told
+            return content
     return None
 
 
 def keep(name: str, key: str, data: bytes, /, *, most: int) -> None:
-    """Keep what `kept` returns, and so many files of its suffix; where nothing can be written, that is said once."""
+    """Cache bytes for `kept`, and remove the oldest files of this suffix beyond `most`; a failure is logged once."""
     folder = cache_folder()
     if folder is None:
         tell_nothing_is_kept("a cache folder", "there is no home folder")
@@ -69,13 +69,13 @@ def keep(name: str, key: str, data: bytes, /, *, most: int) -> None:
 
 
 def mark_used(path: Path, /) -> None:
-    """Let a file be one that was used just now."""
+    """Set a file's time of last use to now."""
     with suppress(OSError):
         os.utime(path)
 
 
 def write_whole(path: Path, data: bytes, /) -> None:
-    """Write a file in one step: no reader ever finds half of it. Raises OSError where that cannot be."""
+    """Write a file atomically, so that no reader ever finds half of it; raises OSError."""
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, name = tempfile.mkstemp(dir=path.parent, suffix=".part")
     try:
@@ -88,9 +88,9 @@ def write_whole(path: Path, data: bytes, /) -> None:
 
 
 def forget_oldest(folder: Path, suffix: str, most: int, /) -> None:
-    """Remove what has not been used for longest, so that the folder does not grow for ever.
+    """Remove the least recently used files of a suffix beyond `most`.
 
-    Other programs and threads may do so just now: what is gone, or in use, is no error.
+    Other programs and threads may do so at the same time: a file that is gone, or in use, is no error.
     """
     for path in sorted(folder.glob("*" + suffix), key=_used)[:-most]:
         with suppress(OSError):

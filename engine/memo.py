@@ -1,4 +1,4 @@
-"""Remembering what follows from things that are never written to."""
+"""Memoising functions of things that never change."""
 
 from collections.abc import Callable
 from functools import wraps
@@ -10,16 +10,16 @@ Answer = TypeVar("Answer")
 
 
 def by_identity(most: int) -> Callable[[Callable[[Thing], Answer]], Callable[[Thing], Answer]]:
-    """Return a decorator that remembers a function's answers for the latest `most` things it was asked about.
+    """Return a decorator that caches a function's results for the `most` latest arguments, compared by identity.
 
-    Things are told apart by what they are and not by what they hold: they need no hash, and nobody may write to them.
+    Arguments need no hash, but must never be written to.
     """
 
     def decorated(function: Callable[[Thing], Answer]) -> Callable[[Thing], Answer]:
-        known: dict[int, tuple[Thing, Answer]] = {}  # a thing is held, so that no other can have its identity
+        known: dict[int, tuple[Thing, Answer]] = {}  # holds the argument, so that no other object gets its identity
 
         @wraps(function)
-        def asked(thing: Thing, /) -> Answer:
+        def cached(thing: Thing, /) -> Answer:
             found = known.get(id(thing))
             if found is None:
                 if len(known) >= most:
@@ -27,20 +27,20 @@ def by_identity(most: int) -> Callable[[Callable[[Thing], Answer]], Callable[[Th
                 found = known[id(thing)] = thing, function(thing)
             return found[1]
 
-        return asked
+        return cached
 
     return decorated
 
 
 def while_it_lives(function: Callable[[Thing], Answer]) -> Callable[[Thing], Answer]:
-    """Remember a function's answers for as long as the things that it was asked about are there."""
+    """Cache a function's results for as long as its arguments live."""
     known: WeakKeyDictionary[Thing, Answer] = WeakKeyDictionary()
 
     @wraps(function)
-    def asked(thing: Thing, /) -> Answer:
+    def cached(thing: Thing, /) -> Answer:
         found = known.get(thing)
         if found is None:
             found = known[thing] = function(thing)
         return found
 
-    return asked
+    return cached

@@ -1,4 +1,4 @@
-"""Smooth noise on the ground, read from periodic tables of random numbers."""
+"""Smooth value noise on the ground, from periodic tables of random numbers."""
 
 from functools import lru_cache
 from math import atan, cos, sin, sqrt
@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from ..components.arrays import Floats
 
 PERIOD = 128
-"""Lattice points along a side of a table, after which the noise repeats; a power of two."""
+"""Number of lattice points along a side of a table, after which the noise repeats; a power of two."""
 
 
 ASLANT = cos(atan((sqrt(5.0) - 1.0) / 2.0)), sin(atan((sqrt(5.0) - 1.0) / 2.0))
-"""A direction on the lattice whose slope is the golden section, so that no way along it soon comes near its start."""
+"""Direction on the lattice whose slope is the golden ratio, so that a line along it is late to come near its start."""
 
 
 @lru_cache(maxsize=64)
@@ -33,14 +33,14 @@ def smooth_noise(table: Floats, place: Floats, /, *, shift: tuple[float, float] 
     side = len(table)
     moved = place + np.mod(shift, side).astype(np.float32)
     low = np.floor(moved)
-    part = moved - low
-    part = part * part * (np.float32(3.0) - np.float32(2.0) * part)
+    fraction = moved - low
+    weight = fraction * fraction * (np.float32(3.0) - np.float32(2.0) * fraction)
     corner = low.astype(np.int32) & (side - 1)
     x, z = corner[:, 0], corner[:, 1]
     right, below = (x + 1) & (side - 1), ((z + 1) & (side - 1)) * side
     z = z * side
     flat = table.reshape(-1, 4)
-    s, t = part[:, :1], part[:, 1:]
+    s, t = weight[:, :1], weight[:, 1:]
     far: Floats = flat.take(z + x, axis=0)
     far += s * (flat.take(z + right, axis=0) - far)
     near = flat.take(below + x, axis=0)
@@ -49,21 +49,21 @@ def smooth_noise(table: Floats, place: Floats, /, *, shift: tuple[float, float] 
     return far
 
 
-def _eased(part: float) -> float:
-    return part * part * (3.0 - 2.0 * part)
+def _eased(fraction: float) -> float:
+    return fraction * fraction * (3.0 - 2.0 * fraction)
 
 
 @lru_cache(maxsize=64)
 def wander(seed: int, stream: int, steps: float, /) -> tuple[float, float, float, float]:
-    """Return four numbers in [-1, 1] that wander independently, each elsewhere after a step or two.
+    """Return four independent numbers in [-1, 1] that vary smoothly with `steps`, uncorrelated after a step or two.
 
-    They are the noise of a table along a way that crosses it aslant, by the golden section: it is 7000 steps long
-    before it comes within a lattice point of itself.
+    They are a table's noise along the line `ASLANT`, which is 7000 steps long before it comes within a lattice point
+    of itself.
     """
     x, z = (steps * part % PERIOD for part in ASLANT)
     column, row, s, t = int(x), int(z), _eased(x % 1.0), _eased(z % 1.0)
     table, below, right = noise_table(seed, stream), (row + 1) % PERIOD, (column + 1) % PERIOD
-    # Plain numbers: for a single place, arrays take many times as long.
+    # Python numbers, because arrays take many times as long for a single place.
     corners = (row, column), (row, right), (below, column), (below, right)
     a, b, c, d = [table[corner].tolist() for corner in corners]
     first, second, third, fourth = [
@@ -73,19 +73,19 @@ def wander(seed: int, stream: int, steps: float, /) -> tuple[float, float, float
 
 
 def power_left(turn: NDArray[np.float64], /) -> NDArray[np.float64]:
-    """Return how much of the power of waves on a table's lattice is left between its points, on average, same shape.
+    """Return the mean fraction of a wave's power that is left by interpolating it between lattice points, same shape.
 
-    `turn` is how far each wave turns from point to point along one axis [rad]. Of a wave aslant, the product over both
-    axes is left.
+    `turn` is the wave's change of phase from point to point along one axis [rad]. An oblique wave keeps the product of
+    the fractions of both axes.
     """
     return 1.0 - 9.0 / 35.0 * (1.0 - np.cos(turn))  # the integral of (1-w)^2 + w^2 + 2 w (1-w) cos(turn), w = 3t^2-2t^3
 
 
 def noise_grid(table: Floats, x: Floats, z: Floats, /) -> Floats:
-    """Return `smooth_noise` at all places of a grid, `x` (columns,) by `z` (rows,), shape (rows, columns, channels).
+    """Return `smooth_noise` on a grid of `x` (columns,) by `z` (rows,), shape (rows, columns, channels).
 
-    `table` may have fewer channels than a whole one. To the bit the same, in a fraction of the time: one axis after
-    the other, and the first only on the table's own lines.
+    `table` may have fewer channels. The result is the same bit by bit, in a fraction of the time: it interpolates along
+    x on the table's own lines, then along z.
     """
     left, right, s = _between(x)
     far, near, t = _between(z)
@@ -99,6 +99,7 @@ def noise_grid(table: Floats, x: Floats, z: Floats, /) -> Floats:
 def _between(place: Floats) -> tuple[NDArray[np.int32], NDArray[np.int32], Floats]:
     """Return the lattice points before and after places on an axis, and the weights of those after, shape (n,) each."""
     low = np.floor(place)
-    part = place - low
+    fraction = place - low
     before = low.astype(np.int32) & (PERIOD - 1)
-    return before, (before + 1) & (PERIOD - 1), part * part * (np.float32(3.0) - np.float32(2.0) * part)
+    weight = fraction * fraction * (np.float32(3.0) - np.float32(2.0) * fraction)
+    return before, (before + 1) & (PERIOD - 1), weight

@@ -1,4 +1,4 @@
-"""Systems that installed packages bring: found by their entry points, imported when a prairie is made."""
+"""Systems of installed packages, found by entry points and imported when a prairie is made."""
 
 import logging
 from collections.abc import Collection, Iterable
@@ -10,9 +10,9 @@ from .complaint import said
 from .installed import Installed, Status, chosen_names, claimed, owner, owners
 
 SYSTEMS = "tallgrass.systems"
-"""The entry-point group of systems; an entry's name is the system's, its value a function `bring(prairie)`.
+"""Entry-point group of systems; an entry's name is the system's, its value a function `bring(prairie)`.
 
-It adds to `prairie.systems` what there is to add, and returns nothing.
+The function adds systems to `prairie.systems`, and returns nothing.
 """
 
 log = logging.getLogger("tallgrass")
@@ -23,10 +23,10 @@ class ProvidedSystem:
     """A system and the distribution that brings it."""
 
     system: str
-    """What its entry point is called."""
+    """Name of its entry point."""
 
     distribution: str
-    """What brings it."""
+    """Distribution that brings it."""
 
     version: str
     """Version of the distribution."""
@@ -43,10 +43,10 @@ class SystemPlugins:
 
     def __init__(self, entries: Iterable[EntryPoint], *, chosen: Collection[str] | None = None) -> None:
         self._installed = Installed(entries, chosen=chosen)
-        self._told: set[str] = set()
+        self._logged: set[str] = set()
 
     def provided(self) -> list[ProvidedSystem]:
-        """Return who brings which system, in alphabetical order, those left out too; nothing is imported for it."""
+        """Return all systems in alphabetical order, also those left out, without importing anything."""
         installed = self._installed
         rows = [ProvidedSystem(entry.name, *owner(entry), installed.status(entry)) for entry in installed.all()]
         return sorted(rows, key=lambda row: (row.system, row.status, row.distribution))
@@ -54,13 +54,13 @@ class SystemPlugins:
     def bring(self, prairie: object, /) -> None:
         """Let every package add its systems to a prairie, in alphabetical order of their names.
 
-        One that cannot, or that has its name from two packages, is named in the log and left out. What it had added
-        before it failed stays. The same sentence is told once, however many prairies there are.
+        A package that fails, or a name that two packages claim, is logged and left out. What a package had added before
+        it failed stays. The same message is logged once, for all prairies together.
         """
         for name, entries in sorted(self._installed.used.items()):
             why = _bring(prairie, name, entries)
-            if why is not None and why not in self._told:
-                self._told.add(why)
+            if why is not None and why not in self._logged:
+                self._logged.add(why)
                 log.warning("%s", why)
 
 
@@ -76,7 +76,7 @@ def bring_systems(prairie: object, /) -> None:
 
 
 def _bring(prairie: object, name: str, entries: list[EntryPoint]) -> str | None:
-    """Let a package add its system, and return why it cannot."""
+    """Let a package add its system; return why it cannot, or None."""
     if len(entries) > 1:
         twice = claimed(f"system '{name}'", entries)
         return f"{twice}; none is used"

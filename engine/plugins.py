@@ -1,4 +1,4 @@
-"""The registry of wind kinds: built-in ones, installed ones and a game's own, all through one door."""
+"""The registry of wind kinds: built-in ones, installed ones and a game's own."""
 
 import logging
 import re
@@ -16,7 +16,7 @@ from .installed import CHOSEN, OURS, Installed, Status, chosen_names, claimed, o
 from .plugged import SYSTEMS
 
 GROUP = "tallgrass.wind"
-"""The entry-point group of wind kinds; an entry's name is the `kind:` of scene files, its value a class."""
+"""Entry-point group of wind kinds; an entry's name is the `kind:` of scene files, its value a class."""
 
 log = logging.getLogger("tallgrass")
 
@@ -25,7 +25,7 @@ _W = TypeVar("_W", bound=WindPrimitive)
 
 
 class PluginError(ValueError):
-    """A kind is unknown, claimed twice or broken; the message is one sentence that names whose it is."""
+    """A kind is unknown, claimed twice or broken; the message is one sentence that names its package."""
 
 
 class NewerError(PluginError):
@@ -37,13 +37,13 @@ class Provided:
     """A kind of wind and who brings it."""
 
     kind: str
-    """As scene files call it."""
+    """Its name in scene files."""
 
     distribution: str
-    """What brings it: a distribution, or the module and name of a game's own class."""
+    """Distribution that brings it, or module and name of a game's own class."""
 
     version: str
-    """Version of the distribution; of a game's own class, nothing."""
+    """Version of the distribution; "" for a game's own class."""
 
     status: Status
     """`ready` to be imported, `claimed twice`, `name taken` by a built-in one, or `left out` by the environment."""
@@ -52,8 +52,8 @@ class Provided:
 class WindKinds:
     """Wind kinds by name. A class is imported when its kind is first asked for, and never before.
 
-    Of the installed ones, `chosen` names the kinds or distributions to use beside those of tallgrass; None is all.
-    It may name `others` as well, which are no winds.
+    `chosen` names the installed kinds or distributions to use in addition to those of tallgrass; None is all. It may
+    also name entries of `others`, which are no winds.
     """
 
     def __init__(
@@ -68,7 +68,7 @@ class WindKinds:
             log.warning("%s names '%s', but no such kind, system or distribution is installed", CHOSEN, name)
 
     def provided(self) -> list[Provided]:
-        """Return who brings which kind, in alphabetical order, those left out too; nothing is imported for it."""
+        """Return all kinds in alphabetical order, also those left out, without importing anything."""
         installed = self._installed
         rows = [Provided(entry.name, *owner(entry), installed.status(entry)) for entry in installed.all()]
         own = (kind for kind in self._classes if kind not in self._entries)
@@ -83,14 +83,14 @@ class WindKinds:
         return _address(type(primitive))
 
     def is_ours(self, primitive: type[WindPrimitive], /) -> bool:
-        """Return whether a class of winds comes along with tallgrass; nothing is imported for it."""
+        """Return whether a class of winds is tallgrass's own, without importing anything."""
         known = self._are_ours.get(primitive)
         if known is None:
             known = self._are_ours[primitive] = f"{primitive.__module__}:{primitive.__qualname__}" in self._ours
         return known
 
     def names(self) -> list[str]:
-        """Return the kinds a scene may use, in alphabetical order; nothing is imported for it."""
+        """Return the kinds that a scene may use, in alphabetical order, without importing anything."""
         return sorted(self._entries.keys() | self._classes.keys())
 
     def add(self, kind: str, primitive: type[WindPrimitive]) -> None:
@@ -143,7 +143,7 @@ class WindKinds:
 
 @cache
 def wind_kinds() -> WindKinds:
-    """Return the kinds of this process: those installed, as the environment chooses, and those added by `wind`."""
+    """Return the kinds of this process: those that are installed and chosen by the environment, and those of `wind`."""
     others = entry_points(group=SYSTEMS)
     return WindKinds(entry_points(group=GROUP), chosen=chosen_names(), others=others)
 
@@ -175,7 +175,7 @@ def _must_be_primitive(thing: object, what: str) -> type[WindPrimitive]:
 
 
 def _named(primitive: type[WindPrimitive], kind: str) -> type[WindPrimitive]:
-    """Let winds of a class that does not say its `kind` be of the one that it is registered as; return the class."""
+    """Set the kind of a class that does not declare its `kind` to the one it is registered as; return the class."""
     field = primitive.model_fields["kind"]
     if field.is_required():
         field.default = kind

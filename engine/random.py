@@ -1,4 +1,4 @@
-"""Counter-based random numbers: any number of the sequence is computed from its place alone.
+"""Counter-based random numbers: hashes of a seed and integers, without state.
 
 `engine/shaders/lib/random.glsl` has the same functions; both give the same bits.
 """
@@ -14,7 +14,7 @@ _SECOND = np.uint32(0x846CA68B)
 
 
 def scramble(value: ArrayLike, /) -> UInts:
-    """Return each 32-bit number's image under a well mixed permutation of all 32-bit numbers.
+    """Return the hash of each 32-bit number; it is a permutation of all 32-bit numbers.
 
     `value` holds integers of any sign and shape; of wider ones only the low 32 bits count. Zero is not a fixed point.
     Multipliers and shifts are those of Wellons' search for integer hashes of low bias ("lowbias32").
@@ -28,7 +28,7 @@ def scramble(value: ArrayLike, /) -> UInts:
 
 
 def hash3(seed: int, a: ArrayLike, b: ArrayLike, /) -> UInts:
-    """Return the random 32-bit number of each (a, b), for example of a cell, under a seed.
+    """Return the hash of a seed and each (a, b), for example a cell.
 
     `a` and `b` are integers of any sign that broadcast against each other; the result has their common shape.
     """
@@ -36,7 +36,7 @@ def hash3(seed: int, a: ArrayLike, b: ArrayLike, /) -> UInts:
 
 
 def stream(hashed: ArrayLike, number: int, /) -> UInts:
-    """Return further random numbers of the same places, independent between numbers; same shape as `hashed`."""
+    """Return further random numbers from hashes, independent for each `number`; same shape as `hashed`."""
     return scramble(_word(hashed) ^ scramble(number))
 
 

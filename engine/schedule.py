@@ -1,4 +1,4 @@
-"""The schedule of a frame: systems in phases, which a game may read, add to, replace and leave out."""
+"""The schedule of a frame: systems in phases, which a game may read, add, replace and disable."""
 
 import logging
 from collections.abc import Callable, Iterator
@@ -15,22 +15,22 @@ from typing import Any, Protocol
 from .complaint import said
 
 WAITED = 0.25
-"""How long nobody may wait in a frame [s]: that is time on the clock in which this thread does nothing."""
+"""Waiting time from which a turn counts as a wait [s]: time on the clock in which its thread does not run."""
 
 IDLE = 10.0
-"""How many times as long as it works: on a busy machine those who work wait as well, for their turn."""
+"""Ratio of waiting to working time from which a turn counts as a wait: on a busy machine threads wait for a CPU."""
 
 PATIENCE, WINDOW = 3, 16
-"""How often, of a system's latest turns, it may not have waited for so long."""
+"""Number of waits for which a system is left out, among this many of its latest turns."""
 
 log = logging.getLogger("tallgrass")
 
 
 class Phase(IntEnum):
-    """What a frame goes through, in this order."""
+    """Steps of a frame, in this order."""
 
     INPUT = 0
-    """Before anything else of the frame: what a game wants to have done by then. The viewer has looked already."""
+    """A game's own work before anything else of the frame. The viewer has looked already."""
 
     TILE = 1
     """Patches come and go around the viewer."""
@@ -42,48 +42,48 @@ class Phase(IntEnum):
     """The wind's messages reach the receivers."""
 
     DRAW = 4
-    """What is seen is gathered for the graphics card."""
+    """Visible grass is gathered for the graphics card."""
 
 
 class HasRun(Protocol):
-    """An object that is a system by its method `run`."""
+    """An object whose method `run` is a system."""
 
     def run(self) -> object:
         """Do once what the system does in a frame."""
 
 
 Run = Callable[[], object] | HasRun
-"""What a system does: a callable without arguments, or an object with such a method `run`."""
+"""Work of a system: a callable without arguments, or an object with such a method `run`."""
 
 
 @dataclass(frozen=True, slots=True)
 class System:
-    """A system of a schedule, as it stands at the moment; the schedule changes it, and gives out a new record then."""
+    """A system of a schedule at one moment; after a change the schedule has a new record of it."""
 
     name: str
-    """What it is called, once in its schedule."""
+    """Its name, unique in its schedule."""
 
     phase: Phase
-    """The phase that it runs in."""
+    """Phase in which it runs."""
 
     run: Callable[[], object]
-    """What it does once a frame."""
+    """Function that is called once a frame."""
 
     enabled: bool = True
-    """Whether it has its turn in a frame; one that has failed has none, and is named in the schedule's `failures`."""
+    """Whether it runs. A system that has failed does not run either; it is listed in the schedule's `failures`."""
 
     trusted: bool = False
-    """Whether what it raises goes through; all others are left out when they raise."""
+    """Whether its errors are raised to the caller; other systems are left out when they raise."""
 
     origin: str = ""
-    """Module and name of what it runs."""
+    """Module and name of the function."""
 
     number: int = 0
-    """How many systems had been added to its schedule before."""
+    """Number of systems that had been added to its schedule before."""
 
 
 def has_waited(took: float, busy: float, /) -> bool:
-    """Return whether somebody who took so long on the clock, and was busy for so long [s], has waited too long."""
+    """Return whether a call that took `took` on the clock, and `busy` of its thread's time [s], has waited too long."""
     return took - busy > max(WAITED, IDLE * busy)
 
 
@@ -98,34 +98,34 @@ class UnknownSystemError(KeyError):
 class Schedule:
     """Systems by phase, in the order in which they were added unless `before` says otherwise; each is timed by name.
 
-    It is iterated in running order. Systems may change it while they run: what they add has its turn in the next
-    frame, what they remove or disable has none any more, and what they replace runs as the new one.
+    Iteration is in running order. Systems may change the schedule while they run: an added system first runs in the
+    next frame, a removed or disabled one no longer runs, and a replaced one runs as the new one.
     """
 
     live: bool = True
-    """Whether a system that waits in its turns is left out, as in a game; otherwise it is only named in the log."""
+    """Whether a system that often waits is left out, as in a game; otherwise it is only logged."""
 
     come_back: Callable[[], str] = lambda: ""
-    """Brings back what a system may not leave changed, and returns in words what one has, or nothing."""
+    """Undoes a change that no system may leave behind; returns a description of the change, or ""."""
 
     milliseconds: dict[str, float] = field(init=False, default_factory=dict)
-    """What each system took when its phase was last run [ms]; only those that ran then and raised nothing."""
+    """Duration of each system when its phase was last run [ms]; only of systems that ran then without an error."""
 
     failures: dict[str, str] = field(init=False, default_factory=dict)
-    """One sentence for each system that raised something, or often waited, and is left out since."""
+    """One sentence for each system that has been left out, as it raised an error or often waited."""
 
     _systems: dict[str, System] = field(init=False, default_factory=dict)
-    """By name, in running order."""
+    """Systems by name, in running order."""
 
     _waits: dict[str, int] = field(init=False, default_factory=dict)
-    """Of each system that has waited, in which of its latest turns, one bit for each."""
+    """Bits of the latest `WINDOW` turns of each system that has waited: 1 for a wait, the lowest bit for the last."""
 
-    _told: set[str] = field(init=False, default_factory=set)
-    """The systems of which it has been said that they wait."""
+    _logged: set[str] = field(init=False, default_factory=set)
+    """Names of the systems whose waits have been logged."""
 
     _numbers: Iterator[int] = field(init=False, default_factory=count)
     _runs: bool = field(init=False, default=False)
-    """Whether its systems are running now."""
+    """Whether systems are running now."""
 
     def __iter__(self) -> Iterator[System]:
         return iter(tuple(self._systems.values()))
@@ -156,10 +156,10 @@ class Schedule:
     ) -> None:
         """Add a system: right before another one if `before` names it, and else at the end of its phase.
 
-        `phase` may be a name in any case, as "blow". `after` only makes sure that the system of that name runs earlier.
-        Those that are there keep their order. Of a `trusted` system errors go through: that is for the engine's own.
-        Raises ValueError for a name that is empty or taken, for an unknown phase, and for an order that cannot be;
-        UnknownSystemError where `before` or `after` is none; TypeError for what cannot run.
+        `phase` may be a name in any case, as "blow". `after` only checks that the system of that name runs earlier.
+        Other systems keep their order. Errors of a `trusted` system are raised to the caller: that is for the engine's
+        own. Raises ValueError for a name that is empty or taken, an unknown phase, and an impossible order;
+        UnknownSystemError where `before` or `after` names no system; TypeError for a `run` that cannot be called.
         """
         if not (isinstance(name, str) and name.strip()):
             raise ValueError(f"a system's name is a text that is not empty, unlike {name!r}")
@@ -172,9 +172,9 @@ class Schedule:
         self._systems = {row.name: row for row in rows}
 
     def replace(self, name: str, run: Run, *, trusted: bool = False) -> None:
-        """Let a system do something else from now on: it keeps its place, and is enabled or not as before.
+        """Give a system another function: it keeps its place, and stays enabled or disabled.
 
-        It has not failed any more. Raises UnknownSystemError, and TypeError for what cannot run.
+        Its failure is forgotten. Raises UnknownSystemError, and TypeError for a `run` that cannot be called.
         """
         found = self[name]
         ready = _ready(name, run)
@@ -195,21 +195,21 @@ class Schedule:
             self.remove(system.name)
 
     def enable(self, name: str) -> None:
-        """Let a system have its turns again, also one that has failed or waited; raises UnknownSystemError."""
+        """Let a system run again, also one that has failed or waited; raises UnknownSystemError."""
         self._systems[name] = changed(self[name], enabled=True)
         self.failures.pop(name, None)
         self._waits.pop(name, None)
 
     def disable(self, name: str) -> None:
-        """Let a system have no turns until it is enabled; raises UnknownSystemError."""
+        """Keep a system from running until it is enabled; raises UnknownSystemError."""
         self._systems[name] = changed(self[name], enabled=False)
 
     def run(self, *, first: Phase = Phase.INPUT, last: Phase = Phase.DRAW) -> None:
         """Run every enabled system from the `first` phase to the `last` one once, in order.
 
-        One that raises an Exception is named in the log and left out from then on, unless it is trusted. One that waits
-        for longer than `WAITED`, for a disk or another program, is named once; where the schedule is `live` it is left
-        out when it has done so three times. So is one that leaves changed what `come_back` brings back.
+        A system that raises an Exception is logged and left out from then on, unless it is trusted. A system that waits
+        for longer than `WAITED`, for a disk or another program, is logged once; in a `live` schedule it is left out
+        after three waits. A system that leaves a change for `come_back` to undo is left out at once.
         """
         for system in self:
             if first <= system.phase <= last:
@@ -222,15 +222,15 @@ class Schedule:
             self._runs = False
 
     def must_be_idle(self) -> None:
-        """Raise RuntimeError while its systems run: where one of them draws, all would run again, itself among them."""
+        """Raise RuntimeError while systems run: a system that draws the prairie would run all of them recursively."""
         if self._runs:
             raise RuntimeError("this prairie is being drawn: its systems cannot draw it; do so before or after")
 
     def step(self, which: Phase | str, /) -> None:
-        """Run one system by its name, or those of a phase that are enabled, once and out of the order of a frame.
+        """Run once, outside of a frame, one system by its name, or the enabled ones of a phase.
 
-        A system that is named runs even if it is disabled or has failed. Nothing is timed, and nobody is left out:
-        what a system raises goes through. Raises UnknownSystemError.
+        A named system runs even if it is disabled or has failed. Nothing is timed, no system is left out, and errors
+        are raised to the caller. Raises UnknownSystemError.
         """
         if not isinstance(which, Phase):
             self[which].run()
@@ -239,16 +239,16 @@ class Schedule:
             system.run()
 
     def _turns(self, first: Phase, last: Phase) -> Iterator[System]:
-        """Give each system of some phases that has a turn, as it stands when its turn comes."""
+        """Yield each system of a range of phases that has its turn, in its state at that moment."""
         for system in tuple(self._systems.values()):
-            now = self._systems.get(system.name)  # as in `_now`: a call is saved for each system of a frame
+            now = self._systems.get(system.name)  # `_now` inlined: it would cost a call for each system of a frame
             if now is None or now.number != system.number or not now.enabled:
                 continue
             if first <= now.phase <= last and now.name not in self.failures:
                 yield now
 
     def _now(self, system: System) -> System | None:
-        """Return a system as it stands now; None if it has been removed, even if another has its name."""
+        """Return the present record of a system; None if it has been removed, even if another has its name."""
         now = self._systems.get(system.name)
         return now if now and now.number == system.number else None
 
@@ -272,17 +272,17 @@ class Schedule:
                 self._leave_out(system, left)
 
     def _judge(self, system: System, took: float, busy: float) -> None:
-        """Tell of a system that waits in its turns, and in a game leave it out when it does so often."""
+        """Log a system that waits, and in a live schedule leave it out when it waits often."""
         name, waits = system.name, has_waited(took, busy)
         if not waits and name not in self._waits:
             return
         self._waits[name] = (self._waits.get(name, 0) << 1 | waits) & ((1 << WINDOW) - 1)
-        told = f"run waits: for {took - busy:.1f} s, and every frame with it"
+        what = f"run waits: for {took - busy:.1f} s, and every frame with it"
         if self.live and waits and self._waits[name].bit_count() >= PATIENCE:
-            self._leave_out(system, told)
-        elif waits and name not in self._told:
-            self._told.add(name)
-            log.warning("system '%s' of %s: %s", name, system.origin, told)
+            self._leave_out(system, what)
+        elif waits and name not in self._logged:
+            self._logged.add(name)
+            log.warning("system '%s' of %s: %s", name, system.origin, what)
 
     def _leave_out(self, system: System, what: str) -> None:
         why = f"system '{system.name}' of {system.origin}: {what}"
@@ -292,7 +292,7 @@ class Schedule:
         log.warning("%s; it is left out from now on", why)
 
     def _place(self, added: System, before: str | None, after: str | None) -> int:
-        """Return how many systems run before a new one."""
+        """Return the number of systems that run before a new one."""
         rows = list(self)
         place = sum(row.phase <= added.phase for row in rows)
         if before is not None:
@@ -326,9 +326,10 @@ def _phase(phase: Phase | str) -> Phase:
 
 
 def _ready(name: str, run: Run) -> Callable[[], object]:
-    """Return what is to be called.
+    """Return the function of a system.
 
-    A class is refused, because calling it would only make one more object; and so is what a call would only begin.
+    A class is refused, as a call would only make an object; so are generators and coroutines, as a call would only
+    start them.
     """
     if isinstance(run, type):
         raise TypeError(f"system '{name}' was handed the class {run.__name__}; hand it an object made from that")

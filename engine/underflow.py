@@ -1,4 +1,4 @@
-"""Numbers that end in zero, as what falls off does: that is no error, whatever a host has told numpy."""
+"""Allowing underflow to zero, even where a host has made numpy raise for it."""
 
 from types import FunctionType
 
@@ -6,22 +6,23 @@ import numpy as np
 
 
 class Underflowing:
-    """A class whose public methods, and those of classes made from it, let numbers end in zero.
+    """A base class whose subclasses ignore floating-point underflow in their public methods.
 
-    Nothing else of what a host may have told numpy to raise happens in them.
+    A host's other settings of numpy's errors stay in force.
     """
 
     def __init_subclass__(cls) -> None:
-        """Let those that the class brings do so."""
+        """Wrap the subclass's own public methods."""
         super().__init_subclass__()
-        for name, each in [*vars(cls).items()]:
+        for name, member in [*vars(cls).items()]:
             if name == "__init__" or not name.startswith("_"):
-                setattr(cls, name, _let(each))
+                setattr(cls, name, _wrapped(member))
 
 
-def _let(each: object) -> object:
-    if isinstance(each, FunctionType):
-        return np.errstate(under="ignore")(each)
-    if isinstance(each, property):
-        return property(*(one and _let(one) for one in (each.fget, each.fset, each.fdel)))  # type: ignore[arg-type]
-    return each
+def _wrapped(member: object) -> object:
+    if isinstance(member, FunctionType):
+        return np.errstate(under="ignore")(member)
+    if isinstance(member, property):
+        accessors = (member.fget, member.fset, member.fdel)
+        return property(*(accessor and _wrapped(accessor) for accessor in accessors))  # type: ignore[arg-type]
+    return member

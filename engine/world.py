@@ -1,4 +1,4 @@
-"""The entities of one prairie, inside whatever esper world is current: the only module that imports esper."""
+"""The entities of one prairie in an esper world; the only module that imports esper."""
 
 import gc
 import logging
@@ -19,7 +19,7 @@ Component = TypeVar("Component")
 Other = TypeVar("Other")
 
 PRIORITY = 100
-"""Priority of the processor that `install` adds. A game's own of lower numbers, 0 without more, run after it."""
+"""Priority of the processor that `install` adds. Those of lower priority, 0 by default, run after it."""
 
 log = logging.getLogger("tallgrass")
 
@@ -28,17 +28,17 @@ _private = count()
 
 
 class Residents:
-    """The entities of one prairie, and which of them somebody else has deleted."""
+    """The entities of one prairie, and those of them that the game has deleted."""
 
     __slots__ = ("lost", "marks")
 
     def __init__(self) -> None:
         self.marks: dict[int, int] = {}
-        """By entity, what tells its mark from that of another of the same number."""
+        """Identity of each entity's `Resident` component: entity numbers may be used again."""
         self.lost: list[int] = []
 
     def note_gone(self, resident: Resident, /) -> None:
-        """Take note that an entity has been deleted, unless its number is another one's by now."""
+        """Record that an entity has been deleted, unless a new entity has its number."""
         if self.marks.get(resident.entity) == id(resident):
             del self.marks[resident.entity]
             self.lost.append(resident.entity)
@@ -47,27 +47,27 @@ class Residents:
 class World:
     """A prairie's own entities among a game's.
 
-    It lives in the world that was current when it was made, as a guest, and `release` removes exactly what it created.
-    Worlds number their entities alike, so while the game has another world current, everything but `release` raises
-    RuntimeError. `advance` is what the processor of `install` calls with each step of time [s].
+    They live in the esper world that was current when this was made, and `release` removes exactly what this created.
+    While the game has another world current, everything but `release` raises RuntimeError, as all worlds use the same
+    entity numbers. The processor of `install` calls `advance` with each step of time [s].
     """
 
     def __init__(self, advance: Callable[[float], None] | None = None) -> None:
         self.name = esper.current_world
         self.advance = advance
         self.generation = 0
-        """How often everything of ours was deleted at once, as by `esper.clear_database`."""
+        """Number of times that all our entities were deleted at once, as by `esper.clear_database`."""
         self._home: ref[Resident] | None = None
         self._mine = Residents()
-        self._told: set[int] = set()
-        """Entities of which it was said that their pose is nowhere."""
+        self._logged: set[int] = set()
+        """Entities whose unusable pose has been logged."""
         _worlds.add(self)
 
     def create(self, *components: object) -> int:
         """Return a new entity that has `components`."""
         self._must_be_current()
         self.check()
-        if self._home is None:  # an entity that nobody has a reason to delete: it goes when all go
+        if self._home is None:  # an entity that no game has a reason to delete: it is gone only if all are
             home = Resident(self._mine)
             self._home = ref(home)
             esper.create_entity(home)
@@ -77,12 +77,12 @@ class World:
         return entity
 
     def give(self, *components: object) -> int:
-        """Return a new entity of the game's own that has `components`: it outlives the prairie."""
+        """Return a new entity with `components` that belongs to the game, and outlives the prairie."""
         self._must_be_current()
         return esper.create_entity(*components)
 
     def check(self) -> int:
-        """Return `generation`, raised if the whole world was cleared since this was asked before."""
+        """Return `generation`, incremented if the whole world was cleared since the last call."""
         if self._home is not None and self._home() is None:
             self._home = None
             self._mine.lost.clear()
@@ -90,7 +90,7 @@ class World:
         return self.generation
 
     def lost(self) -> list[int]:
-        """Return the entities of ours that somebody has deleted one by one since this was asked before."""
+        """Return our entities that the game has deleted one by one since the last call."""
         self.check()
         lost = self._mine.lost.copy()
         self._mine.lost.clear()
@@ -104,24 +104,24 @@ class World:
             esper.delete_entity(entity, immediate=True)
 
     def has(self, entity: int) -> bool:
-        """Return whether an entity of ours is there; one that the game has deleted is not, even if esper waits."""
+        """Return whether an entity of ours exists; not if the game has deleted it, even if esper still defers that."""
         self._must_be_current()
-        # A game that clears its world counts entities from 1 again: the number alone does not say whose one is.
+        # After a game clears its world, numbers start at 1 again: a number alone does not tell whose the entity is.
         return esper.entity_exists(entity) and self._owner(entity) is self._mine
 
     def add(self, entity: int, component: object) -> None:
-        """Give an entity a component, in place of one of the same type."""
+        """Give an entity a component, replacing one of the same type."""
         self._must_be_current()
         esper.add_component(entity, component)
 
     def drop(self, entity: int, kind: type[object]) -> None:
-        """Take an entity's component of exactly this type away, if it has one."""
+        """Remove an entity's component of exactly this type, if it has one."""
         self._must_be_current()
         if esper.has_component(entity, kind):
             esper.remove_component(entity, kind)
 
     def uproot(self, entity: int, kind: type[object]) -> None:
-        """Take an entity's component of exactly this type away, and the entity where it has nothing but a pose left."""
+        """Remove an entity's component of exactly this type, and the entity if only a pose is left."""
         self.drop(entity, kind)
         left: tuple[object, ...] = esper.components_for_entity(entity)
         if all(isinstance(each, Pose | Resident) for each in left):
@@ -141,56 +141,56 @@ class World:
     def all(self, kind: type[Component]) -> list[tuple[int, Component]]:
         """Return every entity with a component of exactly this type, by rising entity number.
 
-        The game's own entities are among them, those of other prairies in the same world are not. The order is fixed
-        so that nothing that follows from it depends on how a set is laid out.
+        The game's own entities are among them, those of other prairies in the same world are not. The order is fixed,
+        so that results do not depend on a set's order.
         """
         self._must_be_current()
         rows = esper.get_component(kind)
         if not rows:
             return []
-        mine, part_of, found = self._mine, esper.try_component, list[tuple[int, Component]]()
+        mine, component_of, found = self._mine, esper.try_component, list[tuple[int, Component]]()
         for row in rows:
-            mark = part_of(row[0], Resident)
+            mark = component_of(row[0], Resident)
             if mark is None or mark.owner is mine:  # the game's, and our own
                 found.append(row)
         return sorted(found, key=itemgetter(0))
 
     def rows(self, kind: type[Component]) -> list[tuple[int, Component]]:
-        """Return every entity with a component of exactly this type, in any order and whosever it is.
+        """Return every entity with a component of exactly this type, in any order, those of other prairies too.
 
-        It is quick: who keeps it sees by comparing it whether any of them has become another. But it is made anew
-        whenever any entity comes or goes: many are to be exchanged `uncollected`.
+        It is quick, as esper caches the list: compare it with a kept one to see changes. The list is built anew
+        whenever any entity comes or goes, so exchange many entities `uncollected`.
         """
         self._must_be_current()
         return esper.get_component(kind)
 
     def both(self, kind: type[Component], other: type[Other]) -> list[tuple[int, Component, Other]]:
-        """Return every entity with components of exactly these two types, in the order and as far as `all` does."""
+        """Return every entity with components of exactly these two types, of the same owners and order as `all`."""
         self._must_be_current()
         rows = esper.get_component(kind)
         if not rows:
             return []
-        mine, part_of, found = self._mine, esper.try_component, list[tuple[int, Component, Other]]()
+        mine, component_of, found = self._mine, esper.try_component, list[tuple[int, Component, Other]]()
         for entity, one in rows:
-            two, mark = part_of(entity, other), part_of(entity, Resident)
+            two, mark = component_of(entity, other), component_of(entity, Resident)
             if two is not None and (mark is None or mark.owner is mine):
                 found.append((entity, one, two))
         return sorted(found, key=itemgetter(0))
 
     def stands(self, entity: int, pose: Pose | None, what: str) -> bool:
-        """Return whether an entity has a pose that is somewhere; where not, say once `what` is left out meanwhile."""
+        """Return whether an entity has a usable pose; if not, log once that its `what` is left out."""
         return self.standing([(entity, pose)], what)[0]
 
     def standing(self, poses: Sequence[tuple[int, Pose | None]], what: str) -> list[bool]:
-        """Return the same of several entities; one sentence tells of all that are left out since now."""
-        stand = [pose is not None and is_somewhere(pose) for _, pose in poses]
-        lost = [one for one, there in zip(poses, stand, strict=True) if not there and one[0] not in self._told]
+        """Return whether each entity has a usable pose; log in one message the `what` of those newly left out."""
+        usable = [pose is not None and is_somewhere(pose) for _, pose in poses]
+        lost = [row for row, there in zip(poses, usable, strict=True) if not there and row[0] not in self._logged]
         if lost:
-            self._told.update(entity for entity, _ in lost)
+            self._logged.update(entity for entity, _ in lost)
             (entity, pose), more = lost[0], f", and {len(lost) - 1} more likewise" if len(lost) > 1 else ""
             have = pose or "no Pose"
             log.warning("%s of entity %d is left out while it has %s%s: %s", what, entity, have, more, SOMEWHERE)
-        return stand
+        return usable
 
     def _owner(self, entity: int) -> object | None:
         mark = esper.try_component(entity, Resident)
@@ -203,9 +203,9 @@ class World:
         return len(self._mine.marks)
 
     def release(self) -> None:
-        """Delete every entity created here that still exists, and with the world's last prairie its processor.
+        """Delete every entity created here that still exists; with the world's last prairie, also the processor.
 
-        Where the game has another world current, this one is made current for that moment.
+        If the game has another world current, this one is made current meanwhile.
         """
         if self.name in esper.list_worlds():
             with _current(self.name):
@@ -222,7 +222,7 @@ class World:
         _worlds.discard(self)
 
     def come_back(self) -> str:
-        """Make this world current again where somebody left another one so; return which, in words, or nothing."""
+        """Make this world current again if a system left another one current; return a description of that, or ""."""
         left = esper.current_world
         if left == self.name or self.name not in esper.list_worlds():
             return ""
@@ -239,10 +239,10 @@ class World:
 
 
 class Advance(esper.Processor):
-    """Moves the time of every prairie in its world on; `install` adds it."""
+    """Advances every prairie in its world; `install` adds it."""
 
     def process(self, dt: object = None, *args: object, **options: object) -> None:
-        """Advance by `dt` [s]; without it, time stands still. What else a game hands its processors is left alone."""
+        """Advance by `dt` [s]; without it, time stands still. A game's other arguments are ignored."""
         del args, options
         if dt is None:
             return
@@ -272,9 +272,10 @@ def _residents(name: str, *, but: World | None = None) -> list[World]:
 
 @contextmanager
 def _current(name: str) -> Iterator[None]:
-    """Make another of the game's worlds current for a moment.
+    """Make another of the game's worlds current inside.
 
-    Meanwhile nothing is collected: a handler of the game's that went now would leave its reference in its world.
+    Garbage collection is off there: an event handler of the game that were collected now would leave its reference in
+    its own world.
     """
     before = esper.current_world
     if before == name:
@@ -290,7 +291,7 @@ def _current(name: str) -> Iterator[None]:
 
 @contextmanager
 def uncollected() -> Iterator[None]:
-    """Let Python's collector rest meanwhile: what is made and let go again by then never sets it off."""
+    """Turn garbage collection off inside: objects that are made and dropped there never trigger it."""
     collecting = gc.isenabled()
     gc.disable()
     try:
@@ -302,10 +303,10 @@ def uncollected() -> Iterator[None]:
 
 @contextmanager
 def private_world() -> Iterator[World]:
-    """Make an empty esper world the current one, and in the end the host's again; the private one is deleted then.
+    """Make a new empty esper world current inside, and delete it in the end; then the host's world is current again.
 
-    Whatever the body creates in esper stays inside: entities, processors, handlers. It yields a `World` for those that
-    create entities as tallgrass does.
+    Entities, processors and handlers that the body creates stay in the new world. Yields a `World` for creating
+    entities as a prairie does.
     """
     host, name = esper.current_world, f"tallgrass-private-{next(_private)}"
     esper.switch_world(name)
