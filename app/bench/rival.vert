@@ -36,9 +36,9 @@ vec2 swayed(vec2 place) {
 
 vec3 light(int k, float t, vec2 normal, vec3 place, float h, vec2 bent) {
     Lie lies = lie_at(place.xz);
-    vec3 grass = pigment_at(k, t) * grain_at(k, doubled(normal));
-    Light reaches = veiled(light_on(k, bent, place, lies, grows_at(place.xz)), place);
-    return shown_of(shade(leaf_at(grass * stretch(lies.slow), h), reaches));
+    vec3 grass = pigment_at(k, t) * azimuth_tint(k, doubled_angle(normal));
+    Light reaches = hazed(leaf_light(k, bent, place, lies, density_at(place.xz)), place);
+    return tone_mapped(shade(leaf_surface(grass * dryness_tint(lies.slow), h), reaches));
 }
 
 void main() {
@@ -54,7 +54,7 @@ void main() {
     int k = int(sort.x);
     color = vec3(0.0);
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-    if (sort.y >= share * grows_at(foot.xz, k) || int(tile.w) + gl_InstanceID % CHUNK >= many)
+    if (sort.y >= share * density_at(foot.xz, k) || int(tile.w) + gl_InstanceID % CHUNK >= many)
         return;
     float t = float(gl_VertexID / 2) / float(SEGMENTS);
     vec2 message = swayed(foot.xz);

@@ -45,7 +45,7 @@ vec3 meadow(float at) {
 // What a mirror shows that looks this way: the sky, and below the horizon the grass.
 vec3 around(vec3 toward) {
     float low = 1.0 - max(toward.y, 0.0);
-    vec3 sky = mix(zenith, haze_light(eye + toward), low * low * low);
+    vec3 sky = mix(zenith, haze_radiance(eye + toward), low * low * low);
     float near_sun = max(dot(toward, sun), 0.0);
     sky += sunlight * (SUN_GLOSS.x * pow(near_sun, SUN_GLOSS.y) + SUN_GLOSS.z * pow(near_sun, SUN_GLOSS.w));
     return mix(meadow(BLADES_SEEN.x), sky, smoothstep(HORIZON.x, HORIZON.y, toward.y));
@@ -94,7 +94,7 @@ vec3 fitted(vec3 plate, Marks marks) {
 // What light reaches a face, but for the haze before it: the sky's from above, and grass's from below.
 Light light_on_body(vec3 normal) {
     float open = 0.5 + 0.5 * normal.y;
-    Light light = light_at(seen_at, Sender(FACE, vec2(0.0), normal, FULL_SUN), max(dot(normal, sun), 0.0), any_casters() ? past_casters(seen_at) : 1.0);
+    Light light = light_at(seen_at, Reflector(FACE, vec2(0.0), normal, FULL_SUN), max(dot(normal, sun), 0.0), has_casters() ? casters_visibility(seen_at) : 1.0);
     light.sky = light.sky * open + meadow(BLADES_SEEN.y) * (FROM_LAWN * (1.0 - open));
     return light;
 }
@@ -113,5 +113,5 @@ void main() {
         color = mix(shade(Surface(sqrt(paint), 0.0, 0.0), light), mirrored, FIN_MIRRORS.x + FIN_MIRRORS.y * sheen);
     else
         color = fitted(mix(shade(Surface(sqrt(metal), 0.0, 0.0), light), mirrored, HULL_MIRRORS.x + HULL_MIRRORS.y * sheen), marks);
-    pixel = vec4(shown_of(mix(color, haze_light(seen_at), haze_at(seen_at))), 1.0) * cover;
+    pixel = vec4(tone_mapped(mix(color, haze_radiance(seen_at), haze_opacity(seen_at))), 1.0) * cover;
 }

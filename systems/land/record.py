@@ -84,7 +84,7 @@ def write_land(record: NDArray[np.void], grown: Grown, /) -> None:
     """Write the ground and its kinds of grass into the frame block's record (1,)."""
     row, patch, growths = record[0], grown.ground.patch, grown.growths
     terrain, postures = grown.ground.terrain, growths[0].postures.shape
-    row["patch_side"], row["patches_a_metre"], row["tallest_grass"] = patch, 1.0 / patch, grown.tallest
+    row["patch_side"], row["patches_per_metre"], row["tallest_grass"] = patch, 1.0 / patch, grown.tallest
     row["terrain_origin"], row["terrain_size"], row["terrain_cell"] = terrain.origin, terrain.size, terrain.cell
     row["posture_variants"], row["posture_rows"] = postures.shape[:2]
     row["posture_links"] = postures.shape[2] - 1

@@ -20,10 +20,10 @@ struct Way {
 
 Way way_toward(vec3 direction) {
     float near = max(direction.y, 0.0) + CLOUDS_BENT, far = CLOUDS_AT / CLOUDS_SIDE / near;
-    float texel = BILLOWS_SIDE / (BILLOWS_TEXELS * CLOUDS_AT) * near * pixels_a_metre();  // how wide it is seen [pixels]
+    float texel = BILLOWS_SIDE / (BILLOWS_TEXELS * CLOUDS_AT) * near * pixels_per_metre();  // how wide it is seen [pixels]
     vec2 each = min(CLOUD_STEP * far, CLOUD_FARTHEST) * direction.xz;
     float longer = length(vec3(each * CLOUDS_SIDE / CLOUD_RISE, 1.0));
-    return Way(clouds_over(eye.xz) + far * direction.xz, each, max(-log2(texel), 0.0), longer);
+    return Way(clouds_uv_over(eye.xz) + far * direction.xz, each, max(-log2(texel), 0.0), longer);
 }
 
 struct Place {

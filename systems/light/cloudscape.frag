@@ -31,7 +31,7 @@ void go_on(Place place, float before, float way, inout Met met) {
         return;
     float mean = 0.5 * sum * sum / (abs(before) + abs(place.deep));  // of what is within: less than half the sum where an edge is crossed
     float under = max(place.map.x - cloud_edge - CLOUD_ROUND * place.along * place.along, 0.0);
-    float through = met.through * comes_through(CLOUD_THICK * way * mean), stopped = met.through - through;
+    float through = met.through * transmittance(CLOUD_THICK * way * mean), stopped = met.through - through;
     met.lit += stopped * sunny_at(place, under);
     met.shaded += stopped * (CLOUD_PALE + CLOUD_HIGHER * place.along - CLOUD_DARK * under + CLOUD_HEAPED * place.heap);
     met.through = through;

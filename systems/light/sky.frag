@@ -31,5 +31,5 @@ void main() {
     }
     seen += sunlight * sunny;
     float grit = fract(GRIT.z * fract(dot(gl_FragCoord.xy, GRIT.xy))) - 0.5;
-    pixel = vec4(shown_of(seen) + (writes_raw > 0.5 ? 0.0 : grit / GREYS), 1.0);
+    pixel = vec4(tone_mapped(seen) + (writes_raw > 0.5 ? 0.0 : grit / GREYS), 1.0);
 }

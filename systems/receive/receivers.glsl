@@ -17,7 +17,7 @@ int number_here() {
 
 // What a receiver is told, and what it stands on.
 vec4 told_at(vec2 place, int kind, int number) {
-    float grows = grows_at(place, kind);
+    float grows = density_at(place, kind);
     vec2 message = combined_message(hear(place, kind, false, pool.x * RECEIVED_ROW + number), pressing(place, kind));
     return vec4(message, height_at(place), grows);
 }

@@ -17,7 +17,7 @@ struct Ahead {
 
 Ahead ahead_of(vec3 root, vec2 toward, float away) {
     vec2 place = root.xz + toward * away, on = (place - terrain_origin) / terrain_size;
-    Ahead ahead = Ahead(away, height_near(place) - root.y, areas(grows_at(place)));
+    Ahead ahead = Ahead(away, height_filtered(place) - root.y, leaf_areas(density_at(place)));
     bool counts = all(lessThan(abs(on - 0.5), vec2(0.5))) && away < distance(root.xz, eye.xz);
     for (int group = 0; group < GROUPS; group++)
         ahead.area[group] *= counts ? 1.0 : 0.0;

@@ -37,7 +37,7 @@ const float JUST_BEHIND = 4e-7;
 
 vec4 just_behind(vec4 at) {
 #ifdef SOFT
-    at.z += farther_by(JUST_BEHIND) * at.w;
+    at.z += depth_offset(JUST_BEHIND) * at.w;
 #endif
     return at;
 }

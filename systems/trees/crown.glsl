@@ -12,12 +12,12 @@ float cantilever(float high) {
 
 // Transmittance of the crown towards the sun, from optical depth linear in the direction to it in the tree's own axes.
 float through_crown(vec4 shading, vec3 to_sun, float foliage) {
-    return comes_through(foliage * max(dot(shading, vec4(to_sun, 1.0)), 0.0));
+    return transmittance(foliage * max(dot(shading, vec4(to_sun, 1.0)), 0.0));
 }
 
 // Transmittance of the crown towards the sky all round.
 float sky_through(vec4 shading, float foliage) {
-    return comes_through(SKY_MEETS_LESS * foliage * max(shading.w + SKY_FROM * shading.y, 0.0));
+    return transmittance(SKY_MEETS_LESS * foliage * max(shading.w + SKY_FROM * shading.y, 0.0));
 }
 
 // Radiance of the sky and of the light from below on a face; `up` is its normal's y, -1 to 1.

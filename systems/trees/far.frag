@@ -135,7 +135,7 @@ const float UNCLUMPED = 2.5;  // leaves behind the first of a clump that is seen
 // Share of a clump that is left where a tree has few leaves: of many behind one another, one is seen.
 float left_of(float clump, vec4 shading) {
     float meets_all = max(UNCLUMPED * sun_meets(shading, behind_meets), LEAST_PART);
-    float left = (1.0 - comes_through(foliage_of(meets) * meets_all)) / (1.0 - comes_through(meets_all));
+    float left = (1.0 - transmittance(foliage_of(meets) * meets_all)) / (1.0 - transmittance(meets_all));
     return clamp((1.0 + gives.z) * left - gives.z * clump, 0.0, 1.0);
 }
 
@@ -153,13 +153,13 @@ void main() {
     float leaves = texel.a - texel.g, stems = texel.g + BARE * gone * leaves, all = leaves * (1.0 - gone) + stems;
     float cover = 1.0 - pow(max(1.0 - all, 0.0), sunlit.a), wood = stems / max(all, LEAST_COVER);  // twigs that are still drawn cover the rest
     must_cover(cover);
-    float seen = comes_through(sun_meets(shading, meets)), open = comes_through(sky_meets(shading, meets));
+    float seen = transmittance(sun_meets(shading, meets)), open = transmittance(sky_meets(shading, meets));
     vec3 sky = sky_on(skylit.rgb, below, open, skylit.a * (1.0 - wood));
     Light light = Light((sunlit.rgb + wooden.rgb * wood) * seen, sky, hazy, 0.0, 0.0, vec2(0.0));
     float aged = aged_at(wooden.a * texel.b / max(texel.g, LEAST_COVER));
     float tone = texel.r * whole, plain = PLAINER * max(told.w - PLAIN_FROM, 0.0);
     float worn = mix(1.0, 2.0 * tone, wood / (1.0 + plain));  // of bark too: 0.5 is the mean
     vec3 pigment = pigment_of(tone, wood, soiled_at(on.z * grasses) * worn * mix(young_bark, old_bark, aged));
-    pixel = drawn(shade(Surface(pigment, 1.0, AMONG_LEAVES), light), cover);
+    pixel = drawn(shade(Surface(pigment, 1.0, LEAF_SCATTERING), light), cover);
 }
 #endif

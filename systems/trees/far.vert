@@ -68,7 +68,7 @@ vec2 corner_here(ivec4 pictures, float texels) {
 }
 #else
 float pixel_at(vec3 place) {
-    return (clip * vec4(place, 1.0)).w / pixels_a_metre();
+    return (clip * vec4(place, 1.0)).w / pixels_per_metre();
 }
 
 // Distance of a corner that encloses all these pictures.
@@ -139,7 +139,7 @@ void light_up(vec3 place, vec3 ray) {
     Light light = light_in_crown(vec3(place.x, max(place.y, root.y), place.z), vec4(0.0), 1.0);
     meets = meets_by(turned_back(sun), foliage);
     behind_meets = meets_by(turned_back(ray), 1.0);
-    below = lawn_sends * (1.0 - haze_at(place));
+    below = lawn_sends * (1.0 - haze_opacity(place));
     Seen seen = seen_of(mat3(turned(vec3(1.0, 0.0, 0.0)), vec3(0.0, 1.0, 0.0), turned(vec3(0.0, 0.0, 1.0))), ray, light, below);
     sunlit = vec4(light.sun * seen.sends, gone * shows);
     wooden = vec4(light.sun * wood_sends(ray) - sunlit.rgb, THICKEST * scale);

@@ -37,7 +37,7 @@ void tell_leaves(int number, vec3 along, vec3 aside, float turns, Light above, v
 const bool LEAF_BY_LEAF = false;
 
 vec3 shows(float tone, Light light) {
-    return shown_of(shade(Surface(pigment_of(tone, 0.0, 0.0), 1.0, AMONG_LEAVES), light));
+    return tone_mapped(shade(Surface(pigment_of(tone, 0.0, 0.0), 1.0, LEAF_SCATTERING), light));
 }
 
 void tell_card(vec3 along, vec3 aside, vec3 facing, vec4 chance, float picture, Light light, vec3 below) {

@@ -47,5 +47,5 @@ vec4 covered(vec3 shown, float cover) {
 }
 
 vec4 drawn(vec3 radiance, float cover) {
-    return covered(shown_of(radiance), cover);
+    return covered(tone_mapped(radiance), cover);
 }

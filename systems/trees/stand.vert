@@ -42,12 +42,12 @@ void main() {
     vec3 place = root + vec3(0.0, crown_at, 0.0);
     vec2 told = message_here();
     moved = vec4(told, trunk_sways(told));
-    veil = vec4(haze_light(place), haze_at(place));
-    ByKind area = areas(grows_at(root.xz));
+    veil = vec4(haze_radiance(place), haze_opacity(place));
+    ByKind area = leaf_areas(density_at(root.xz));
     float leaves = total(area), high = 0.0;
     for (int group = 0; group < GROUPS; group++)
         high += dot(area[group], crown[group]);
-    among = vec4(max(high / max(leaves, LEAST_PART), LOWEST_CROWN), leaves, sun_way(0, sun.y), sun_seen(place, lie_at(root.xz).past));
+    among = vec4(max(high / max(leaves, LEAST_PART), LOWEST_CROWN), leaves, sun_extinction(0, sun.y), sun_visibility(place, lie_at(root.xz).visibility));
     sent_up = from_below();
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 }

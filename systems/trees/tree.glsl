@@ -81,8 +81,8 @@ Light light_in_crown(vec3 place, vec4 shading, float up) {
 #else
     float seen = stands_in.w * through_crown(shading, turned_back(sun), foliage);
     if (seen > FAINTEST_SUN)
-        seen *= past_trees_beyond(place, OWN_CROWN * tall * scale);
-    Light light = light_at(place, Sender(FACE, vec2(0.0), vec3(0.0, 1.0, 0.0), 1.0), 1.0, seen);
+        seen *= trees_visibility_beyond(place, OWN_CROWN * tall * scale);
+    Light light = light_at(place, Reflector(FACE, vec2(0.0), vec3(0.0, 1.0, 0.0), 1.0), 1.0, seen);
     light.sky = sky_on(light.sky, lawn_sends, sky_through(shading, foliage), up);
     light.sun *= tint * (1.0 - misty.a);
     light.sky *= tint * (1.0 - misty.a);

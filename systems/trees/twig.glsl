@@ -56,7 +56,7 @@ vec3 face_of(Twig twig) {
 // Share of twigs at a place of its model that are drawn leaf by leaf, by the size of leaves.
 float leaf_by_leaf(vec3 own) {
     float off = max(distance(eye, root + scale * turned(own)), NEAREST_TWIG);
-    float pixels = scale * usual * leaf_shape.x * pixels_a_metre() / off;
+    float pixels = scale * usual * leaf_shape.x * pixels_per_metre() / off;
     return clamp((pixels - leaf_pixels.x) / (leaf_pixels.y - leaf_pixels.x), 0.0, 1.0);
 }
 

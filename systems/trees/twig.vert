@@ -141,7 +141,7 @@ void main() {
 #else
 // Half a pixel at a twig, of its length: narrower stems are drawn as wide, with less coverage.
 float half_pixel() {
-    return 0.5 * distance(eye, hung_at.xyz) / (pixels_a_metre() * hung_at.w);
+    return 0.5 * distance(eye, hung_at.xyz) / (pixels_per_metre() * hung_at.w);
 }
 
 void main() {
@@ -155,8 +155,8 @@ void main() {
     vec3 sky = mix(hung.below, hung.above, 0.5 - 0.5 * facing.y * sign(dot(facing, ray)));
     Light light = Light(hung.sun * leaf_sends(facing, ray), sky, hung.haze, 0.0, 0.0, vec2(0.0));
     covers = told.y > 0.5 ? told.z : -1.0;
-    shown = shown_of(shade(Surface(pigment_of(told.x, 0.0, 0.0), 1.0, AMONG_LEAVES), light));  // stems are green, as the darkest leaves
-    ribbed = shown_of(shade(Surface(pigment_of(RIBBED * told.x, 0.0, 0.0), 1.0, AMONG_LEAVES), light));
+    shown = tone_mapped(shade(Surface(pigment_of(told.x, 0.0, 0.0), 1.0, LEAF_SCATTERING), light));  // stems are green, as the darkest leaves
+    ribbed = tone_mapped(shade(Surface(pigment_of(RIBBED * told.x, 0.0, 0.0), 1.0, LEAF_SCATTERING), light));
     gl_Position = hung_at.w > 0.0 ? stood(hung_at.xyz + hung_at.w * own) : vec4(0.0, 0.0, 2.0, 1.0);
 }
 #endif

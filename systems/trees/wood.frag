@@ -108,7 +108,7 @@ void main() {
     must_cover(cover);
     vec3 out_to = facing - ray * (rounds * sqrt(max(1.0 - dot(facing, facing), 0.0)));
     float lit = max(dot(out_to, sun), 0.0) * inversesqrt(dot(out_to, out_to));
-    vec2 seen = comes_through(vec2(among_grass.y, OPEN_SKY) * leaves_above(stands, vec2(0.0, among_grass.x)));
+    vec2 seen = transmittance(vec2(among_grass.y, OPEN_SKY) * leaf_area_above(stands, vec2(0.0, among_grass.x)));
     pixel = drawn(worn * worn * (from_sun * (lit * seen.x) + from_sky * seen.y) + hazy, cover);
 #endif
 }

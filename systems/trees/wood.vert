@@ -69,7 +69,7 @@ void main() {
     vec3 middle_at = swayed(stem_at.xyz, pivot, own.z, own.w, message);
     facing = aside_of(middle_at);
     vec4 projected = clip * vec4(middle_at, 1.0);
-    float pixel_at = THINNEST * max(projected.w, AWAY) / pixels_a_metre(), half_width = scale * stem_at.w;
+    float pixel_at = THINNEST * max(projected.w, AWAY) / pixels_per_metre(), half_width = scale * stem_at.w;
     thick = min(half_width / pixel_at, 1.0);
     aged = aged_at(half_width);
     thick *= mix(1.0, smoothstep(THINS.x, THINS.y, thick), foliage) * (1.0 - smoothstep(0.0, 1.0, gone));

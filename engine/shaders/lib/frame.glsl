@@ -1,20 +1,20 @@
-// What every program knows of a frame, and of the kinds of grass.
+// The frame block and the kinds of grass, for every program.
 #include "systems/frame/block.py"
 #include "lib/kinds.glsl"
 #include "lib/least.glsl"
 
-// Pixels up the picture that a metre takes a metre off.
-float pixels_a_metre() {
+// Height in the picture of one metre seen from one metre away [pixels].
+float pixels_per_metre() {
     return half_screen.y * length(vec3(clip[0].y, clip[1].y, clip[2].y));
 }
 
-// How much is to be added to depth in clip space, of that of the usual one, to lie so much farther off.
-float farther_by(float depth) {
+// Offset in clip-space z, before the division, that moves something back by `depth`, given in the usual range of -1 to 1.
+float depth_offset(float depth) {
     return 0.5 * (depth_ends.y - depth_ends.x) * depth;
 }
 
-// The depth of a place in clip space, as a framebuffer has it.
-float depth_of(vec4 at) {
+// The window depth of a place in clip space.
+float window_depth(vec4 at) {
     float from = min(depth_ends.x, depth_ends.y);
     return gl_DepthRange.near + gl_DepthRange.diff * (at.z / at.w - from) / abs(depth_ends.y - depth_ends.x);
 }

@@ -1,11 +1,11 @@
-// The haze before a place.
+// Haze between the eye and a place.
 #include "lib/frame.glsl"
 #include "lib/through.glsl"
 #include "engine/terrain/record.py"
 #include "systems/light/sky.py"
 
-// Radiance of the haze that lies before a place.
-vec3 haze_light(vec3 place) {
+// Radiance of haze in the direction of a place, as if it hid all behind it.
+vec3 haze_radiance(vec3 place) {
     vec2 ray = place.xz - eye.xz;
     if (haze_given[0].w > 0.0) {  // the game's own
         vec2 to = ray * inversesqrt(dot(ray, ray) + LEAST_LENGTH);
@@ -17,19 +17,20 @@ vec3 haze_light(vec3 place) {
 }
 
 #ifdef MIRRORED
-const float FADES_FROM = 0.5;  // part of the way that ground goes on beyond the terrain from which on it fades: its end is no edge
+const float FADES_FROM = 0.5;  // ground beyond the terrain fades from this part of its width on, so that it has no visible edge
 
-// How much of the ground at a place shows that goes on beyond the terrain.
-float goes_on(vec2 place) {
+// Opacity of the ground beyond the terrain: 1 on the terrain, 0 where it ends.
+float beyond_fade(vec2 place) {
     vec2 off = max(abs(place - terrain_origin - 0.5 * terrain_size) - 0.5 * terrain_size, 0.0);
     return 1.0 - smoothstep(FADES_FROM * GOES_ON, GOES_ON, length(off));
 }
 #endif
 
-float haze_at(vec3 place) {
-    float clear = comes_through(distance(place, eye) * haze_density);
+// Opacity of the haze before a place.
+float haze_opacity(vec3 place) {
+    float clear = transmittance(distance(place, eye) * haze_density);
 #ifdef MIRRORED
-    clear *= goes_on(place.xz);
+    clear *= beyond_fade(place.xz);
 #endif
     return 1.0 - clear;
 }

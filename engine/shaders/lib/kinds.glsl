@@ -1,11 +1,11 @@
-// Kinds of grass: figures that each has stand in vectors, four kinds in each.
+// Values by kind of grass, in vectors of four kinds.
 #include "engine/declared/grass.py"
 
 #ifndef KINDS
-#define KINDS MOST_KINDS  // who is told nothing has room for as many as there can be
+#define KINDS MOST_KINDS  // programs that are not told have room for all
 #endif
 #define GROUPS ((KINDS + 3) / 4)
-#define FORMS (2 * KINDS)  // what each kind has grown to, and then what each is to become, if anything
+#define FORMS (2 * KINDS)  // each kind as it has grown, and then as it is changing into, if it is
 #define ByKind vec4[GROUPS]
 #if KINDS > 4
 #define GROUP(kind) ((kind) >> 2)
@@ -30,25 +30,25 @@ float total(ByKind figures) {
     return sum;
 }
 
-// The sum of products, kind by kind.
-float weighed(ByKind figures, ByKind weights) {
+// Dot product over kinds.
+float weighted_sum(ByKind figures, ByKind weights) {
     float sum = 0.0;
     for (int group = 0; group < GROUPS; group++)
         sum += dot(figures[group], weights[group]);
     return sum;
 }
 
-// The figure of a kind that is known only while a pixel is drawn, of figures that it has made out itself: it goes through all, as
-// compilers do not agree on how to find one.
-float figure_of(ByKind figures, int kind) {
+// The value of a kind whose index is not uniform, from values computed in the shader. It loops over all kinds, as compilers differ on
+// dynamic indexing.
+float figure_at(ByKind figures, int kind) {
     float found = 0.0;
     for (int other = 0; other < KINDS; other++)
         found = other == kind ? OF(figures, other) : found;
     return found;
 }
 
-// The first kind from `kind` on whose figure is above `least`, KINDS if there is none: of many kinds, few are at one place. It goes
-// through all as well: where it went on from one to the next until one was found, an NVIDIA H100 drew none where the first was not met.
+// The first kind from `kind` on whose value is above `least`, or KINDS. It loops over all kinds, too: a loop that ended at the first
+// match drew nothing on an NVIDIA H100 wherever kind 0 was absent.
 int next_kind(ByKind figures, float least, int kind) {
     int found = KINDS;
     for (int other = 0; other < KINDS; other++)

@@ -1,17 +1,16 @@
-// Lamps: which shine on a place of the ground, and how brightly.
+// Lamps: those that shine on a place of the ground, and their light there.
 #include "lib/listed.glsl"
 
-const float DARKEST = 1e-9;  // radiance that divides another at least
-const float NEAREST_LAMP = 0.1;  // distance from a lamp that counts at least [m]
+const float DARKEST = 1e-9;  // least radiance that anything is divided by
+const float NEAREST_LAMP = 0.1;  // least distance from a lamp [m]
 
-// What a light sends to a place.
-struct Shine {
-    vec3 light;  // radiance of a white leaf that faces all ways
-    vec3 from;   // the direction that it comes from
+// The light of a lamp at a place.
+struct Incoming {
+    vec3 radiance;   // of a white leaf that faces all ways
+    vec3 direction;  // towards the lamp
 };
 
-// Whether anything shines beside sun and sky: else nobody need look. Programs that are made for nothing such are told so by
-// LAMPLESS.
+// Whether any lamp shines. Programs for scenes without lamps are compiled with LAMPLESS.
 bool any_lamps() {
 #ifdef LAMPLESS
     return false;
@@ -24,19 +23,19 @@ float brightness(vec3 light) {
     return dot(light, vec3(1.0));
 }
 
-// The numbers in the lists from which and to which lamps are listed that may shine on a place.
-ivec2 lamps_about(vec2 place) {
-    return listed_about(lamps_grid, 0, place);
+// The range in the lists, first and end, of the lamps that may shine on a place.
+ivec2 lamps_range(vec2 place) {
+    return listed_range(lamps_grid, 0, place);
 }
 
-// What the lamp of a number in the lists sends to a place: by the inverse square of the distance, as far as it reaches (Karis,
+// The light at a place of the lamp with an index in the lists: by the inverse square of the distance, windowed to its reach (Karis,
 // Real Shading in Unreal Engine 4, 2013), and within its cone.
-Shine lamp_at(int number, vec3 place) {
-    mat3x4 told = listed_at(0, number);
-    vec4 stands = told[0], shines = told[1], aims = told[2];
-    vec3 way = stands.xyz - place;
-    float far = dot(way, way), part = far * stands.w, window = max(1.0 - part * part, 0.0);
-    vec3 from = way * inversesqrt(max(far, LEAST_SQUARE));
-    float within = clamp(aims.w - shines.w * dot(aims.xyz, from), 0.0, 1.0);
-    return Shine(shines.rgb * (window * window * within * within / max(far, NEAREST_LAMP * NEAREST_LAMP)), from);
+Incoming lamp_at(int index, vec3 place) {
+    mat3x4 lamp = listed_at(0, index);
+    vec4 position = lamp[0], intensity = lamp[1], cone = lamp[2];
+    vec3 to_lamp = position.xyz - place;
+    float square = dot(to_lamp, to_lamp), part = square * position.w, window = max(1.0 - part * part, 0.0);
+    vec3 direction = to_lamp * inversesqrt(max(square, LEAST_SQUARE));
+    float inside = clamp(cone.w - intensity.w * dot(cone.xyz, direction), 0.0, 1.0);
+    return Incoming(intensity.rgb * (window * window * inside * inside / max(square, NEAREST_LAMP * NEAREST_LAMP)), direction);
 }

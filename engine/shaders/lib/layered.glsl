@@ -1,9 +1,9 @@
-// Layers of a texture. With STACK, so many of them lie in one, on top of each other, as there are not enough; with
-// REPEATED, each goes on beyond its edges where it began.
+// Layers of an array texture. With STACK, each of its layers holds that many of ours, one above the other, where GL has too few. With
+// REPEATED, ours wrap round vertically.
 #ifdef STACK
 vec4 layer_at(sampler2DArray from, vec3 at, float level) {
     float rows = float(textureSize(from, 0).y) / float(STACK);
-    float edge = 0.5 * exp2(clamp(floor(level + 0.5), 0.0, log2(rows))) / rows; // half a texel: those beyond are another layer's
+    float edge = 0.5 * exp2(clamp(floor(level + 0.5), 0.0, log2(rows))) / rows; // half a texel: beyond it is another layer
 #ifdef REPEATED
     at.y = fract(at.y);
 #endif

@@ -1,5 +1,4 @@
-// All about light: how a place lies to it, what shades it, surfaces and what they send to the eye, haze, and what is shown.
-// Light is linear radiance.
+// Everything about light: normals, shadows, surfaces, haze and tone mapping. Light is linear radiance.
 #include "lib/surface.glsl"
 #include "lib/soil.glsl"
 #include "lib/tone.glsl"

@@ -1,7 +1,7 @@
-// Up to which height grass is left to stand where it has been cut.
+// Cut grass: the height that it is left at.
 #include "lib/sown.glsl"
 
-// Whether anything has been, anywhere: else nobody need look. Programs that are made for either case are told by CUT.
+// Whether any grass has been cut. Programs compiled for one case have CUT as 0 or 1.
 bool anything_is_cut() {
 #ifdef CUT
     return CUT > 0;
@@ -10,25 +10,25 @@ bool anything_is_cut() {
 #endif
 }
 
-// Beyond the terrain nobody mows.
+// Whether a place is on the terrain: grass beyond is never cut.
 bool can_be_mown(vec2 place) {
     vec2 beside = abs(place - terrain_origin - 0.5 * terrain_size) - 0.5 * terrain_size;
     return max(beside.x, beside.y) < 0.0;
 }
 
-// The mean over squares of `side` [m].
-float left_about(vec2 place, float side) {
+// Mean height that grass is left at over squares of `side` [m].
+float cut_height_about(vec2 place, float side) {
     Plot plot = plot_at(place);
     if (plot.mown == 0 || !can_be_mown(place))
         return tallest_grass;
-    return tallest_grass * number_in(on_page(plot.mown, plot.cell, page_level(side)).rg) / TWO_BYTES;
+    return tallest_grass * packed_number(page_texel(plot.mown, plot.cell, page_mip(side)).rg) / TWO_BYTES;
 }
 
-float left_at(vec2 place) {
-    return left_about(place, 0.0);
+float cut_height_at(vec2 place) {
+    return cut_height_about(place, 0.0);
 }
 
-// Whether that is lower than the canopy of the tallest kind.
+// Whether a height is below the canopy of the tallest kind.
 bool is_mown(float left) {
     float tallest = 0.0;
     for (int group = 0; group < GROUPS; group++)
@@ -36,8 +36,8 @@ bool is_mown(float left) {
     return left < tallest;
 }
 
-// How much of each kind's leaf area is left below a height [m].
-ByKind leaves_left(float top) {
+// Part of each kind's leaf area below a height [m].
+ByKind leaf_area_left(float top) {
     ByKind left;
     for (int group = 0; group < GROUPS; group++) {
         vec4 gone = max(1.0 - top / max(crown[group], LOWEST_CROWN), 0.0);

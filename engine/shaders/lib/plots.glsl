@@ -1,26 +1,25 @@
-// What a game has changed of where grass grows and how high it is left: maps in cells of 0.2 m, of which only those plots of the
-// ground are there that were changed.
+// Maps of what a game has sown and cut, in cells of 0.2 m. Only plots of the ground that were changed have pages.
 #include "lib/frame.glsl"
 #include "engine/terrain/plots.py"
 
-uniform sampler2D plots;  // first, plot by plot, two numbers of pages, of what is mown and of what is sown; then the pages
+uniform sampler2D plots;  // first the page table: two page numbers a plot, for mowing and sowing; then the pages
 
 struct Plot {
-    vec2 cell;  // where a place is on it [cells]
-    int mown;   // its page of what is left; 0 where nothing is cut
-    int sown;   // its first page of densities, four kinds on each; 0 where they are as painted
+    vec2 cell;  // the place on it [cells]
+    int mown;   // page of the heights that grass is left at; 0 where nothing is cut
+    int sown;   // first page of densities, four kinds on each; 0 where they are as painted
 };
 
 const float BYTE = 255.0;
-const float TWO_BYTES = BYTE * (BYTE + 2.0);  // the largest number in them
+const float TWO_BYTES = BYTE * (BYTE + 2.0);  // the largest number in two bytes
 
-// The number that two channels hold together, the upper byte first.
-float number_in(vec2 bytes) {
+// The number in two channels, the upper byte first.
+float packed_number(vec2 bytes) {
     return BYTE * dot(bytes, vec2(BYTE + 1.0, 1.0));
 }
 
 int page_number(vec2 bytes) {
-    return int(number_in(bytes) + 0.5);
+    return int(packed_number(bytes) + 0.5);
 }
 
 Plot plot_at(vec2 place) {
@@ -32,15 +31,15 @@ Plot plot_at(vec2 place) {
     return Plot(float(PLOT_CELLS) * (at - corner), page_number(pages.xy), page_number(pages.zw));
 }
 
-const float BETWEEN_CELLS = 256.0;  // steps from one cell to the next: places are read alike wherever their page lies
+const float BETWEEN_CELLS = 256.0;  // steps from cell to cell that places are rounded to, so that filtering is the same on all pages
 
-// The level of a page whose texels are as long as `side` [m].
-float page_level(float side) {
+// The mip level of a page whose texels have such a side [m].
+float page_mip(float side) {
     return log2(clamp(side * (float(PLOT_CELLS) / PLOT_SIDE), 1.0, float(PLOT_CELLS)));
 }
 
-// What a page has at a place on its plot: a plot's outermost cells go on to its edge.
-vec4 on_page(int page, vec2 cell, float level) {
+// A page's value at a place on its plot, clamped to the plot's outermost cells.
+vec4 page_texel(int page, vec2 cell, float level) {
     ivec2 size = textureSize(plots, 0);
     int row = size.x / PLOT_CELLS;
     float edge = 0.5 * exp2(ceil(level));

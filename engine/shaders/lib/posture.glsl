@@ -4,16 +4,16 @@
 uniform sampler2DArray postures;
 
 struct Spine {
-    vec3 place;    // of the point, from the root
+    vec3 place;    // from the root
     vec3 tangent;  // towards the tip
 };
 
-// The form of a kind whose postures a row of them is.
+// The form of a kind that a row of postures belongs to.
 int form_of(float variant) {
     return int((variant + 0.5) / posture_variants);
 }
 
-// How a message bends grass of a kind, as a vector along it that is as long as the posture index.
+// The bending vector of a kind for a message: along the message, as long as the posture index.
 vec2 bending(int kind, vec2 message) {
     int lengths = give.length() / 4;
     float size = length(message), at = min(size, 1.0) * float(lengths - 1);

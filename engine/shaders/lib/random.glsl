@@ -15,8 +15,8 @@ uint stream(uint hashed, int number) {
     return scramble(hashed ^ scramble(uint(number)));
 }
 
-// A number that a place on the ground has.
-int number_at(vec2 place) {
+// A number for hashing a place on the ground.
+int place_number(vec2 place) {
     return floatBitsToInt(place.x) * 3 + floatBitsToInt(place.y);
 }
 

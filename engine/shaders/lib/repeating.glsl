@@ -1,4 +1,4 @@
-// Squares that repeat over the land: the clouds', and what lies on the ground.
+// A texture that repeats over the land: the clouds' map and the litter's pattern.
 #include "systems/light/repeating.py"
 
-uniform sampler2D repeating;  // how dense clouds are; root of how bright the ground is, and where low leaves cover it
+uniform sampler2D repeating;  // density of clouds; root of the ground's brightness, and coverage by low leaves

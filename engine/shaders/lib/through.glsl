@@ -1,17 +1,17 @@
-// What comes through so much of a medium, leaves or air: its pieces hide one another by chance (Beer, 1852; of leaves, Monsi and
-// Saeki, 1953). It stands here alone.
-float comes_through(float depth) {
+// Transmittance of a medium, leaves or air, by its optical depth (Beer, 1852; for leaves, Monsi and Saeki, 1953). All shaders
+// use this one.
+float transmittance(float depth) {
     return exp(-depth);
 }
 
-vec2 comes_through(vec2 depth) {
+vec2 transmittance(vec2 depth) {
     return exp(-depth);
 }
 
-vec3 comes_through(vec3 depth) {
+vec3 transmittance(vec3 depth) {
     return exp(-depth);
 }
 
-vec4 comes_through(vec4 depth) {
+vec4 transmittance(vec4 depth) {
     return exp(-depth);
 }

@@ -1,9 +1,9 @@
-// What the door shows of radiance.
+// Tone mapping: from linear radiance to display colours.
 #include "lib/frame.glsl"
 #include "systems/light/color.py"
 
-// What the door shows of radiance, with a toe in the shadows and a shoulder up to white; or the radiance itself.
-vec3 shown_of(vec3 light) {
+// The display colour of radiance, by a curve with a toe and a shoulder; or the radiance itself, where the game asks for that.
+vec3 tone_mapped(vec3 light) {
     light = max(light, 0.0);
     if (writes_raw > 0.5)
         return light;

@@ -1,5 +1,5 @@
-// What trees leave of the light: of the sun's along its rays, and of the sky's from above. Programs of scenes without trees know
-// nothing of them: those of others are told TREES.
+// Shadows of trees: transmittance of their crowns for sunlight and for the sky's light. Programs for scenes with trees are compiled
+// with TREES.
 #include "lib/through.glsl"
 #ifdef TREES
 #include "lib/frame.glsl"
@@ -7,40 +7,40 @@
 #include "systems/trees/crown.py"
 #include "systems/trees/shade.py"
 
-// Side by side, near by and far off: how many leaves a ray meets, and that times how far on it is towards the sun [m]. Seen from
-// above: how many leaves the sky's light meets, in the mean over all the sky that grass sees.
+// Three maps side by side. Two look along the sun's rays, for trees near by and far off: the optical depth, and that times its mean
+// distance towards the sun [m]. One looks down: the optical depth of crowns, averaged over the sky that grass sees.
 uniform sampler2D tree_shade;
 
-const vec2 TILE_SPAN = vec2(0.001, 0.999);  // part of a map that is read, across: beside it, taps would reach another map
-const vec2 STANDS_BEFORE = vec2(-0.5, 2.0);  // how much farther towards the sun leaves begin to shade a place, and all do [m]
-const float MAP_RIM = 0.46;  // how far from the middle a map counts, of its side
-const float RIM_FADES = 0.06;  // and over which part of it the farther one is faded out
+const vec2 TILE_SPAN = vec2(0.001, 0.999);  // part of a map that is read, across: taps outside would reach the next map
+const vec2 STANDS_BEFORE = vec2(-0.5, 2.0);  // mean distance of leaves towards the sun from which on they begin to shade, and fully do [m]
+const float MAP_RIM = 0.46;  // distance from the middle up to which a map is used, as a part of its side
+const float RIM_FADES = 0.06;  // part of its side over which the far map fades out
 
-const vec2 SWINGS_APART = vec2(0.11, 0.07);  // how many turns trees are apart in their swing on a metre of ground
+const vec2 SWINGS_APART = vec2(0.11, 0.07);  // change of the phase of trees' swing along x and z [turns/m]
 
-// How far the wind has blown the leaves aside that shade a place (x, z) [m]: the map has them as they are in calm air.
-vec2 shade_sways(vec3 place) {
+// Offset by the wind of the leaves that shade a place (x, z) [m]; the maps are drawn for calm air.
+vec2 shade_sway(vec3 place) {
     vec2 waves = sin(A_TURN * (trees_tones + dot(place.xz, SWINGS_APART) * SHADE_TONES_APART));
     return trees_aside * (SHADE_LEANS + 0.5 * SHADE_SWINGS * (waves.x + waves.y));
 }
 
-vec2 on_maps(vec2 at, float map) {
+vec2 on_tile(vec2 at, float map) {
     return vec2((clamp(at.x, TILE_SPAN.x, TILE_SPAN.y) + map) * (1.0 / SHADE_MAPS), at.y);
 }
 
 vec2 shade_in(vec2 at, float map) {
-    return textureLod(tree_shade, on_maps(at, map), 0.0).rg;
+    return textureLod(tree_shade, on_tile(at, map), 0.0).rg;
 }
 
-// Where a place lies on the plane of the maps of the sun [m]; they go across level.
-vec2 across_sun(vec3 place) {
+// A place projected along the sun's rays onto the plane of its maps [m]; their x axis is level.
+vec2 on_sun_plane(vec3 place) {
     return vec2(dot(place.xz, trees_across.xz), dot(place, trees_up));
 }
 
-// Where the maps tell of the sun's ray past a place (x, y), and how far along it the place is [m]. In `counts` is how much that does;
-// it is told of a place, for it and all near by, and so is which of the maps tells of them. Beyond both, nothing counts.
-vec3 on_ray(vec3 place, vec3 about, out float counts) {
-    vec2 sways = across_sun(vec3(shade_sways(about), 0.0).xzy), calm = across_sun(place) - sways, middle = across_sun(about) - sways;
+// Texture coordinates of a place on the sun's maps, and its distance towards the sun as z [m]. `about` chooses the map, for a whole
+// neighbourhood. `counts` is the weight of what is read there, 0 beyond both maps.
+vec3 on_sun_map(vec3 place, vec3 about, out float counts) {
+    vec2 sways = on_sun_plane(vec3(shade_sway(about), 0.0).xzy), calm = on_sun_plane(place) - sways, middle = on_sun_plane(about) - sways;
     vec2 near_out = abs(middle - trees_middle.xy), far_out = abs(middle - trees_middle.zw);
     counts = 1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, max(far_out.x, far_out.y) * trees_spans.y);
     bool near = max(near_out.x, near_out.y) * trees_spans.x < MAP_RIM;
@@ -48,45 +48,45 @@ vec3 on_ray(vec3 place, vec3 about, out float counts) {
     return vec3((at.x + 0.5 + (near ? 0.0 : 1.0)) * (1.0 / SHADE_MAPS), at.y + 0.5, dot(place, sun));
 }
 
-// How much of the sun is seen past trees that stand before a place that `on_ray` gave.
-float past_trees(vec3 ray, float counts) {
+// Visibility of the sun behind the trees in front of a place of `on_sun_map`.
+float trees_visibility(vec3 ray, float counts) {
     vec2 met = textureLod(tree_shade, ray.xy, 0.0).rg;
     float mean = met.y / max(met.x, LEAST_PART);
-    return comes_through(met.x * counts * smoothstep(STANDS_BEFORE.x, STANDS_BEFORE.y, mean - ray.z));
+    return transmittance(met.x * counts * smoothstep(STANDS_BEFORE.x, STANDS_BEFORE.y, mean - ray.z));
 }
 
-// How much of what is met past such a place stands before it. Where nothing is, all that is met near by is taken to.
-float stands_before(vec3 ray) {
+// Part of the optical depth on such a ray that is in front of the place; 1 where there is none on the map.
+float part_before(vec3 ray) {
     vec2 met = textureLod(tree_shade, ray.xy, 0.0).rg;
     return met.x > LEAST_PART ? smoothstep(STANDS_BEFORE.x, STANDS_BEFORE.y, met.y / met.x - ray.z) : 1.0;
 }
 
-// How much of the sun is seen past trees from there, if so much of what they tell counts and stands before it.
-float past_trees_before(vec2 at, float counts) {
-    return comes_through(textureLod(tree_shade, at, 0.0).r * counts);
+// Visibility of the sun behind trees, if the part `counts` of their optical depth there is in front.
+float trees_visibility_before(vec2 at, float counts) {
+    return transmittance(textureLod(tree_shade, at, 0.0).r * counts);
 }
 
-// How much of the sun is seen past trees, but for a crown that the place is in and that goes on so far towards it [m].
-float past_trees_beyond(vec3 place, float beyond) {
+// Visibility of the sun behind trees other than the one the place is in, whose crown goes on for `beyond` towards the sun [m].
+float trees_visibility_beyond(vec3 place, float beyond) {
     float counts;
-    vec3 ray = on_ray(place, place, counts);
-    return past_trees(vec3(ray.xy, ray.z + beyond), counts);
+    vec3 ray = on_sun_map(place, place, counts);
+    return trees_visibility(vec3(ray.xy, ray.z + beyond), counts);
 }
 
-// How many leaves are met above a place of the ground, over all the sky that is seen from it.
-float trees_above(vec2 place) {
+// Optical depth of crowns above a place of the ground, averaged over the sky.
+float tree_depth_above(vec2 place) {
     vec2 at = (place - trees_sky.xy) * trees_sky.z;
     float out_by = max(abs(at.x), abs(at.y));
     return out_by < MAP_RIM ? shade_in(0.5 + at, 2.0).y * (1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, out_by)) : 0.0;
 }
 
-// How much of the sky is left above a place.
-float sky_past_trees(vec3 place) {
-    return comes_through(trees_above(place.xz));
+// Transmittance of crowns above a place for the sky's light.
+float sky_visibility(vec3 place) {
+    return transmittance(tree_depth_above(place.xz));
 }
 
-// How much grass grows there, of that in the open.
+// Density of grass under trees, as a part of that in the open.
 float grass_below_trees(vec2 place) {
-    return mix(1.0, comes_through(trees_above(place)), 1.0 - SHADE_KEEPS);
+    return mix(1.0, transmittance(tree_depth_above(place)), 1.0 - SHADE_KEEPS);
 }
 #endif

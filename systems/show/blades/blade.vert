@@ -129,8 +129,8 @@ float cut_at(Blade blade, float top) {
 // Its pigments, and how they change to its sides.
 vec3 dye(Blade blade, vec2 across, bool has_section, bool is_round, vec2 slow) {
     int k = int(blade.kind);
-    vec2 twice = doubled(blade.facing), grade = tones_of(int(blade.organ));
-    vec3 grain = grain_at(k, twice), dry = stretch(slow) * grain;
+    vec2 twice = doubled_angle(blade.facing), grade = tones_of(int(blade.organ));
+    vec3 grain = azimuth_tint(k, twice), dry = dryness_tint(slow) * grain;
     vec2 eyed = vec2(0.0);
 #ifdef EYED
     eyed = vec2(eyed_at(int(blade.organ), 0.0), eyed_at(int(blade.organ), 1.0));
@@ -138,7 +138,7 @@ vec3 dye(Blade blade, vec2 across, bool has_section, bool is_round, vec2 slow) {
     low = vec4(pigment_at(k, grade.x, eyed.x) * dry, blade.variant);
     high = vec4(pigment_at(k, grade.y, eyed.y) * dry, 0.0);
     if (has_section) {
-        vec2 round_to = doubled(toward_sun);
+        vec2 round_to = doubled_angle(toward_sun);
         float fold = twice.x * round_to.y - twice.y * round_to.x;
         return vec3(kinds[k].apart * (is_round ? dot(across, toward_sun) : fold));
     }
@@ -152,7 +152,7 @@ void paint(Standing patch_of_it, int blade, int k, int form) {
     int along = int(patch_of_it.along), own = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;
     int row = (model * 2 + own) * each + blade, slice = ring * models * 2 * each + row;
     int plane = int(texelFetch(slices, ivec2(slice % SLICES_ROW, slice / SLICES_ROW), 0).r);
-    int strip = k * count + stacked(plane, count, own, along, turn);
+    int strip = k * count + stack_place(plane, count, own, along, turn);
     vec2 first = edge_foot(patch_of_it.cell, turn, own, plane, count, 0, columns, sizes[form].x);
     vec2 second = edge_foot(patch_of_it.cell, turn, own, plane, count, 1, columns, sizes[form].x);
     float receiver = patch_of_it.edges + float(strip * (columns + 1));
@@ -187,24 +187,24 @@ void main() {
     lie_of = vec4(bent(blown * give_of(int(blade.organ)), blade.rest), 0.5 * blade.width * across);
 
     Lie lies = lie_at(blade.root.xz);
-    ByKind grows = grows_at(blade.root.xz);
-    Light light = light_on(k, blown, blade.root, lies, grows);
+    ByKind grows = density_at(blade.root.xz);
+    Light light = leaf_light(k, blown, blade.root, lies, grows);
     if (any_lamps()) {
         float suns;
-        light = add_lamps(light, blade.root, Sender(k, blown, lies.normal, 1.0), suns);
+        light = add_lamps(light, blade.root, Reflector(k, blown, lies.normal, 1.0), suns);
         joints.z += ALL_LAMPS * (1.0 - suns);
     }
-    light = veiled(light, blade.root);
+    light = hazed(light, blade.root);
     vec3 tilt = dye(blade, across, has_section, is_round, lies.slow);
     float canopy_height = OF(crown, k) * lodged(blown);
     stands.xyz = vec3(up.y / canopy_height, blade.height / canopy_height, blade.organ);
     if (anything_is_cut()) {
-        float top = left_at(blade.root.xz);
-        light = mown_to(top, light, k, areas(grows));
+        float top = cut_height_at(blade.root.xz);
+        light = light_when_cut(top, light, k, leaf_areas(grows));
         top -= on_stem(blade, stem_of(blade)).y;
         stands.z += min(1.0 - cut_at(blade, top / blade.height), MOST_CUT);
     }
-    lit = bundled(light, tilt);
+    lit = pack_light(light, tilt);
 #if defined(ORGANS) && defined(STORED)
     if (is_at_tip(int(blade.organ)))
         stands.w *= uncovered(kinds[k].head, foot.xyz - eye);

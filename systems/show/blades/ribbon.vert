@@ -139,7 +139,7 @@ vec4 widened(Point point, float t, float to) {
     }
     vec3 along = point.tangent;
 #ifdef ORGANS
-    bool is_small = is_at_tip(int(stands.z)) && foot.w * pixels_a_metre() < SMALL * middle.w;
+    bool is_small = is_at_tip(int(stands.z)) && foot.w * pixels_per_metre() < SMALL * middle.w;
     if (is_small)
         along = posture(low.w, lie_of.xy, 1.0).place * foot.w;
 #endif
@@ -191,21 +191,21 @@ float eyed_seen(Point point, float t) {
 // The radiance of a blade of kind `k` with this face normal, where it is painted: its tone is `t`, and so much of it is its eye's.
 vec3 painted_light(int k, float t, float eyed, vec2 face, Painted target) {
     Lie lies = lie_at(target.middle.xz);
-    ByKind grows = grows_at(target.middle.xz);
-    float deep = less_deep(target.run.xz, target.middle, stacks[int(joints.w)].z, grows, OF(crown, k) * lodged(target.bend));
-    vec3 pigment = pigment_at(k, mix(1.0, t, deep), eyed) * stretch(lies.slow) * grain_at(k, doubled(face));
-    pigment *= faced(k, normalize(target.run.xz), target.middle, target.top);
-    Light light = light_on(k, target.bend, target.middle, lies, grows);
-    if (any_casters())
-        light = shaded(light, past_casters(target.place), 1.0);
+    ByKind grows = density_at(target.middle.xz);
+    float deep = depth_correction(target.run.xz, target.middle, stacks[int(joints.w)].z, grows, OF(crown, k) * lodged(target.bend));
+    vec3 pigment = pigment_at(k, mix(1.0, t, deep), eyed) * dryness_tint(lies.slow) * azimuth_tint(k, doubled_angle(face));
+    pigment *= facing_tint(k, normalize(target.run.xz), target.middle, target.top);
+    Light light = leaf_light(k, target.bend, target.middle, lies, grows);
+    if (has_casters())
+        light = shadowed(light, casters_visibility(target.place), 1.0);
     if (any_lamps()) {
         float suns;
-        light = add_lamps(light, target.middle, Sender(k, target.bend, lies.normal, 1.0), suns);
+        light = add_lamps(light, target.middle, Reflector(k, target.bend, lies.normal, 1.0), suns);
     }
-    light = veiled(light, target.middle);
+    light = hazed(light, target.middle);
     if (anything_is_cut())
-        light = mown_to(left_at(target.place.xz), light, k, areas(grows));
-    return shade(leaf_at(pigment, mix(1.0, target.h, deep)), light);
+        light = light_when_cut(cut_height_at(target.place.xz), light, k, leaf_areas(grows));
+    return shade(leaf_surface(pigment, mix(1.0, target.h, deep)), light);
 }
 
 // Bring a point at part `t` of a blade nearer to where it is painted, and its light to what it is there.
@@ -217,9 +217,9 @@ void bring(inout Point point, inout vec3 light, float t, int k) {
         wide = sign(wide) * length(point.across);
     point.place = mix(point.place, target.place, painted.w);
     point.tangent = mix(point.tangent, target.tangent, painted.w);
-    float boost = boosted(k, run, target.middle, target.top, target.back);
+    float boost = coverage_factor(k, run, target.middle, target.top, target.back);
     if (OF(bears, k) > 0.5)
-        boost = mix(boost, heads_boosted(k, run, target.middle, target.top, target.back), of_heads(mix(tones.x, tones.y, t)));
+        boost = mix(boost, head_coverage_factor(k, run, target.middle, target.top, target.back), head_part(mix(tones.x, tones.y, t)));
     point.across = mix(point.across, run * wide * boost, painted.w);
     float eyed = 0.0;
 #ifdef EYED
@@ -335,9 +335,9 @@ void main() {
 #endif
 #endif
     float high_up = stands.x + spine.place.y * stands.y;
-    Light reaches = unbundled(lit);
-    if (any_casters())
-        reaches = shaded(reaches, past_casters(point.place), 1.0 - fract(joints.z));
+    Light reaches = unpack_light(lit);
+    if (has_casters())
+        reaches = shadowed(reaches, casters_visibility(point.place), 1.0 - fract(joints.z));
     vec2 sides = sides_of(point, side);
     float face = sides.x, to = sides.y;
     float way = t;
@@ -345,10 +345,10 @@ void main() {
     if (is_blotched(int(stands.z)))
         way = 1.0 - eyed_seen(point, t);
 #endif
-    vec3 pigment = mix(low.rgb, high.rgb, way), light = shade(leaf_at(pigment * (1.0 + face * told_beside(lit)), high_up), reaches);
+    vec3 pigment = mix(low.rgb, high.rgb, way), light = shade(leaf_surface(pigment * (1.0 + face * packed_extra(lit)), high_up), reaches);
 #ifdef FOLDS
     bool is_folded = is_blade(int(stands.z)) && kinds[k].apart > 0.0 && kinds[k].narrowed > 0.0;
-    keel = is_folded ? to * (shown_of(light) - shown_of(shade(leaf_at(pigment, high_up), reaches))) : vec3(0.0);
+    keel = is_folded ? to * (tone_mapped(light) - tone_mapped(shade(leaf_surface(pigment, high_up), reaches))) : vec3(0.0);
 #endif
 #ifdef MORPH
     bring(point, light, t, k);
@@ -356,9 +356,9 @@ void main() {
     keel *= 1.0 - painted.w;
 #endif
 #endif
-    color = shown_of(light);
+    color = tone_mapped(light);
 #ifdef DEEP
-    number = number_at(foot.xz);
+    number = place_number(foot.xz);
 #endif
 #ifdef SOFT
     gl_Position = widened(point, t, to);

@@ -19,7 +19,7 @@ const float TEETH_OF[ORGANS] = TEETH, LIGULES_OF[ORGANS] = LIGULES;
 
 // How much is seen of so many teeth along a ribbon of some length [m] at a place.
 float teeth_seen(float along, float teeth, vec3 place) {
-    return teeth > 0.0 ? smoothstep(TEETH_FROM, TEETH_ALL, pixels_a_metre() * along / teeth / max(distance(place, eye), TEETH_NEAREST)) : 0.0;
+    return teeth > 0.0 ? smoothstep(TEETH_FROM, TEETH_ALL, pixels_per_metre() * along / teeth / max(distance(place, eye), TEETH_NEAREST)) : 0.0;
 }
 
 // How much is seen of what the outline of an organ of some length and width [m] is like: above 0 of teeth, below 0 of ligules.

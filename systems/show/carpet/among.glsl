@@ -12,16 +12,16 @@ const float LEAST_STRIPS = 1e-3;  // least leaf area on strips, as a fraction of
 vec2 among_strips(float on_strips, float slope, float share, float stands, float leaf_area) {
     slope = max(slope, LOWEST);
     float longer = 1.0 / slope, leaves = leaf_area * longer, out_of_it = max(1.0 - RAISED * share / stands, 0.0);
-    vec2 depth = depth_met(max(leaf_area, THINNEST) * longer * vec3(1.0, max(on_strips, LEAST_STRIPS), 1.0)).xy;
-    vec2 hides = 1.0 - comes_through(leaves * vec2(1.0, on_strips));
+    vec2 depth = mean_depth_met(max(leaf_area, THINNEST) * longer * vec3(1.0, max(on_strips, LEAST_STRIPS), 1.0)).xy;
+    vec2 hides = 1.0 - transmittance(leaves * vec2(1.0, on_strips));
     float own = hides.x * depth.x - hides.y * out_of_it * depth.y, behind = max(hides.x - hides.y, TINY);
-    float part = (1.0 - comes_through(leaves * (1.0 - on_strips))) / max(hides.x, TINY);
+    float part = (1.0 - transmittance(leaves * (1.0 - on_strips))) / max(hides.x, TINY);
     return vec2(part, clamp((behind - own) / (behind - behind * depth.x), 0.0, 1.0));
 }
 
 // Factor of the height of leaves that are seen, relative to the flattest image: flatter lines of sight meet tips alone.
 float height_factor(float on_level, float leaf_area) {
-    vec2 high = 1.0 - depth_met(max(leaf_area, THINNEST) / max(vec3(LOWEST, FLATTEST, 1.0), on_level)).xy;
+    vec2 high = 1.0 - mean_depth_met(max(leaf_area, THINNEST) / max(vec3(LOWEST, FLATTEST, 1.0), on_level)).xy;
     return high.y / high.x;
 }
 
@@ -31,5 +31,5 @@ float depth_factor(float deep, float on_level, float share, float curvature, flo
     float most = max(1.0 - RAISED * (share * carpet_lift(deep, curvature, stands) / stands - deep), LEAST_DEEP);
     if (most >= 1.0 / MET)
         return 1.0;
-    return clamp(MET * most / depth_met(max(leaf_area, THINNEST) / max(LOWEST, on_level)), UNEVEN, 1.0);
+    return clamp(MET * most / mean_depth_met(max(leaf_area, THINNEST) / max(LOWEST, on_level)), UNEVEN, 1.0);
 }

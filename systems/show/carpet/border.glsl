@@ -21,7 +21,7 @@ vec2 strips_met(vec2 place, float slope, float share, float tall, float stands) 
     vec2 way = -heading_to(place) * (tall / (RAISED * max(slope, TINY)));
     for (int part = 0; part < PARTS; part++) {
         float above = step * (float(part) + 0.5);
-        float there = share_at(ivec2(floor((place + way * above) * patches_a_metre)));
+        float there = share_at(ivec2(floor((place + way * above) * patches_per_metre)));
         shows += (1.0 - there) / float(PARTS);
         if (there < 1.0) {
             vec2 heights = least + vec2(above) + vec2(-0.5, 0.5) * step;

@@ -47,7 +47,7 @@ FEW_KINDS vec2 slow_noise;
 OF_SOIL float elevation;
 OF_SOIL vec3 sunlit;
 OF_SOIL vec3 skylit;
-OF_SOIL float soil_way;
+OF_SOIL float soil_extinction;
 OF_SOIL float soil_through;
 OF_SOIL vec3 lush;
 
@@ -70,18 +70,18 @@ ByKind grown;  // density of each kind at the place
 // The understorey is of the kinds that grow there, up to where they end.
 void evaluate_soil() {
     Lie lies = lie_at(place.xz);
-    lush = understorey_of(lies, grown);
+    lush = understorey_pigment(lies, grown);
 #ifndef EDGED
-    if (!anything_is_cut() && !any_casters())
+    if (!anything_is_cut() && !has_casters())
         return;
 #endif
-    Soil soil = soil_lit(place, lies, grown, 1.0 - haze_at(place));
+    Soil soil = soil_lit(place, lies, grown, 1.0 - haze_opacity(place));
 #ifdef EDGED
     soil_seen = soil.seen;
 #endif
     sunlit = soil.sunlit;
     skylit = soil.skylit;
-    soil_way = soil.way;
+    soil_extinction = soil.way;
     soil_through = soil.through;
 }
 #endif
@@ -95,17 +95,17 @@ void evaluate(float slope) {
     slow_noise = slow_seen(leaf_place(place, slope, tall, leaf_area), slope, tall);
     vec2 message = message_at(place.xz);
     stands = lodged(message);
-    sway = sway_of(areas(grown), message);
+    sway = sway_of(leaf_areas(grown), message);
 #endif
 }
 
 // Light on the leaves that are met, and their bending: from the vertices, changed where grass is trodden.
 Canopy canopy_here(Sight sight) {
-    Canopy canopy = Canopy(unbundled(lit), told_beside(lit), vec2(0.0));
+    Canopy canopy = Canopy(unpack_light(lit), packed_extra(lit), vec2(0.0));
 #ifdef EDGED
     canopy.light.leaves = vec2(0.0);
     for (int kind = 0; kind < KINDS; kind++)
-        canopy.light.leaves += OF(met, kind) / max(total(met), TINY) * leaves_over(grown, kind);
+        canopy.light.leaves += OF(met, kind) / max(total(met), TINY) * leaf_area_split(grown, kind);
 #endif
 #ifdef TRODDEN
     if (trodden_at(place.xz))
@@ -128,15 +128,15 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     float deep = deepest(sight.slope, curvature, tall * stands), stubble = 1.0;
     ByKind area = all_kinds(0.0);
     if (anything_is_cut()) {
-        area = areas(grown);
-        stubble -= comes_through(weighed(area, leaves_left(left)) / max(sight.slope, LOWEST));
+        area = leaf_areas(grown);
+        stubble -= transmittance(weighted_sum(area, leaf_area_left(left)) / max(sight.slope, LOWEST));
     }
 #ifndef HEADS
     canopy.bent.yz *= height_factor(sight.on_level, leaf_area);
 #endif
     float shallow = depth_factor(deep, sight.on_level, sight.share, curvature, stands, leaf_area);
     vec4 sent = any_lamps() ? lamps_seen(sight) : vec4(0.0);
-    View view = View(canopy.light, canopy.bent, among, shallow, left, stubble, area, sent, stretch(slow_noise));
+    View view = View(canopy.light, canopy.bent, among, shallow, left, stubble, area, sent, dryness_tint(slow_noise));
 #if KINDS > 4 || defined(EDGED)
     elevation = elevation_seen(sight.on_level, leaf_area);
 #endif
@@ -167,13 +167,13 @@ float spikes_over_edge(float taller) {
 float edge_coverage(float slope) {
     vec2 way = heading_to(place.xz), rim = abs(mix(mesh_low, mesh_high, step(0.0, way)) - place.xz);
     float on = min(rim.x / max(abs(way.x), TINY), rim.y / max(abs(way.y), TINY)), leaves = leaf_area / max(slope, LOWEST);
-    float met = 1.0 - comes_through(leaf_area * on / max(mesh_share * tall, LOWEST_GRASS));
-    return min(met / max(1.0 - comes_through(leaves), TINY), 1.0);
+    float met = 1.0 - transmittance(leaf_area * on / max(mesh_share * tall, LOWEST_GRASS));
+    return min(met / max(1.0 - transmittance(leaves), TINY), 1.0);
 }
 
 // The carpet's share of the grass, in [0, 1].
 float share_here() {
-    return mesh_share > 0.0 ? share_at(ivec2(floor(place.xz * patches_a_metre))) : 0.0;
+    return mesh_share > 0.0 ? share_at(ivec2(floor(place.xz * patches_per_metre))) : 0.0;
 }
 
 #ifdef EDGED
@@ -185,11 +185,11 @@ float find_grass() {
     if (skirt > 0.0 && at <= 0.0)  // grass is as high on both sides: the tile before draws it
         at = -1.0;
     place = moved_along(mesh_place, max(at, 0.0));
-    grown = grows_at(place.xz);
+    grown = density_at(place.xz);
     float left = cut_height_at(place.xz);
     tall = carpet_height(grown, left);
-    leaf_area = weighed(grown, areas(leaves_left(left)));
-    return at < 0.0 ? 0.0 : hidden_behind(way, at, aside, areas(grown), left);
+    leaf_area = weighted_sum(grown, leaf_areas(leaf_area_left(left)));
+    return at < 0.0 ? 0.0 : hidden_behind(way, at, aside, leaf_areas(grown), left);
 }
 
 // Set the weights of the images of kinds.
@@ -207,15 +207,15 @@ void evaluate_kinds(float slope, float left) {
 // Set the pixel's colour, and return whether it shows anything. `hidden` is a factor of its coverage. `dx` and `dy` lead to the next
 // pixels across and up (x, z) [m], `soil_dx` and `soil_dy` do so on the ground between.
 bool draw_pixel(float slope, float ahead, float left, float share, float hidden, vec2 dx, vec2 dy, vec3 ground, vec2 soil_dx, vec2 soil_dy) {
-    vec3 pigment = pigment_lying(ground.xz, soil_dx, soil_dy, comes_through(leaf_area / max(slope, LOWEST)), lush, left);
-    vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_way, soil_through), ground, left);
-    vec3 color = shown_of(soil_light * pigment * pigment + lit[2].rgb);
+    vec3 pigment = pigment_lying(ground.xz, soil_dx, soil_dy, transmittance(leaf_area / max(slope, LOWEST)), lush, left);
+    vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_extinction, soil_through), ground, left);
+    vec3 color = tone_mapped(soil_light * pigment * pigment + lit[2].rgb);
     float cover = 0.0;
     if (over_hosts > 0.0)
         color = vec3(0.0);  // the game's ground shows there
     float top = slope + mesh_share * ahead, hides = min(share / SHOWN_FROM, 1.0);
     vec4 met_there = outline_leaves(top);
-    float covered = 1.0 - hides * comes_through(met_there.w * spikes_over_edge(spike_factor(TALLER, 1.0)));  // at most
+    float covered = 1.0 - hides * transmittance(met_there.w * spikes_over_edge(spike_factor(TALLER, 1.0)));  // at most
     // The pixel writes depth: where strips still stand on the patch, the thin edge of an outline would hide them.
     if (covered < max(part == 1 ? HALF : NOTHING, STANDING * (1.0 - share)))
         return false;
@@ -243,9 +243,9 @@ void main() {
 #ifndef EDGED
     vec2 dx = dFdx(place.xz), dy = dFdy(place.xz);
     if (KINDS > 4 || anything_is_cut())
-        grown = grows_at(place.xz);
+        grown = density_at(place.xz);
 #if KINDS > 4
-    rise = rise_at(place.xz);
+    rise = gradient_at(place.xz);
 #endif
     float slope = viewing_slope(rise, place), left = left_seen(place.xz), ahead = carpet_rise_ahead(place.xz, tall), share = share_here();
     evaluate(slope);

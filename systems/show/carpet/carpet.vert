@@ -65,7 +65,7 @@ OF_SOIL float elevation;  // from elevation_seen
 #ifndef COARSE
 OF_SOIL vec3 sunlit;         // radiance of the soil without any grass: from the sun
 OF_SOIL vec3 skylit;         // and from the sky
-OF_SOIL float soil_way;      // leaves that sunlight meets, per leaf area seen from the side
+OF_SOIL float soil_extinction;      // leaves that sunlight meets, per leaf area seen from the side
 OF_SOIL float soil_through;  // transmittance of the grass for sunlight
 OF_SOIL vec3 lush;           // pigment of the understorey, relative to that of the ground between
 #endif
@@ -140,15 +140,15 @@ void light_leaves(float slope, float on, ByKind grows, vec2 message) {
     canopy.bent.y *= tip_ratio(met, grows, on);
 #endif
 #ifdef COARSE
-    vec3 fresh = stretch(slow_seen(there, slope, tall));
+    vec3 fresh = dryness_tint(slow_seen(there, slope, tall));
     canopy.light.sun *= fresh * fresh;  // a factor of the pigment, whose square is the albedo
     canopy.light.sky *= fresh * fresh;
     set_leaf_range(slope, canopy.bent.yz);
-    canopy.bent.x = comes_through(canopy.bent.x);
+    canopy.bent.x = transmittance(canopy.bent.x);
 #else
     slow_noise = slow_seen(there, slope, tall);
 #endif
-    lit = bundled(veiled(canopy.light, place), canopy.bent);
+    lit = pack_light(hazed(canopy.light, place), canopy.bent);
 }
 
 #ifndef EDGED
@@ -156,20 +156,20 @@ void light_leaves(float slope, float on, ByKind grows, vec2 message) {
 void light_soil(vec3 ground, Laid laid) {
     Lie lies = lie_at(ground.xz);
     ByKind grows = grown_at(ground.xz, laid);
-    Soil soil = soil_lit(ground, lies, grows, 1.0 - haze_at(place));
+    Soil soil = soil_lit(ground, lies, grows, 1.0 - haze_opacity(place));
 #ifdef COARSE
     vec2 usual = textureLod(repeating, vec2(0.5), COARSEST).gb;
-    vec3 pigment = lying_pigment(usual, understorey_of(lies, grows));
-    vec3 skylit = soil.skylit * comes_through(OPEN_SKY * total(areas(grows)));
-    soil_seen = shown_of(soil.seen * pigment * pigment + lit[2].rgb) / max(usual.x, LEAST_TEXEL);
-    soil_shaded = shown_of(skylit * pigment * pigment + lit[2].rgb) / max(usual.x, LEAST_TEXEL);
+    vec3 pigment = litter_pigment(usual, understorey_pigment(lies, grows));
+    vec3 skylit = soil.skylit * transmittance(OPEN_SKY * total(leaf_areas(grows)));
+    soil_seen = tone_mapped(soil.seen * pigment * pigment + lit[2].rgb) / max(usual.x, LEAST_TEXEL);
+    soil_shaded = tone_mapped(skylit * pigment * pigment + lit[2].rgb) / max(usual.x, LEAST_TEXEL);
 #else
     soil_seen = soil.seen;
     sunlit = soil.sunlit;
     skylit = soil.skylit;
-    soil_way = soil.way;
+    soil_extinction = soil.way;
     soil_through = soil.through;
-    lush = understorey_of(lies, grows);
+    lush = understorey_pigment(lies, grows);
 #endif
 }
 #endif

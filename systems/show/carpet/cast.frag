@@ -21,6 +21,6 @@ void main() {
     if (met > optical_depth || random_at(1) > mesh_share)
         discard;
     vec3 from = normalize(light - place);
-    vec4 there = clip * vec4(place - from * (grass_height * depth_passed(met / optical_depth) / max(from.y, LEVEL)), 1.0);
-    gl_FragDepth = depth_of(there);
+    vec4 there = clip * vec4(place - from * (grass_height * depth_of_leaf_area(met / optical_depth) / max(from.y, LEVEL)), 1.0);
+    gl_FragDepth = window_depth(there);
 }

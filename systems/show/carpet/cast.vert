@@ -13,15 +13,15 @@ out float optical_depth;  // of the grass, in leaves, for light down to the grou
 
 void main() {
     place = on_ground(on_mesh());
-    ByKind grows = grows_at(place.xz);
-    float left = anything_is_cut() ? left_about(place.xz, tile.z) : tallest_grass;
+    ByKind grows = density_at(place.xz);
+    float left = anything_is_cut() ? cut_height_about(place.xz, tile.z) : tallest_grass;
     float up = max(dot(lie_at(place.xz).normal, normalize(light - place)), 0.0), sum = 0.0;
-    ByKind area = areas(grows), stays = leaves_left(left);
+    ByKind area = leaf_areas(grows), stays = leaf_area_left(left);
     grass_height = optical_depth = 0.0;
     for (int kind = 0; kind < KINDS; kind++) {
         float leaves = OF(area, kind) * OF(stays, kind);
         grass_height += leaves * min(OF(crown, kind), left);
-        optical_depth += leaves * sun_way(kind, up);
+        optical_depth += leaves * sun_extinction(kind, up);
         sum += leaves;
     }
     grass_height /= max(sum, LEAST_AREA);

@@ -57,7 +57,7 @@ float grain_seen(float level, float across) {
 
 // Of the images of two slopes a patch shows either, the more often the nearer it is.
 Look look_along(vec2 heading) {
-    vec2 at = place.xz * patches_a_metre, cell = floor(at), here = fract(at) - blown * patches_a_metre - 0.5;
+    vec2 at = place.xz * patches_per_metre, cell = floor(at), here = fract(at) - blown * patches_per_metre - 0.5;
     uint drawn = scramble(uint(int(cell.x) * ROWS + int(cell.y) ^ stock.y));
     float upper = float(drawn >> UPPER_HALF);
     int low = min(int(elevation), SLOPES - 2), slope = min(int(elevation + upper * exp2(-BITS)), low + 1), side = int(drawn >> UPPER_HALF) & (HEADINGS - 1);
@@ -66,7 +66,7 @@ Look look_along(vec2 heading) {
     float along = dot(here, heading) * longer * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, on_level));
     vec2 beside = vec2(-heading.y, heading.x);
     float across = max(abs(dot(dFdx(place.xz), beside)), abs(dot(dFdy(place.xz), beside)));
-    float level = log2(max(across * patches_a_metre, THINNEST_PIXEL) * (SHARP * float(textureSize(images, 0).x)));
+    float level = log2(max(across * patches_per_metre, THINNEST_PIXEL) * (SHARP * float(textureSize(images, 0).x)));
     ivec3 image = (model * SLOPES + ivec3(low, low + 1, slope)) * HEADINGS + side;
     return Look(rotated(here + heading * along, turned(heading, side)) + 0.5, image.z, image.xy, elevation - float(low), level, grain_seen(level, across));
 }
@@ -85,7 +85,7 @@ void add_kind(inout Grass sum, int kind, Look look, vec2 facing, float high) {
     vec4 lower = layer_mean(images, int(from) + look.between.x, stock.z), steeper = layer_mean(images, int(from) + look.between.y, stock.z);
     vec4 mean = mix(lower, steeper, look.next), own = look.image == look.between.x ? lower : steeper;
     vec4 image = max(mean + (layer_at(images, vec3(look.at, from + float(look.image)), look.level) - own) * look.grain, 0.0);
-    float covers = max(1.0 - (1.0 - min(image.a, 1.0)) * told_beside(lit).x, 0.0);
+    float covers = max(1.0 - (1.0 - min(image.a, 1.0)) * packed_extra(lit).x, 0.0);
     vec3 shown = min(image.rgb / max(image.a, LEAST_TEXEL), 1.0);
     vec2 at = leaf_range.xy - leaf_range.zw * (1.0 - high * shown.rg);
 #ifdef HEADS
@@ -101,7 +101,7 @@ void add_kind(inout Grass sum, int kind, Look look, vec2 facing, float high) {
         twice = FACING;
     }
 #endif
-    sum.pigment += covers * pigment_at(kind, at.x, at.x * eyed) * grain_at(kind, facing * twice);
+    sum.pigment += covers * pigment_at(kind, at.x, at.x * eyed) * azimuth_tint(kind, facing * twice);
     sum.height += covers * at.y * OF(tops, kind);
     sum.covers += covers;
     sum.taller += part * (shown.g * mean.a / max(mean.g, LEAST_TEXEL) - 1.0);
@@ -112,7 +112,7 @@ Grass grass_seen(vec2 heading, float high) {
     Grass sum = Grass(vec3(0.0), 0.0, 0.0, 0.0);
     for (int kind = 0; kind < KINDS; kind++)
         if (OF(met, kind) > LEAST_MET)
-            add_kind(sum, kind, look, doubled(heading), high);
+            add_kind(sum, kind, look, doubled_angle(heading), high);
     float all = 1.0 / max(sum.covers, LEAST_TEXEL);
     return Grass(sum.pigment * all, sum.height * all, min(sum.covers, 1.0), sum.taller);
 }
@@ -121,14 +121,14 @@ Grass grass_seen(vec2 heading, float high) {
 // do, which are mixed.
 float hides_behind(float slope, float spikes) {
     if (rim_path < NO_RIM)
-        return 1.0 - comes_through(RIM * leaf_area * sqrt(spikes) * rim_path * rim_path);
+        return 1.0 - transmittance(RIM * leaf_area * sqrt(spikes) * rim_path * rim_path);
     return outline_cover(leaves_over_crest(slope, curvature, tall, stands, leaf_area, pixel_height(place)) * sqrt(spikes));
 }
 
 void main() {
-    float share = mesh_share > 0.0 ? share_at(ivec2(floor(place.xz * patches_a_metre))) : 0.0, covered = 1.0;
-    float sunny = any_casters() ? past_casters(place) : 1.0;
-    vec3 soil = any_casters() ? mix(soil_shaded, soil_seen, sunny) : soil_seen;
+    float share = mesh_share > 0.0 ? share_at(ivec2(floor(place.xz * patches_per_metre))) : 0.0, covered = 1.0;
+    float sunny = has_casters() ? casters_visibility(place) : 1.0;
+    vec3 soil = has_casters() ? mix(soil_shaded, soil_seen, sunny) : soil_seen;
     vec3 color = soil * lying_seen(place.xz, dFdx(place.xz), dFdy(place.xz), share > 0.0 ? 0.0 : 1.0).x;
     if (share > 0.0) {
         vec3 ray = place - eye;
@@ -136,10 +136,10 @@ void main() {
         float slope = max(rim_path < NO_RIM ? facing : slope_below(facing, curvature, pixel_height(place)), 0.0);
         vec2 among = on_strips > 0.0 ? among_strips(on_strips * on_strips, on_level, mesh_share, stands, leaf_area) : vec2(1.0);
         Grass grass = grass_seen(ray.xz * nearness, among.y);
-        Light light = unbundled(lit);
-        if (any_casters())
-            light = shaded(light, sunny, 1.0);
-        vec3 leaves = shown_of(shade(leaf_at(grass.pigment, grass.height), light));
+        Light light = unpack_light(lit);
+        if (has_casters())
+            light = shadowed(light, sunny, 1.0);
+        vec3 leaves = tone_mapped(shade(leaf_surface(grass.pigment, grass.height), light));
         float deep = deepest(slope, curvature, tall * stands);
         float covers = among.x * mix(min(grass.covers / LEAST_COVER, 1.0), grass.covers, smoothstep(ENDS.x * share, ENDS.y * share, deep));
         color = color * (1.0 - covers) + leaves * covers;

@@ -26,7 +26,7 @@ float carpet_height(ByKind grows, float left) {
 
 // Height to which grass is cut at a place [m].
 float cut_height_at(vec2 place) {
-    return anything_is_cut() ? left_at(place) : tallest_grass;
+    return anything_is_cut() ? cut_height_at(place) : tallest_grass;
 }
 
 // A line of sight from the mesh on; positions on it are distances over the ground.
@@ -34,7 +34,7 @@ struct Way {
     vec3 from;
     vec2 heading;
     float fall;       // its descent [m/m]
-    float ground;     // height of the mesh's ground over that of height_near at its start [m]
+    float ground;     // height of the mesh's ground over that of height_filtered at its start [m]
     float high;       // height of the mesh over the ground [m]
     float mesh_lift;  // the same, as a fraction of the carpet's height on level ground
     float slope;      // slope to the ground [m/m]
@@ -44,7 +44,7 @@ struct Way {
 
 Way way_from(vec3 place, float high, float mesh_lift, float slope, float curvature) {
     vec3 ray = place - eye;
-    float pixels = ceil(high * pixels_a_metre() / length(ray)), ground = high - place.y + height_near(place.xz);
+    float pixels = ceil(high * pixels_per_metre() / length(ray)), ground = high - place.y + height_filtered(place.xz);
     return Way(place, heading_to(place.xz), -ray.y / max(length(ray.xz), TINY), ground, high, mesh_lift, slope, curvature, pixels);
 }
 
@@ -57,13 +57,13 @@ float distance_to_ground(Way way) {
 // Height over the ground at a distance [m].
 float height_over_ground(Way way, float at) {
     vec2 there = way.from.xz + way.heading * at;
-    return way.from.y - way.fall * at - height_near(there) + way.ground;
+    return way.from.y - way.fall * at - height_filtered(there) + way.ground;
 }
 
 // Depth below the top of the grass at a distance [m]; negative above it, and where no grass stands.
 float depth_below_top(Way way, float at) {
     vec2 there = way.from.xz + way.heading * at;
-    float stands = way.mesh_lift * carpet_height(grows_at(there), cut_height_at(there));
+    float stands = way.mesh_lift * carpet_height(density_at(there), cut_height_at(there));
     return stands > NO_GRASS ? stands - height_over_ground(way, at) + ROUNDED * way.high : -1.0;
 }
 
@@ -100,16 +100,16 @@ const float LEAVES_ENOUGH = 3.0;  // optical depth behind which nothing is seen
 // Opacity of the grass that a line of sight has entered: below 1 if it leaves the grass again before it is stopped. Then it has met the
 // uncut leaves above the height at which it leaves.
 float hidden_behind(Way way, float at, bool aside, ByKind area, float left) {
-    float slope = max(way.slope, FLATTEST), enters_at = height_over_ground(way, at), none = leaves_above(left, area);
+    float slope = max(way.slope, FLATTEST), enters_at = height_over_ground(way, at), none = leaf_area_above(left, area);
     float parts = clamp(way.pixels, FEWEST_PARTS, PARTS), step = enters_at / (slope * parts + TINY);
-    float before = aside ? leaves_above(min(enters_at, left), area) : none;
+    float before = aside ? leaf_area_above(min(enters_at, left), area) : none;
     for (float part = 1.0; part <= parts; part += 1.0) {
-        float there = at + step * (part - 0.5), met = (leaves_above(min(height_over_ground(way, there), left), area) - before) / slope;
+        float there = at + step * (part - 0.5), met = (leaf_area_above(min(height_over_ground(way, there), left), area) - before) / slope;
         if (met > LEAVES_ENOUGH)
             return 1.0;
         there += NEARLY_HALF * step;
         if (depth_below_top(way, there) < 0.0)  // over a crest, outlines give the opacity
-            return height_over_ground(way, there) > way.high ? 1.0 : 1.0 - comes_through(max(met, 0.0));
+            return height_over_ground(way, there) > way.high ? 1.0 : 1.0 - transmittance(max(met, 0.0));
     }
     return 1.0;
 }
@@ -122,5 +122,5 @@ vec3 moved_along(vec3 place, float way) {
 
 // Depth of a place minus that of another.
 float depth_beyond(vec3 place, vec3 other) {
-    return depth_of(clip * vec4(place, 1.0)) - depth_of(clip * vec4(other, 1.0));
+    return window_depth(clip * vec4(place, 1.0)) - window_depth(clip * vec4(other, 1.0));
 }

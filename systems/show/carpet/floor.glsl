@@ -11,8 +11,8 @@ struct Soil {
 };
 
 Soil soil_lit(vec3 place, Lie lies, ByKind grows, float clear) {
-    Surface surface = soil_at(lies, grows);
-    float leaves = total(areas(grows));
+    Surface surface = soil_surface(lies, grows);
+    float leaves = total(leaf_areas(grows));
     Light light = light_on_soil(place, lies, leaves);
     vec3 seen = shade(surface, light);
     light.leaves = vec2(0.0);
@@ -20,9 +20,9 @@ Soil soil_lit(vec3 place, Lie lies, ByKind grows, float clear) {
     light.sun = vec3(0.0);
     vec3 sky = shade(surface, light);
     if (any_lamps()) {  // theirs counts with the sky's
-        light.sun = sunlight * (SOIL_SENDS * lies.high * sun_seen(place, lies.past));
+        light.sun = sunlight * (SOIL_SENDS * lies.sun_sine * sun_visibility(place, lies.visibility));
         light.sky = vec3(0.0);
         sky = both - shade(surface, light);
     }
-    return Soil(seen * clear, (both - sky) * clear, sky * clear, light.way, comes_through(light.way * leaves));
+    return Soil(seen * clear, (both - sky) * clear, sky * clear, light.way, transmittance(light.way * leaves));
 }

@@ -10,7 +10,7 @@ centroid in vec3 haze;
 centroid in vec3 soil_seen;
 centroid in vec3 sunlit;
 centroid in vec3 skylit;
-centroid in float soil_way;
+centroid in float soil_extinction;
 centroid in float soil_through;
 centroid in vec3 lush;
 #endif
@@ -20,16 +20,16 @@ out vec4 pixel;
 void main() {
 #ifdef EDGED
     Lie lies = lie_at(place.xz);
-    ByKind grows = grows_at(place.xz);
-    Soil soil = soil_lit(place, lies, grows, 1.0 - haze_at(place));
-    vec3 lush = understorey_of(lies, grows);
+    ByKind grows = density_at(place.xz);
+    Soil soil = soil_lit(place, lies, grows, 1.0 - haze_opacity(place));
+    vec3 lush = understorey_pigment(lies, grows);
 #else
-    Soil soil = Soil(soil_seen, sunlit, skylit, soil_way, soil_through);
+    Soil soil = Soil(soil_seen, sunlit, skylit, soil_extinction, soil_through);
 #endif
     float left = left_seen(place.xz);
     vec3 pigment = pigment_lying(place.xz, dFdx(place.xz), dFdy(place.xz), 1.0, lush, left);
     vec3 ground = soil_between(soil, place, left);
-    pixel = vec4(shown_of(ground * pigment * pigment + haze), 1.0);
+    pixel = vec4(tone_mapped(ground * pigment * pigment + haze), 1.0);
 #ifdef EDGED
     if (is_hole(place.xz))
         discard;

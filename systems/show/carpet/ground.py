@@ -271,7 +271,7 @@ class GroundPainter:
         """Set the viewer's cell and direction, and the carpet's share `beyond` the patches around it, in [0, 1]."""
         self.shelves.now.order = order_toward(viewer.cone[0])
         self._block.record["carpet_window"] = *viewer.centre, self._side // 2, beyond
-        self._block.record["windows_a_patch"] = 1.0 / self._side
+        self._block.record["windows_per_patch"] = 1.0 / self._side
 
     def use(self) -> None:
         """Bind the textures that all programs read."""

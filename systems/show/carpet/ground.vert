@@ -12,26 +12,26 @@ centroid out vec3 haze;  // radiance of the haze before it
 centroid out vec3 soil_seen;      // radiance of the soil, without haze
 centroid out vec3 sunlit;         // its radiance without any grass: from the sun
 centroid out vec3 skylit;         // and from the sky
-centroid out float soil_way;      // leaves that sunlight meets, per leaf area seen from the side
+centroid out float soil_extinction;      // leaves that sunlight meets, per leaf area seen from the side
 centroid out float soil_through;  // transmittance of the grass for sunlight
 centroid out vec3 lush;           // pigment of the understorey, relative to that of the ground between
 #endif
 
 void main() {
     place = on_ground(on_mesh());
-    float hidden = haze_at(place);
-    haze = haze_light(place) * hidden;
+    float hidden = haze_opacity(place);
+    haze = haze_radiance(place) * hidden;
 #ifndef EDGED
     Lie lies = lie_at(place.xz);
-    ByKind grows = grows_at(place.xz);
+    ByKind grows = density_at(place.xz);
     Soil ground = soil_lit(place, lies, grows, 1.0 - hidden);
     soil_seen = ground.seen;
     sunlit = ground.sunlit;
     skylit = ground.skylit;
-    soil_way = ground.way;
+    soil_extinction = ground.way;
     soil_through = ground.through;
-    lush = understorey_of(lies, grows);
+    lush = understorey_pigment(lies, grows);
 #endif
     gl_Position = clip * vec4(place, 1.0);
-    gl_Position.z += farther_by(pushed) * gl_Position.w;
+    gl_Position.z += depth_offset(pushed) * gl_Position.w;
 }

@@ -26,11 +26,11 @@ struct Met {
 // Take in a layer that has so many leaves of each kind on the way, and such parts of heads, as far as the line of sight is `inside`;
 // in images there are `part` of them.
 void take_in(inout Met met, ByKind stop, ByKind heads, ByKind grows, float inside, float part) {
-    float sum = weighed(stop, grows), stopped = met.through * (1.0 - comes_through(inside * sum));
+    float sum = weighted_sum(stop, grows), stopped = met.through * (1.0 - transmittance(inside * sum));
     for (int group = 0; group < GROUPS; group++) {
         vec4 share = stopped * stop[group] * grows[group] / max(sum, THINNEST_LAYER);
         vec4 alone = met.through_alone[group];
-        alone *= 1.0 - vec4(comes_through(part * stop[group].xy), comes_through(part * stop[group].zw));
+        alone *= 1.0 - vec4(transmittance(part * stop[group].xy), transmittance(part * stop[group].zw));
         met.all[group] += share;
         met.heads[group] += share * heads[group];
         met.alone[group] += alone;
@@ -76,5 +76,5 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
 
 // How much an image of a kind hides where it grows densely and alone; one with heads is taken in parts of its mean.
 float image_opacity(int kind, ByKind leaves) {
-    return OF(bears, kind) > 0.0 ? 1.0 : 1.0 - comes_through(OF(leaves, kind));
+    return OF(bears, kind) > 0.0 ? 1.0 : 1.0 - transmittance(OF(leaves, kind));
 }

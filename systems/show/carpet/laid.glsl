@@ -39,13 +39,13 @@ struct Laid {
 
 // The least of the carpet's shares of the patches that a place lies on or next to.
 float lowest_share(vec2 place) {
-    ivec2 low = ivec2(floor((place - EDGE) * patches_a_metre)), high = ivec2(floor((place + EDGE) * patches_a_metre));
+    ivec2 low = ivec2(floor((place - EDGE) * patches_per_metre)), high = ivec2(floor((place + EDGE) * patches_per_metre));
     return min(min(share_at(low), share_at(high)), min(share_at(ivec2(low.x, high.y)), share_at(ivec2(high.x, low.y))));
 }
 
 // Height of the grass under a message of the wind, as a fraction of that at rest.
 float height_in_wind(ByKind grows, vec2 message) {
-    ByKind area = areas(grows);
+    ByKind area = leaf_areas(grows);
     float high = 0.0;
     for (int kind = 0; kind < KINDS; kind++)
         high += OF(area, kind) * lodged(bending(kind, message));
@@ -82,7 +82,7 @@ vec2 neighbour(vec2 place, int number) {
 ByKind densest_about(vec2 place) {
     ByKind densest = all_kinds(0.0);
     for (int number = 0; number < NEIGHBOURS; number++) {
-        ByKind grows = grows_at(neighbour(place, number));
+        ByKind grows = density_at(neighbour(place, number));
         if (total(grows) > total(densest))
             densest = grows;
     }
@@ -95,7 +95,7 @@ ByKind densest_about(vec2 place) {
 float trodden_height_about(vec2 place, ByKind grows) {
     float lowest = 1.0;
 #ifdef TRODDEN
-    ByKind area = areas(grows);
+    ByKind area = leaf_areas(grows);
     float all = max(total(area), TINY);
     for (int number = 0; number < ALL_NEIGHBOURS; number++) {
         vec2 at = neighbour(place, number);
@@ -134,8 +134,8 @@ void set_grass(inout Laid laid, vec2 place) {
     for (int kind = 0; kind < KINDS; kind++)
         laid.tall = max(laid.tall, OF(raised, kind));
 #else
-    laid.grows = grows_at(place);
-    laid.left = anything_is_cut() ? left_about(place, grid_spacing) : UNCUT;
+    laid.grows = density_at(place);
+    laid.left = anything_is_cut() ? cut_height_about(place, grid_spacing) : UNCUT;
     laid.tall = 0.0;
     for (int group = 0; group < GROUPS; group++)
         laid.tall += dot(laid.grows[group], min(raised[group], laid.left));
@@ -143,7 +143,7 @@ void set_grass(inout Laid laid, vec2 place) {
 #endif
     laid.tops = tops_height(laid.grows, laid.left);
     laid.trodden_height = trodden_height_about(place, laid.grows);
-    laid.leaf_area = weighed(laid.grows, areas(leaves_left(laid.left)));
+    laid.leaf_area = weighted_sum(laid.grows, leaf_areas(leaf_area_left(laid.left)));
 }
 
 #include "systems/show/carpet/rim.glsl"
@@ -185,6 +185,6 @@ ByKind grown_at(vec2 place, Laid laid) {
 #ifdef EDGED
     return laid.grows;
 #else
-    return grows_at(place);
+    return density_at(place);
 #endif
 }

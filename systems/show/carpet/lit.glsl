@@ -26,37 +26,37 @@ vec3 leaning(vec2 bend) {
 
 // The pigment of what is met of a kind that leans so, of that where it stands upright.
 vec3 turned_to(int kind, vec3 lean, vec3 ray) {
-    return grain_at(kind, faces_seen(kind, lean, ray) - faces_seen(kind, vec3(0.0, 1.0, 0.0), ray));
+    return azimuth_tint(kind, seen_azimuth(kind, lean, ray) - seen_azimuth(kind, vec3(0.0, 1.0, 0.0), ray));
 }
 
 // The slow noises of the pigment where leaves are seen: the mean of nearer and farther ones.
 vec2 slow_seen(vec3 there, float slope, float tall) {
     vec2 apart = heading_to(there.xz) * min(SPREAD * ground_spread(slope, tall), FARTHEST_SEEN);
-    return 0.5 * (slow_at(there.xz - apart) + slow_at(there.xz + apart));
+    return 0.5 * (slow_noise_at(there.xz - apart) + slow_noise_at(there.xz + apart));
 }
 
 // The wind's message; far off, where nobody asks for it, the mean of those nearer by.
 vec2 message_at(vec2 at) {
-    vec2 on = at * (patches_a_metre * windows_a_patch), apart = abs(on - (carpet_window.xy + 0.5) * windows_a_patch);
+    vec2 on = at * (patches_per_metre * windows_per_patch), apart = abs(on - (carpet_window.xy + 0.5) * windows_per_patch);
     float far = smoothstep(FAR_AIR.x, FAR_AIR.y, max(apart.x, apart.y));
     return mix(textureLod(air, on, 0.0).xy, texelFetch(mean_air, ivec2(0), 0).xy, far);
 }
 
 // The light there on each kind as its message has bent it, in the mean of all that are met.
 Canopy canopy_lit(ByKind met, float slope, float on_level, vec3 there, Lie lies, vec2 messages[KINDS]) {
-    ByKind grows = grows_at(there.xz);
+    ByKind grows = density_at(there.xz);
     Canopy sum = Canopy(Light(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, vec2(0.0)), vec3(0.0), vec2(0.0));
     vec3 ray = there - eye;
     ray /= max(length(ray.xz), TINY);
-    float all = 1.0 / max(total(met), TINY), area = max(total(areas(grows)), THINNEST);
+    float all = 1.0 / max(total(met), TINY), area = max(total(leaf_areas(grows)), THINNEST);
     for (int kind = 0; kind < KINDS; kind++) {
         vec2 bend = bending(kind, messages[kind]);
         float part = OF(met, kind) * all;
-        Light light = light_on(kind, bend, there, lies, grows);
+        Light light = leaf_light(kind, bend, there, lies, grows);
         vec3 turned = turned_to(kind, leaning(bend), ray);
         light.sun *= turned * turned;
         light.sky *= turned * turned;
-        sum.light = plus(sum.light, light, part);
+        sum.light = light_sum(sum.light, light, part);
         sum.bent += part * bent_to(kind, bend, ray.xz, slope, -ray.y, on_level * OF(leaf, kind) / area);
         sum.sway += part * SWAYS * OF(crown, kind) * bend;
     }

@@ -35,8 +35,8 @@ vec3 pigment_lying(vec2 at, vec2 dx, vec2 dy, float bare, vec3 lush, float left)
 #ifndef PLAIN
     if (earth_side != 0.0) {
         vec2 scale = 1.0 / (earth_side > 0.0 ? vec2(earth_side) : terrain_size);
-        return earth_pigment(textureGrad(earth, on_earth(at), dx * scale, dy * scale));
+        return earth_pigment(textureGrad(earth, earth_uv(at), dx * scale, dy * scale));
     }
 #endif
-    return lying_pigment(lying_seen(at, dx, dy, bare) * after(left, at), lush);
+    return litter_pigment(lying_seen(at, dx, dy, bare) * after(left, at), lush);
 }

@@ -5,7 +5,7 @@
 ByKind leaves_met(float slope) {
     ByKind leaves = all_kinds(0.0);
     for (int kind = 0; kind < KINDS; kind++)
-        OF(leaves, kind) = OF(leaf, kind) * leaves_on_way(kind, 1.0 / (slope * slope));
+        OF(leaves, kind) = OF(leaf, kind) * extinction_along(kind, 1.0 / (slope * slope));
     return leaves;
 }
 
@@ -34,7 +34,7 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
             OF(stop, kind) = OF(grows, kind) * OF(leaves, kind) * 2.0 * max(1.0 - height / canopy_height, 0.0) * top / canopy_height;
         }
         float sum = total(stop);
-        float stopped = through * (1.0 - comes_through(part * sum));
+        float stopped = through * (1.0 - transmittance(part * sum));
         for (int group = 0; group < GROUPS; group++)
             met[group] += stopped * stop[group] / max(sum, THINNEST_LAYER);
         through -= stopped;
@@ -44,7 +44,7 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
 
 // Opacity of a kind that grows densely and alone, as its image shows it.
 float image_opacity(int kind, ByKind leaves) {
-    return 1.0 - comes_through(OF(leaves, kind));
+    return 1.0 - transmittance(OF(leaves, kind));
 }
 #endif
 
@@ -55,7 +55,7 @@ ByKind image_weights(ByKind met, ByKind grows, float slope) {
     ByKind leaves = leaves_met(slope);
     for (int kind = 0; kind < KINDS; kind++)
         alone += OF(met, kind) / all * image_opacity(kind, leaves);
-    float hides = (1.0 - comes_through(weighed(leaves, grows))) / max(alone, TINY);
+    float hides = (1.0 - transmittance(weighted_sum(leaves, grows))) / max(alone, TINY);
     for (int group = 0; group < GROUPS; group++)
         met[group] = met[group] / all * hides;
     return met;
@@ -70,13 +70,13 @@ float height_past_strips(float met_carpet, float share) {
 // Factor of the mean place along blades that is met, averaged over kinds, relative to images, in which each kind grows densely and
 // alone. Thin grass, or grass that stands out of a lower kind, is met farther down; as blades differ in length, less so along each.
 float tip_ratio(ByKind met, ByKind grows, float slope) {
-    ByKind area = areas(grows);
+    ByKind area = leaf_areas(grows);
     float tips = 0.0;
     slope = max(slope, LOWEST);
     for (int kind = 0; kind < KINDS; kind++) {
-        float usual = depth_met(OF(leaf, kind) / slope), high = OF(crown, kind);
-        float leaves = leaves_above(high * (1.0 - usual), area) - leaves_above(high, area);
-        tips += OF(met, kind) * sqrt((1.0 - depth_met(leaves / (usual * usual * slope))) / (1.0 - usual));
+        float usual = mean_depth_met(OF(leaf, kind) / slope), high = OF(crown, kind);
+        float leaves = leaf_area_above(high * (1.0 - usual), area) - leaf_area_above(high, area);
+        tips += OF(met, kind) * sqrt((1.0 - mean_depth_met(leaves / (usual * usual * slope))) / (1.0 - usual));
     }
     return tips / max(total(met), TINY);
 }

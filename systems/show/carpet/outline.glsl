@@ -37,7 +37,7 @@ vec4 leaves_over_crest(float slope, float curvature, float tall, float stands, f
 
 // Mean opacity of a pixel whose lines of sight have these optical depths.
 float outline_cover(vec4 met) {
-    return 1.0 - dot(comes_through(met), vec4(1.0)) / LINES_IN_PIXEL;
+    return 1.0 - dot(transmittance(met), vec4(1.0)) / LINES_IN_PIXEL;
 }
 
 // Slope of a line of sight to the mesh as if that were not raised along an outline.

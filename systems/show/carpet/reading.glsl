@@ -48,7 +48,7 @@ float sway_of(ByKind met, vec2 message) {
 // The patch of a place whose leaves sway so far, of the wind's message [m], and stand so high, of their height at rest. It is
 // one wind for all of a patch: images that are sheared here and there otherwise would curl.
 Patch patch_at(vec2 at, float sway, float stands) {
-    ivec2 cell = ivec2(floor(at * patches_a_metre));
+    ivec2 cell = ivec2(floor(at * patches_per_metre));
     uint drawn = hash3(stock.y, cell.x, cell.y);
     vec2 message = message_at((vec2(cell) + 0.5) * patch_side);
     return Patch(cell, int(drawn % uint(stock.x)), int(drawn >> UPPER_HALF) & (HEADINGS - 1), vec3(sway * message, stands));
@@ -107,7 +107,7 @@ float elevation_seen(float slope, float leaf_area) {
     int low = 0;
     for (int next = 1; next < SLOPES - 1; next++)
         low += int(slope > slopes[next]);
-    vec3 of = vec3(slope, slopes[low], slopes[low + 1]), at = low < HIDES ? depth_met(max(leaf_area, THINNEST) / of) : log(of);
+    vec3 of = vec3(slope, slopes[low], slopes[low + 1]), at = low < HIDES ? mean_depth_met(max(leaf_area, THINNEST) / of) : log(of);
     return float(low) + clamp((at.x - at.y) / (at.z - at.y), 0.0, 1.0);
 }
 
@@ -116,13 +116,13 @@ Reading reading(Patch own, Sight sight, vec2 at, float tall, float elevation) {
     int low = min(int(elevation), SLOPES - 2);
     vec2 turn = turned(sight.heading, own.side);
     vec2 leans = sheared(own.blown, sight.on_level, tall), beside = vec2(-sight.heading.y, sight.heading.x);
-    vec2 here = leant_back((at - own.blown.xy) * patches_a_metre - vec2(own.cell) - 0.5, sight.heading, leans);
+    vec2 here = leant_back((at - own.blown.xy) * patches_per_metre - vec2(own.cell) - 0.5, sight.heading, leans);
     // From the side blades are drawn out along the line of sight as they are seen, and not as at the slopes of the images.
     vec2 longer = max(sight.on_level, FLATTEST) / vec2(slopes[low], slopes[low + 1]) - 1.0;
     longer *= dot(here, sight.heading) * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, sight.on_level));
     // From a low angle a pixel is a long stripe of ground, but blades are drawn out as far: what counts is how broad it is
     // across them.
-    vec2 dx = leant_back(sight.dx, sight.heading, leans) * patches_a_metre, dy = leant_back(sight.dy, sight.heading, leans) * patches_a_metre;
+    vec2 dx = leant_back(sight.dx, sight.heading, leans) * patches_per_metre, dy = leant_back(sight.dy, sight.heading, leans) * patches_per_metre;
     float across = max(max(abs(dot(dx, beside)), abs(dot(dy, beside))), THINNEST_PIXEL);
     // Over a crest a line of sight meets plants one by one, as on level ground.
     float finer = SHARP * clamp(sight.slope / max(sight.on_level, TINY), LONGEST.x, LONGEST.y);

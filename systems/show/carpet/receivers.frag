@@ -13,7 +13,7 @@ void main() {
     // Rows wrap round: each texel is a cell of the window. What is added keeps the remainder from being that of a negative.
     ivec2 cell = low + (at - low + PERIODS * around.z) % around.z;
     vec2 place = (vec2(cell) + 0.5) * patch_side;
-    ByKind grows = grows_at(place);
+    ByKind grows = density_at(place);
     int kind = 0;
     for (int other = 1; other < KINDS; other++)
         kind = OF(grows, other) > OF(grows, kind) ? other : kind;

@@ -44,7 +44,7 @@ void cut_down(int kind, inout Texel texel, inout Light light, View view, float u
     texel.covers = mix(min(view.stubble * uneven, 1.0), texel.covers, part);
     texel.place *= part;
     texel.height *= part;
-    light = mown_to(view.left, light, kind, view.area);
+    light = light_when_cut(view.left, light, kind, view.area);
 }
 
 // Where a line of sight of this slope comes through the carpet so high over the ground [m].
@@ -62,8 +62,8 @@ vec4 lamps_seen(Sight sight) {
     vec2 bend = bending(kind, message_at(place.xz));
     there.y -= sight.share * tall;
     vec3 turned = turned_to(kind, leaning(bend), vec3(sight.heading, (there.y - eye.y) / max(distance(there.xz, eye.xz), TINY)).xzy);
-    vec4 sent = lamps_at(there, Sender(kind, bend, lie_at(there.xz).normal, 1.0));
-    sent.rgb *= turned * turned * (1.0 - haze_at(place));
+    vec4 sent = lamps_at(there, Reflector(kind, bend, lie_at(there.xz).normal, 1.0));
+    sent.rgb *= turned * turned * (1.0 - haze_opacity(place));
     return sent;
 }
 
@@ -78,13 +78,13 @@ vec4 kind_seen(int kind, Patch own, Reading read, Sight sight, float grain, View
     float usual_height = texel.height / (1.0 + texel.taller) * OF(tops, kind);
     taller = texel.taller;
     place_leaves(kind, texel, view);
-    if (any_casters())
-        light = shaded(light, past_casters(met_at(texel.height * OF(crown, kind), sight.slope)), 1.0);
+    if (has_casters())
+        light = shadowed(light, casters_visibility(met_at(texel.height * OF(crown, kind), sight.slope)), 1.0);
     if (any_lamps())
         light = with_lamps(light, view.lamps);
-    float bent = max(1.0 - (1.0 - texel.covers) * comes_through(view.bent.x), 0.0);
+    float bent = max(1.0 - (1.0 - texel.covers) * transmittance(view.bent.x), 0.0);
 #ifdef HEADS
-    float ripe = figure_of(riper, kind);
+    float ripe = figure_at(riper, kind);
     texel.place += ripe * (ripe > 0.0 ? 1.0 - texel.place : texel.place);
     // What stands scattered among others has what is met of it where it stands, and nothing between.
     texel.covers = OF(bears, kind) > 0.0 ? texel.covers / max(texel.usual, LEAST_USUAL) : bent;
@@ -93,8 +93,8 @@ vec4 kind_seen(int kind, Patch own, Reading read, Sight sight, float grain, View
 #endif
     if (anything_is_cut() && is_mown(view.left))
         cut_down(kind, texel, light, view, usual_height);
-    vec3 pigment = pigment_at(kind, texel.place, texel.place * texel.eyed) * view.fresh * grain_at(kind, doubled(sight.heading) * texel.twice);
-    return texel.covers * vec4(shown_of(shade(leaf_at(pigment, texel.height), light)), 1.0);
+    vec3 pigment = pigment_at(kind, texel.place, texel.place * texel.eyed) * view.fresh * azimuth_tint(kind, doubled_angle(sight.heading) * texel.twice);
+    return texel.covers * vec4(tone_mapped(shade(leaf_surface(pigment, texel.height), light)), 1.0);
 }
 
 // What all kinds show together, premultiplied, and how much taller it is than the mean.
@@ -103,7 +103,7 @@ vec4 kinds_seen(Patch own, Reading read, Sight sight, float grain, View view, ou
     float higher = 0.0, one;
     int kind = next_kind(met, LEAST_MET, 0);
     if (kind < KINDS) do {
-        float part = figure_of(met, kind);
+        float part = figure_at(met, kind);
         sum += part * kind_seen(kind, own, read, sight, grain, view, one);
         higher += part * one;
         kind = next_kind(met, LEAST_MET, kind + 1);

@@ -32,7 +32,7 @@ float deepest(float slope, float curvature, float tall) {
 
 // Height of a pixel at a place [m].
 float pixel_height(vec3 place) {
-    return distance(place, eye) / pixels_a_metre();
+    return distance(place, eye) / pixels_per_metre();
 }
 
 // Degree to which ground of this curvature counts as a crest, in [0, 1].

@@ -20,14 +20,14 @@ struct Texel {
 
 // How much more grass hides, seen at a slope between those of two images, than the mean of both. Both show which optical depth it has
 // there, and its square goes by that of a way through the grass: so it does where leaves lie in all directions as the faces of an
-// ellipsoid (Campbell, as sun_way has it). What is seen straight from above is taken for the steepest image.
+// ellipsoid (Campbell, as sun_extinction has it). What is seen straight from above is taken for the steepest image.
 float filled(float flatter, float steeper, int elevation, float slope, float mean) {
     vec2 depth = log(max(1.0 - vec2(flatter, steeper), HIDES_ALL));
     vec3 way = 1.0 / vec3(slopes[elevation], slopes[elevation + 1], clamp(slope, FLATTEST, slopes[SLOPES - 1]));
     way *= way;
     depth *= depth;
     float square = max(mix(depth.y, depth.x, (way.z - way.y) / (way.x - way.y)), 0.0);  // heads may hide more from above
-    return (1.0 - comes_through(sqrt(square))) / max(mean, LEAST_MEAN);
+    return (1.0 - transmittance(sqrt(square))) / max(mean, LEAST_MEAN);
 }
 
 #ifdef HEADS

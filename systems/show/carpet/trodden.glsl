@@ -19,7 +19,7 @@ Canopy trodden(Canopy canopy, ByKind met, vec3 place, float slope, float on_leve
     Lie lies = lie_at(there.xz);
     Canopy with = canopy_lit(met, slope, on_level, there, lies, messages);
     Canopy without = canopy_lit(met, slope, on_level, there, lies, blown);
-    canopy.light = plus(plus(canopy.light, veiled(with.light, place), 1.0), veiled(without.light, place), -1.0);
+    canopy.light = light_sum(light_sum(canopy.light, hazed(with.light, place), 1.0), hazed(without.light, place), -1.0);
     canopy.light.sun = max(canopy.light.sun, 0.0);
     canopy.light.sky = max(canopy.light.sky, 0.0);
     canopy.bent += with.bent - without.bent;

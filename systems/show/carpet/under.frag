@@ -21,5 +21,5 @@ void main() {
         discard;
     gl_FragDepth = gl_FragCoord.z + depth_beyond(moved_along(mesh_place, way), mesh_place);
 #endif
-    pixel = vec4(shown_of(color), 1.0);
+    pixel = vec4(tone_mapped(color), 1.0);
 }

@@ -42,7 +42,7 @@ float sink_depth(Laid laid, vec3 place) {
 // some do not meet tips alone.
 float visible_depth(float sunk, float leaf_area) {
     float flat_way = max(leaf_area, THINNEST) / FLAT_SIGHT;
-    return mix(sunk, max(sunk, depth_met(flat_way)), comes_through(flat_way));
+    return mix(sunk, max(sunk, mean_depth_met(flat_way)), transmittance(flat_way));
 }
 
 // Radiance of the grass that is seen there.
@@ -50,14 +50,14 @@ vec3 grass_seen(Laid laid, ByKind met, vec3 place, float sunk) {
     Lie lies = lie_at(place.xz);
     vec3 sum = vec3(0.0);
     for (int kind = 0; kind < KINDS; kind++) {
-        Light light = light_on(kind, vec2(0.0), place, lies, laid.grows);
+        Light light = leaf_light(kind, vec2(0.0), place, lies, laid.grows);
         float high = ON_TOP - SHADED * visible_depth(sunk, laid.leaf_area);
         if (anything_is_cut()) {
-            light = mown_to(laid.left, light, kind, areas(laid.grows));
+            light = light_when_cut(laid.left, light, kind, leaf_areas(laid.grows));
             high *= min(laid.left / max(OF(crown, kind), LOWEST_GRASS), 1.0);
         }
         vec3 pigment = mix(pigment_at(kind, kinds[kind].bloom), pigment_at(kind, 0.0), 1.0 - high);
-        sum += OF(met, kind) * shade(leaf_at(pigment * stretch(lies.slow), high), light);
+        sum += OF(met, kind) * shade(leaf_surface(pigment * dryness_tint(lies.slow), high), light);
     }
     return sum;
 }
@@ -87,16 +87,16 @@ void main() {
     vec3 ground = seen_behind(place, laid.ground, from_above);
     Lie lies = lie_at(ground.xz);
     ByKind grows = grown_at(ground.xz, laid);
-    float leaves = weighed(areas(grows), leaves_left(laid.left));
-    vec3 litter = lying_pigment(textureLod(repeating, vec2(0.5), COARSEST).gb, understorey_of(lies, grows));
+    float leaves = weighted_sum(leaf_areas(grows), leaf_area_left(laid.left));
+    vec3 litter = litter_pigment(textureLod(repeating, vec2(0.5), COARSEST).gb, understorey_pigment(lies, grows));
 #ifndef PLAIN
     if (earth_side != 0.0)
-        litter = earth_pigment(textureLod(earth, on_earth(ground.xz), COARSEST));
+        litter = earth_pigment(textureLod(earth, earth_uv(ground.xz), COARSEST));
 #endif
-    color = soil_light(ground, lies, grows, leaves) * litter * litter;
+    color = soil_radiance(ground, lies, grows, leaves) * litter * litter;
     // Where grass is sparse or missing, the layer shows the soil.
     color = mix(color, color * (1.0 - total(met)) + grass_seen(laid, met, place, sunk), laid.share);
-    color = mix(color, haze_light(place), haze_at(place));
+    color = mix(color, haze_radiance(place), haze_opacity(place));
     gl_Position = clip * vec4(place, 1.0);
-    gl_Position.z += farther_by(APART) * gl_Position.w;
+    gl_Position.z += depth_offset(APART) * gl_Position.w;
 }

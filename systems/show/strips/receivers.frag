@@ -15,6 +15,6 @@ void main() {
     }
     Placement placement = placement_of(of_ring.y + number / (KINDS * count * edges));
     int code = int(placement.code), turn = code % 4, along = code / RUNS_ALONG % 2, own = (along + turn) % 2;
-    int k = number / (count * edges) % KINDS, plane = stacked(number / edges % count, count, own, along, turn);
+    int k = number / (count * edges) % KINDS, plane = stack_place(number / edges % count, count, own, along, turn);
     told = told_at(edge_foot(placement.cell, turn, own, plane, count, number % edges, edges - 1, sizes[k].x), k, number);
 }

@@ -32,7 +32,7 @@ const float SUNKEN = 0.3;  // height of grass from which on strips begin to show
 
 // What is left of a texel where density has edges.
 float grown(float covers, float rank, float level) {
-    float dense = grows_at(roots.xy, int(roots.w + 0.5));
+    float dense = density_at(roots.xy, int(roots.w + 0.5));
     return dense > PRESENT ? thinned(covers, dense, rank, 1.0 / span_of(dense, rise.a), level) : 0.0;
 }
 #else
@@ -51,10 +51,10 @@ float left_of(float top) {
 #endif
 
 void main() {
-    float page = told_beside(lit).x, level = told_beside(lit).y, boosts = told_beside(lit).z;
+    float page = packed_extra(lit).x, level = packed_extra(lit).y, boosts = packed_extra(lit).z;
     vec4 texel = textureLod(atlas, vec3(on.xy, page), level);
 #ifdef HEADS
-    boosts = mix(boosts, heads, of_heads(texel.r / max(texel.a, LEAST_PAINT)));
+    boosts = mix(boosts, heads, head_part(texel.r / max(texel.a, LEAST_PAINT)));
 #endif
     float painted = min(texel.a * boosts, 1.0), covered = foot.a * painted;
     if (covered < FAINT) {
@@ -72,26 +72,26 @@ void main() {
 #else
     vec3 pigment = (foot.rgb + rise.rgb * mean.r) * (1.0 + grain_cos.rgb * twice.x + grain_sin.rgb * twice.y);
 #endif
-    Light light = unbundled(lit);
+    Light light = unpack_light(lit);
 #ifdef SHADED
-    float seen = past_body(sqrt(max(shadow.x + on.z * (shadow.y + on.z * shadow.z), 0.0)), shadow.w);
-    if (any_casters())
-        seen *= past_casters(spot.xyz);
-    light = shaded(light, seen, spot.w);
+    float seen = body_visibility(sqrt(max(shadow.x + on.z * (shadow.y + on.z * shadow.z), 0.0)), shadow.w);
+    if (has_casters())
+        seen *= casters_visibility(spot.xyz);
+    light = shadowed(light, seen, spot.w);
 #elif defined(TREES)
-    light = shaded(light, past_trees_before(spot, past.x), past.y);
+    light = shadowed(light, trees_visibility_before(spot, past.x), past.y);
 #endif
 #ifdef CUT
     if (cut.w > 0.5) {
-        float top = left_at(roots.xy);
-        light = mown_to(top, light, int(cut.x), areas(grows_at(roots.xy)));
+        float top = cut_height_at(roots.xy);
+        light = light_when_cut(top, light, int(cut.x), leaf_areas(density_at(roots.xy)));
         covered *= left_of(top);
     }
 #endif
 #ifdef DEEP
     vec3 grass = vec3(0.0);
 #else
-    vec3 grass = shown_of(shade(leaf_at(pigment, on.w), light));
+    vec3 grass = tone_mapped(shade(leaf_surface(pigment, on.w), light));
 #endif
 #ifdef THIN
     float rank = textureLod(ranks, vec3(on.xy, page), level).r / max(texel.a, LEAST_PAINT);

@@ -73,7 +73,7 @@ Column column_of(int number) {
     // Strips of several kinds share a plane: each kind comes to lie in front as often as behind.
     column.form = (on_patch / fine.x + stack) % strips_per_plane;
     column.kind = column.form % KINDS;
-    column.plane = stacked(stack, count, column.own, along, column.turn);
+    column.plane = stack_place(stack, count, column.own, along, column.turn);
     column.receiver = int(column.placement.receiver) + (column.kind * count + stack) * (fine.x + 1) + column.number;
     int first_one = pictures[column.ring * FORMS + column.form];
     column.picture = first_one + (int(column.placement.model) * 2 + column.own) * count + column.plane;
@@ -93,7 +93,7 @@ Edge edge_of(Column column, int side, vec2 at, vec2 way) {
     float height = sizes[column.form].y * column.placement.growth;
     Edge edge;
     edge.rooted = vec3(at.x, told.z, at.y);
-    edge.foot = put_nearer(edge.rooted, way, count);
+    edge.foot = pulled_nearer(edge.rooted, way, count);
     edge.bend = bending(column.kind, told.xy);
     edge.top = posture(float(column.form) * posture_variants, edge.bend, 1.0).place * height;
     edge.back = laid_back(way, edge.foot, edge.top, height, count);
@@ -167,12 +167,12 @@ vec2 corner_of(Column column, vec4 extent, vec2 pixel, float level, vec2 side, f
 // What all of a column's fragments have in common of its pigment: what faces the eye is seen most. Where grass grows so densely,
 // they are lit and dyed as less deep than they are.
 void dye(Column column, vec2 run, vec3 middle, vec3 top, float lying, vec2 slow, ByKind grows) {
-    vec3 mean_face = faced(column.kind, run, middle, top), dry = stretch(slow) * mean_face;
-    float aside = 1.0 - smoothstep(0.0, 1.0, steep_at(middle)), turned = column.turn % 2 == 0 ? 1.0 : -1.0;
+    vec3 mean_face = facing_tint(column.kind, run, middle, top), dry = dryness_tint(slow) * mean_face;
+    float aside = 1.0 - smoothstep(0.0, 1.0, view_sine(middle)), turned = column.turn % 2 == 0 ? 1.0 : -1.0;
     float arched = 1.0 - ARCHED * inversesqrt(float(stacks[column.ring].y)) * lying * aside;
     if (OF(bears, column.kind) > 0.5)  // heads are on top, however they lie
         arched = 1.0;
-    float deep = less_deep(run, middle, stacks[column.ring].z, grows, OF(crown, column.kind) * (1.0 - lying));
+    float deep = depth_correction(run, middle, stacks[column.ring].z, grows, OF(crown, column.kind) * (1.0 - lying));
     on.w = mix(1.0, on.w, deep);
     rise.rgb = (pigment_at(column.kind, 1.0) - pigment_at(column.kind, 0.0)) * dry * arched;
     foot.rgb = pigment_at(column.kind, 0.0) * dry + rise.rgb * (1.0 - deep);
@@ -195,7 +195,7 @@ int shading(vec3 a, vec3 b) {
     float least = UNSHADED;
     shadow = vec4(least, 0.0, 0.0, 1.0);
     for (int body = 0; body < BODIES && bodies[body].radius > 0.0; body++) {
-        vec4 from = ray_by(body, a), to = ray_by(body, b);
+        vec4 from = ray_offset(body, a), to = ray_offset(body, b);
         vec3 way = to.xyz - from.xyz, near = vec3(dot(from.xyz, from.xyz), 2.0 * dot(from.xyz, way), dot(way, way));
         float at = clamp(-0.5 * near.y / max(near.z, LEAST_LENGTH), 0.0, 1.0), nearness = near.x + at * (near.y + at * near.z);
         if (nearness < least) {
@@ -212,8 +212,8 @@ int shading(vec3 a, vec3 b) {
 // Where maps of trees tell of a place on a column that is rooted so, and how much that counts; of lights, the sun's part.
 void tell_shade(vec3 place, vec3 rooted, float suns) {
     float counts;
-    spot = on_ray(place, rooted, counts).xy;
-    past = vec2(counts * stands_before(on_ray(rooted, rooted, counts)), suns);
+    spot = on_sun_map(place, rooted, counts).xy;
+    past = vec2(counts * part_before(on_sun_map(rooted, rooted, counts)), suns);
 }
 #endif
 
@@ -223,7 +223,7 @@ const float UNCUT = 0.999;  // grass that is left to stand so high, of the talle
 // What pixels of a column must know where anything is cut within so many metres of it.
 vec4 cut_about(Column column, vec2 rooted, vec3 middle, float pixels, float within) {
     float spacing = patch_side / float(stacks[column.ring].z), far = max(distance(middle.xz, eye.xz), 0.5 * patch_side);
-    bool is_cut = anything_is_cut() && left_about(rooted, within) < UNCUT * tallest_grass;
+    bool is_cut = anything_is_cut() && cut_height_about(rooted, within) < UNCUT * tallest_grass;
     return vec4(float(column.kind), pixels, CROSSED * spacing * abs(eye.y - middle.y) / far, is_cut ? 1.0 : 0.0);
 }
 #endif
@@ -279,9 +279,9 @@ void main() {
     float pixels = pixels_at(middle), sections = float(fine.y), tall = sizes[column.form].y;
     vec2 side = picture.zw * page_size / vec2(float(fine.x), 1.0);
     float texels = side.y / (tall * apart_at(middle, run, top + vec3(back.x, 0.0, back.y)));
-    float boosts = boosted(k, run, middle, top, back), level = log2(texels) - SHARPER;
+    float boosts = coverage_factor(k, run, middle, top, back), level = log2(texels) - SHARPER;
 #ifdef HEADS
-    heads = heads_boosted(k, run, middle, top, back);
+    heads = head_coverage_factor(k, run, middle, top, back);
     level += log2(heads / boosts);  // what covers more than it is painted has to spread
 #endif
     vec2 pixel = 1.0 / (pixels * vec2(distance(a.foot.xz, b.foot.xz), tall));
@@ -295,30 +295,30 @@ void main() {
     on = vec4(at, corner.x, point.w);
 
     Lie lies = lie_at(rooted.xz);
-    ByKind grows = grows_at(rooted.xz);
-    float seen = sun_past(rooted, lies.past);
+    ByKind grows = density_at(rooted.xz);
+    float seen = distant_visibility(rooted, lies.visibility);
 #ifdef SHADED
-    seen *= past_bodies(rooted, shading(a.rooted, b.rooted));
+    seen *= bodies_visibility(rooted, shading(a.rooted, b.rooted));
 #endif
     roots = vec4(mix(a.rooted.xz, b.rooted.xz, corner.x), corner.y * tall, float(k));
 #ifdef CUT
     cut = cut_about(column, rooted.xz, middle, pixels, 2.0 * distance(a.foot.xz, b.foot.xz));
 #endif
-    Light light = light_on(k, bend, rooted, lies, grows, seen);
+    Light light = leaf_light(k, bend, rooted, lies, grows, seen);
     float suns = 1.0;
     if (any_lamps())
-        light = add_lamps(light, rooted, Sender(k, bend, lies.normal, 1.0), suns);
-    light = veiled(light, middle);
+        light = add_lamps(light, rooted, Reflector(k, bend, lies.normal, 1.0), suns);
+    light = hazed(light, middle);
 #ifdef SHADED
     spot = vec4(point.xyz, suns);
 #elif defined(TREES)
     tell_shade(point.xyz, rooted, suns);
 #endif
-    lit = bundled(light, vec3(extent.w, level, boosts));
+    lit = pack_light(light, vec3(extent.w, level, boosts));
     dye(column, run, middle, top, 1.0 - lodged(bend), lies.slow, grows);
     foot.a = column.placement.cover;
 #ifdef DEEP
-    number = number_at(rooted.xz);
+    number = place_number(rooted.xz);
 #endif
 #ifdef THIN
     thin(column, vec2(a.dense, b.dense), corner.x, 0.5 * texels);

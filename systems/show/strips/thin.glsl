@@ -20,6 +20,6 @@ const float VARIANCE = 1.0 / 12.0;  // of ranks, which lie evenly between 0 and 
 float thinned(float covers, float dense, float rank, float sharp, float level) {
     float one = covers * clamp((dense - rank) * sharp + 0.5, 0.0, 1.0), depth = -log(1.0 - min(covers, MOST_HIDDEN));
     float some = dense + 0.5 * dense * (1.0 - dense) / VARIANCE * (0.5 - VARIANCE * depth - rank);
-    float of_many = 1.0 - comes_through(depth * clamp(some, 0.0, 1.0));
+    float of_many = 1.0 - transmittance(depth * clamp(some, 0.0, 1.0));
     return mix(one, of_many, clamp((level - MANY.x) / (MANY.y - MANY.x), 0.0, 1.0));
 }

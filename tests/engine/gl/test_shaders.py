@@ -236,12 +236,12 @@ def test_what_comes_through_a_medium_is_worked_out_in_one_place() -> None:
 
 def test_no_table_is_asked_for_a_kind_that_may_be_a_face() -> None:
     """NVIDIA's compiler refuses `kinds[-1]` even in a branch that nothing takes; Mesa's and glslang do not."""
-    asked = re.compile(r"sender\.kind(?! [!=]= FACE)")
+    asked = re.compile(r"reflector\.kind(?! [!=]= FACE)")
     found = [
         line.strip()
         for name in SHADERS
         for line in (ROOT / name).read_text("utf-8").splitlines()
-        if asked.search(line.replace("listed_kind(sender.kind)", ""))
+        if asked.search(line.replace("kind_index(reflector.kind)", ""))
     ]
     assert found == []
 

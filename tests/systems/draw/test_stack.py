@@ -21,10 +21,10 @@ in vec4 row;  // quarter turns and axis; place in the stack; edge; kind
 out vec4 told;
 void main() {
     int turn = int(row.x) %% 4, along = int(row.x) / 4, own = (along + turn) %% 2;
-    int plane = stacked(int(row.y), %(count)d, own, along, turn);
+    int plane = stack_place(int(row.y), %(count)d, own, along, turn);
     float margin = row.w > 0.5 ? %(second)r : %(first)r;
     vec2 foot = edge_foot(vec2(%(cell)s), turn, own, plane, %(count)d, int(row.z), %(columns)d, margin);
-    told = vec4(foot, float(plane), falls(own, along, turn) ? 1.0 : 0.0);
+    told = vec4(foot, float(plane), is_reversed(own, along, turn) ? 1.0 : 0.0);
 }"""
 
 

@@ -30,7 +30,7 @@ def test_brighter_light_never_looks_darker_and_never_overflows(levels: list[floa
 SHOWN = """#include "lib/tone.glsl"
 in vec3 row;
 out vec3 told;
-void main() { told = shown_of(row); }"""
+void main() { told = tone_mapped(row); }"""
 
 
 def test_the_graphics_card_shows_radiance_by_the_same_curve(probe: Callable[..., NDArray[np.float32]]) -> None:

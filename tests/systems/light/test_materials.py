@@ -72,7 +72,7 @@ def met(kind: GrassKind, growth: Growth, elevation: float, height: float, densit
 SEEN = """#include "lib/canopy.glsl"
 in vec4 row;
 out float told;
-void main() { told = comes_through(sun_way(0, row.x) * leaves_above(row.y, vec2(0.0, row.z))); }"""
+void main() { told = transmittance(sun_extinction(0, row.x) * leaf_area_above(row.y, vec2(0.0, row.z))); }"""
 
 
 def closed_form(
@@ -153,7 +153,7 @@ STRAIGHT = """#define PIXELS_ASK
 in vec4 row;
 out vec4 told;
 void main() {
-    Response sent = leaf_response(0, vec2(row.w, 0.0), eye + 7.0 * row.xyz, row.xyz, max(row.y, 0.0));
+    Reflectance sent = leaf_reflectance(0, vec2(row.w, 0.0), eye + 7.0 * row.xyz, row.xyz, max(row.y, 0.0));
     told = vec4(sent.sun.r, sent.sky.r, sent.gloss, 1.0);
 }"""
 
@@ -173,7 +173,7 @@ BENT = """#include "lib/surface.glsl"
 in vec4 row;
 out vec4 told;
 void main() {
-    Response sent = leaf_response(0, row.xy, eye + vec3(0.0, -1.0, -7.0), vec3(0.0, 1.0, 0.0), 1.0);
+    Reflectance sent = leaf_reflectance(0, row.xy, eye + vec3(0.0, -1.0, -7.0), vec3(0.0, 1.0, 0.0), 1.0);
     told = vec4(sent.sun.r, sent.sky.r, sent.gloss, 1.0);
 }"""
 

@@ -29,7 +29,7 @@ ON_PAGE = """\
 in vec3 row;
 out vec4 told;
 void main() {
-    told = on_page(int(row.x), row.yz, 0.0);
+    told = page_texel(int(row.x), row.yz, 0.0);
 }
 """
 
