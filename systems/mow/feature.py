@@ -1,4 +1,4 @@
-"""Mowing: what a game has cut, sown and cleared of a prairie."""
+"""The feature of mowing: what a game has cut, sown and cleared."""
 
 from collections.abc import Mapping
 from typing import Self
@@ -15,7 +15,7 @@ from .sown import carry_over
 
 
 class Mowing(Feature):
-    """How high grass is left to stand, and where it has been sown and cleared."""
+    """Feature: the map of cut heights, and the changed densities."""
 
     samplers = ("plots",)
 
@@ -24,23 +24,23 @@ class Mowing(Feature):
 
     @classmethod
     def begin(cls, start: Start, /) -> Self:
-        """Return it with nothing cut."""
+        """Return the feature with nothing cut."""
         return cls(Mown(start.grown.ground.terrain))
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
-        """Leave cut, sown and cleared what was so at a place."""
+        """Carry over what is cut, sown and cleared to another terrain, or other kinds and painted densities."""
         del time
         self.mown.change(grown.ground.terrain)
         if grown.ground.density is not before.ground.density:
-            then = list(before.scene.grass)
-            was = [then.index(name) if name in then else None for name in grown.scene.grass]
-            carry_over(before.ground.density, grown.ground.density, was)
+            names = list(before.scene.grass)
+            old_kinds = [names.index(name) if name in names else None for name in grown.scene.grass]
+            carry_over(before.ground.density, grown.ground.density, old_kinds)
 
     def look(self, outlook: Outlook, /) -> None:
-        """Note what is cut."""
+        """Note the map of cut heights in the outlook."""
         outlook.note(self.mown)
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> PlotsPart:
-        """Return the maps of it."""
+        """Return the part that uploads both maps."""
         del block
         return PlotsPart(ctx, units["plots"], self.mown)

@@ -105,13 +105,13 @@ def test_f4_only_plots_that_were_touched_are_sent(
     stage.shot(prairie, aim)
     assert prairie.painter is not None
     part = prairie.painter.part(PlotsPart)
-    write = PlotsPart._write  # noqa: SLF001 - every rectangle goes through it
+    write = PlotsPart._write_texels  # noqa: SLF001 - every rectangle goes through it
 
     def noted(part: PlotsPart, texels: Bytes, level: int, viewport: tuple[int, int, int, int]) -> None:
         sent.append((level, viewport))
         write(part, texels, level, viewport)
 
-    monkeypatch.setattr(PlotsPart, "_write", noted)
+    monkeypatch.setattr(PlotsPart, "_write_texels", noted)
     prairie.clear(Footprint(radius=0.5), pose=Pose(6.0, 6.0))
     stage.shot(prairie, aim)
     assert [(level, across * down) for level, (_, _, across, down) in sent] == [

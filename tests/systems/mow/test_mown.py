@@ -13,7 +13,7 @@ from tallgrass.components.pose import HERE, Pose
 from tallgrass.engine.terrain.plots import CELL, ends_of
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
-from tallgrass.systems.mow.area import LEAST, Area, beside
+from tallgrass.systems.mow.area import LEAST_RADIUS, Area, signed_distances
 from tallgrass.systems.mow.mown import Mown
 from tallgrass.testing import LITTLE, little_prairie, watch
 
@@ -31,7 +31,7 @@ def left(mown: Mown, x: float, z: float) -> float:
 
 
 def inside(area: Area, pose: Pose, at: Floats, *, least: float = 0.0) -> list[bool]:
-    under: list[bool] = (beside(area, pose, at, least=least) <= 0.0).tolist()
+    under: list[bool] = (signed_distances(area, pose, at, least=least) <= 0.0).tolist()
     return under
 
 
@@ -82,7 +82,7 @@ def test_f4_the_map_says_at_each_place_what_the_strokes_over_it_say(
     for grows, height, x, radius in strokes:
         footprint, pose = Footprint(radius=radius), Pose(x, 0.3)
         (mown.grow if grows else mown.cut)(footprint, height, pose)
-        if inside(footprint, pose, at, least=LEAST * CELL)[0]:
+        if inside(footprint, pose, at, least=LEAST_RADIUS * CELL)[0]:
             due = (max if grows else min)(due, np.float32(height))
     assert left(mown, 1.1, 0.3) == due
 

@@ -18,7 +18,7 @@ from tallgrass.engine.terrain.plots import CELL, CELLS, SIDE, Plots, middles
 from tallgrass.engine.terrain.record import Density
 from tallgrass.engine.terrain.sample import density_at, density_on_lines, own_density_at, painted_at
 from tallgrass.systems.frame.block import FRAME
-from tallgrass.systems.mow.area import Area, beside, stroke
+from tallgrass.systems.mow.area import Area, signed_distances, stroke
 from tallgrass.systems.mow.card import ROOM, WIDTH
 from tallgrass.systems.mow.sown import carry_over, clear, sow
 
@@ -71,7 +71,7 @@ def by_hand(area: Area, pose: Pose, place: Floats) -> Floats:
 @pytest.mark.parametrize("area", [BOX, BEND])
 def test_f4_how_far_off_an_area_is_a_road_bends_and_a_house_has_corners(area: Area) -> None:
     pose = Pose(2.0, -3.0, 0.7)
-    np.testing.assert_allclose(beside(area, pose, PLACES), by_hand(area, pose, PLACES), atol=0.04)
+    np.testing.assert_allclose(signed_distances(area, pose, PLACES), by_hand(area, pose, PLACES), atol=0.04)
 
 
 @settings(deadline=None, max_examples=15)
@@ -84,7 +84,7 @@ def test_f4_a_stroke_is_told_of_each_cell_how_far_off_it_is(area: Footprint, pos
     plots = Plots((100.0, 100.0), np.dtype(np.float32))
     stroke(plots, area, pose, lambda before, away: np.where(away <= beyond, away, before), nothing, beyond=beyond)
     for part in plots.parts(np.full(2, -35.0, np.float32), np.full(2, 35.0, np.float32)):
-        away = beside(area, pose, middles(part).reshape(-1, 2)).reshape(part.rows, part.columns)
+        away = signed_distances(area, pose, middles(part).reshape(-1, 2)).reshape(part.rows, part.columns)
         held = plots.held(part)
         told, away = (np.maximum(each, -CELL) for each in (nothing(part) if held is None else held, away))
         np.testing.assert_allclose(told[away < beyond - 1e-4], away[away < beyond - 1e-4], atol=1e-4)
@@ -97,7 +97,7 @@ def test_f4_what_is_cleared_is_bare_and_thins_out_over_its_verge(area: Area, pos
     density = meadow()
     before = density_at(density, PLACES)
     clear(density, area, pose, soft=soft)
-    after, away = density_at(density, PLACES), beside(area, pose, PLACES)
+    after, away = density_at(density, PLACES), signed_distances(area, pose, PLACES)
     due = np.clip(away / max(soft, 1e-3), 0.0, 1.0) * before
     assert (after[:, away < -1.5 * CELL] == 0.0).all()
     np.testing.assert_allclose(after[:, away > soft + 1.5 * CELL], before[:, away > soft + 1.5 * CELL], atol=0.02)
@@ -187,7 +187,7 @@ def test_f4_what_was_sown_stays_where_all_else_is_painted_anew() -> None:
     painted = painted_at(other, PLACES)
     carry_over(density, other, [1, 0, 2])
     on = (np.abs(PLACES) < (29.0, 19.0)).all(axis=1)
-    away = beside(BEND, HERE, PLACES)
+    away = signed_distances(BEND, HERE, PLACES)
     found = density_at(other, PLACES)
     assert (found[:, on & (away < -1.5 * CELL)] == 0.0).all()
     free = on & (away > 1.0 + 1.5 * CELL)
