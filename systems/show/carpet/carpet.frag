@@ -81,7 +81,7 @@ void evaluate_soil() {
 #endif
     sunlit = soil.sunlit;
     skylit = soil.skylit;
-    soil_extinction = soil.way;
+    soil_extinction = soil.extinction;
     soil_through = soil.through;
 }
 #endif

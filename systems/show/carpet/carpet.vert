@@ -167,7 +167,7 @@ void light_soil(vec3 ground, Laid laid) {
     soil_seen = soil.seen;
     sunlit = soil.sunlit;
     skylit = soil.skylit;
-    soil_extinction = soil.way;
+    soil_extinction = soil.extinction;
     soil_through = soil.through;
     lush = understorey_pigment(lies, grows);
 #endif

@@ -6,7 +6,7 @@ struct Soil {
     vec3 seen;  // radiance, without haze
     vec3 sunlit;
     vec3 skylit;
-    float way;      // how many leaves the sun's light meets, of those seen from the side
+    float extinction;  // of sunlight: optical depth for each 1 of leaf area seen from the side
     float through;  // how much of the sun's light comes through the grass
 };
 
@@ -24,5 +24,5 @@ Soil soil_lit(vec3 place, Lie lies, ByKind grows, float clear) {
         light.sky = vec3(0.0);
         sky = both - shade(surface, light);
     }
-    return Soil(seen * clear, (both - sky) * clear, sky * clear, light.way, transmittance(light.way * leaves));
+    return Soil(seen * clear, (both - sky) * clear, sky * clear, light.extinction, transmittance(light.extinction * leaves));
 }

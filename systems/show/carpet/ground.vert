@@ -28,7 +28,7 @@ void main() {
     soil_seen = ground.seen;
     sunlit = ground.sunlit;
     skylit = ground.skylit;
-    soil_extinction = ground.way;
+    soil_extinction = ground.extinction;
     soil_through = ground.through;
     lush = understorey_pigment(lies, grows);
 #endif
