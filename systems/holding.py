@@ -12,7 +12,7 @@ from ..engine.gl.background import BackgroundCompiler, compiles_in_background
 from ..engine.gl.stream import release_all
 from .features import UNITS
 from .frame.block import FrameBlock
-from .frame.feature import Feature, Part, doing
+from .frame.feature import Feature, Part, overriding
 from .receive.received import ROW, Received
 from .show.representation import Canvas, RepresentationPainter
 from .site import Site
@@ -29,8 +29,8 @@ AHEAD = True
 """Whether a live prairie makes all programs before they are needed, so that no later frame waits for one."""
 
 IN_A_FRAME = (
-    "settle", "defines", "send", "use", "prepare", "breathe", "draw_solid", "look_up", "draw_behind", "draw_soft",
-    "soft_left",
+    "settle", "defines", "send", "use", "prepare", "take_wind", "draw_solid", "prepare_behind",
+    "draw_behind", "draw_soft", "soft_distance",
 )  # fmt: skip
 """Methods of parts that frames call."""
 
@@ -46,7 +46,7 @@ class Holding:
         self.record = self.block.record
         self.record["writes_raw"] = linear
         self.parts = [each.part(ctx, self.block, UNITS) for each in features]
-        self._parts_with = {name: doing(Part, name, self.parts) for name in IN_A_FRAME}
+        self._parts_with = {name: overriding(Part, name, self.parts) for name in IN_A_FRAME}
         self.painters: dict[str, RepresentationPainter] = {}
         """Painters by the names of their representations, from the finest."""
         self.air: CardWinds

@@ -17,7 +17,7 @@ from .around.outlook import Outlook
 from .blow import Blown, receivers_shown
 from .features import UNITS
 from .frame.block import aim, confine
-from .frame.feature import Feature, Part, doing
+from .frame.feature import Feature, Part, overriding
 from .holding import READY_ROWS, Holding
 from .receive.received import numbers_of, write_messages
 from .show.blades.draw import BladePainter
@@ -74,7 +74,7 @@ class Painter(Holding):
     def _rehearsing(self) -> Iterator[None]:
         """Draw the last frame without pixels, a step each: parts of it, with more content than it has, and scaled."""
         every: list[Part] = [*self.parts, *self.painters.values()]
-        single = [[part] for part in doing(Part, "rehearse", every)]
+        single = [[part] for part in overriding(Part, "rehearse", every)]
         deep = Asked(is_deep=True)
         plain = [replace(deep, parts=frozenset({part})) for part in ("sky", "ground", "grass")]
         frames: list[tuple[list[Part], Asked, float]] = [([], asked, 1.0) for asked in (*plain, WHOLE, deep)]
@@ -127,8 +127,8 @@ class Painter(Holding):
             for painter in self.painters.values():
                 calls += painter.hear()
             heard = self.coarsest.heard()
-            for part in self._parts_with["breathe"]:
-                calls += part.breathe(heard)
+            for part in self._parts_with["take_wind"]:
+                calls += part.take_wind(heard)
             write_messages(self.received, outlook, self._first, site.ground)
             self.received.texture.use(UNITS["received"])
         return calls
@@ -171,7 +171,7 @@ class Painter(Holding):
         self.draw_calls = self._hear(target, asked) if blades is None else 0
         if "sky" in asked.parts:
             with aside(self.ctx, target):
-                self.draw_calls += sum(part.look_up() for part in self._parts_with["look_up"])
+                self.draw_calls += sum(part.prepare_behind() for part in self._parts_with["prepare_behind"])
         self._draw_land(target, asked)
         if "grass" in asked.parts:
             self._draw_carpet(target, view, all_soft=blades is not None)
@@ -242,12 +242,12 @@ class Painter(Holding):
         """Draw the carpet, and soft edges in front of it: all of them, or only those beyond standing grass."""
         target.depth_mask = False
         self._blend()
-        has_edges = any(part.soft_left() is not None for part in self._parts_with["soft_left"])
+        has_edges = any(part.soft_distance() is not None for part in self._parts_with["soft_distance"])
         carpet = self.coarsest
         self.draw_calls += self._draw_culled(view, partial(carpet.draw_dense if has_edges else carpet.draw, target))
         target.depth_mask = True
         for part in self._parts_with["draw_soft"]:
-            among_grass = not all_soft and part.soft_left() is not None
+            among_grass = not all_soft and part.soft_distance() is not None
             self.draw_calls += part.draw_soft(self._reach() if among_grass else 0.0)
         if has_edges:  # thin grass on a crest lets trees behind it show through
             target.depth_mask = False
@@ -273,7 +273,7 @@ class Painter(Holding):
         self._blend()
         target.depth_mask = False
         for painter in list(self.painters.values())[-2::-1]:
-            for part in self._parts_with["soft_left"]:
+            for part in self._parts_with["soft_distance"]:
                 self.draw_calls += _draw_among(painter, part)
             self.draw_calls += painter.draw(target)
             self._hand_over()
@@ -307,8 +307,8 @@ def _receivers(outlook: Outlook, site: Site) -> ReceiverArrays:
 
 def _draw_among(painter: RepresentationPainter, part: Part) -> int:
     """Draw a part's remaining soft edges, and before each the grass behind it; return the number of draw calls."""
-    calls, left = 0, part.soft_left()
+    calls, left = 0, part.soft_distance()
     while left is not None:
         calls += painter.draw_beyond(left) + part.draw_soft(left)
-        left = part.soft_left()
+        left = part.soft_distance()
     return calls

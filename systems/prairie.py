@@ -23,7 +23,7 @@ from .around.outlook import Outlook
 from .around.transitions import SEAMLESS, Transitions
 from .assembly import Assembly, replace_built_in
 from .features import feature_of
-from .frame.feature import Feature, doing
+from .frame.feature import Feature, overriding
 from .govern import Governor
 from .painter import Painter
 from .ripen import Ripening, Stage
@@ -79,7 +79,7 @@ class Prairie(Tending):
         self.governor = Governor(hold)  # raises for a bad hold, so before any entities are made
         site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
         super().__init__(site, World(self.advance), live=live)
-        self._stepping, self._looking = (doing(Feature, name, self.features) for name in ("step", "look"))
+        self._stepping, self._looking = (overriding(Feature, name, self.features) for name in ("step", "look"))
         self.loaded, self.preset, self._origin = loaded, preset, (0.0, 0.0, 0.0)
         self._readings: WeakKeyDictionary[Site, LoadedScene] = WeakKeyDictionary()
         self._seasons = Seasons(loaded.scene)

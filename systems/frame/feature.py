@@ -29,7 +29,7 @@ class Start:
     """Whether frames are watched as they are drawn, as in a game and not in a film."""
 
 
-class Heard(Protocol):
+class WindTextures(Protocol):
     """The wind around a viewer: textures of the messages to each patch, which wraps round, and of their mean."""
 
     texture: moderngl.Texture
@@ -69,9 +69,9 @@ class Part:
         """Compile these programs, one at a step, before a frame waits for them."""
         return iter(())
 
-    def breathe(self, air: "Heard", /) -> int:
+    def take_wind(self, wind: "WindTextures", /) -> int:
         """Take over the wind at the patches around the viewer; return the number of draw calls."""
-        del air
+        del wind
         return 0
 
     def prepare(self) -> int:
@@ -87,7 +87,7 @@ class Part:
         """Draw what is opaque and writes depth; return the number of draw calls."""
         return 0
 
-    def look_up(self) -> int:
+    def prepare_behind(self) -> int:
         """Draw the textures that `draw_behind` reads, into framebuffers of its own; return the number of draw calls."""
         return 0
 
@@ -103,7 +103,7 @@ class Part:
         del beyond
         return 0
 
-    def soft_left(self) -> float | None:
+    def soft_distance(self) -> float | None:
         """Return the distance of the farthest thing that `draw_soft` has left [m], or None if it has left nothing."""
         return None
 
@@ -166,6 +166,6 @@ class Feature:
 Sort = TypeVar("Sort", Part, Feature)
 
 
-def doing(sort: type[Sort], name: str, things: Iterable[Sort], /) -> list[Sort]:
+def overriding(sort: type[Sort], name: str, things: Iterable[Sort], /) -> list[Sort]:
     """Return the parts or features that override a method of `sort`: most leave most of them as they are."""
     return [each for each in things if getattr(type(each), name) is not getattr(sort, name)]

@@ -93,7 +93,7 @@ class LightPart(Part):
         """Update the terrain's slope and horizon maps; return the number of draw calls."""
         return self.lie.prepare(self._toward)
 
-    def look_up(self) -> int:
+    def prepare_behind(self) -> int:
         """Draw the clouds' picture; return the number of draw calls."""
         return self._clouds.draw()
 

@@ -18,7 +18,7 @@ from ..around.outlook import Outlook
 from ..around.patches import PatchTable
 from ..around.transitions import Transitions
 from ..frame.block import FrameBlock
-from ..frame.feature import Heard, Part
+from ..frame.feature import Part, WindTextures
 from ..grow.record import NOTHING, Blades, Growth, Postures
 from ..receive.received import Received
 from ..space.ground import Ground
@@ -113,7 +113,7 @@ class RepresentationPainter(Part, ABC):
     def hear(self) -> int:
         """Compute the messages of its receivers; return the number of draw calls."""
 
-    def heard(self) -> Heard:
+    def heard(self) -> WindTextures:
         """Return the messages at the patches around the viewer; only the representation on the ground has them."""
         raise NotImplementedError
 

@@ -12,7 +12,7 @@ from ...engine.gl.shaders import Texts, set_used_uniforms
 from ...engine.gl.stream import Stream, release_all
 from ..around.outlook import Outlook
 from ..frame.block import FrameBlock
-from ..frame.feature import Heard, Part
+from ..frame.feature import Part, WindTextures
 from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
@@ -58,7 +58,7 @@ class TreePart(Part):
         self._placed: Stream | None = None
         """Input and output of `stand.vert`, stream after stream."""
         self._stood: Stream | None = None
-        self._air: Heard | None = None
+        self._air: WindTextures | None = None
         self._wind: MeanWind | None = None
         self.leaves_from: float | None = None
         """Height of their own pictures from which all trees are drawn leaf by leaf, for a reference, and lower ones as
@@ -229,7 +229,7 @@ class TreePart(Part):
         *standing, _ = outlook.lens.reach_in(outlook.lens.reach)
         return (max(standing, default=-1.0) + 1.0) * float(self._block.record["patch_side"][0])
 
-    def breathe(self, air: Heard, /) -> int:
+    def take_wind(self, air: WindTextures, /) -> int:
         """Run `stand.vert` for each tree and `hang.vert` for each twig; return the number of draw calls."""
         programs, calls, self._air = self._programs, 0, air
         if not self._kinds or programs is None:
@@ -269,7 +269,7 @@ class TreePart(Part):
         """Draw the opaque pass; return the number of draw calls."""
         if self._kinds and self._air is not None and (self._leaves_from_chosen, self.leaves_from) != (None, None):
             self.prepare()
-            self.breathe(self._air)
+            self.take_wind(self._air)
         self.begin_soft()
         return draw(self._pass_calls(HARD), self._uniforms)
 
@@ -295,7 +295,7 @@ class TreePart(Part):
         target.depth_mask = written
         return drawn
 
-    def soft_left(self) -> float | None:
+    def soft_distance(self) -> float | None:
         """Return the distance of the farthest tree of the next soft edges, or None [m]."""
         return self._soft_left[0].far if self._soft_left else None
 
