@@ -78,7 +78,7 @@ FRAME = np.dtype(
         ("lamplight", "f4"),  # factor like `exposure`, for lamps
         ("beside_sun", "f4"),  # 1 if anything shines beside sun and sky
         ("mesh_low", "2f4"), ("mesh_high", "2f4"),  # x, z [m]: corners of the drawn ground
-        ("patches_per_metre", "f4"), ("windows_per_patch", "f4"),  # 1 / patch side [1/m]; 1 / side of the carpet's window
+        ("patches_per_metre", "f4"), ("windows_per_patch", "f4"),  # 1 / patch side [1/m]; 1 / side of the window
         ("lamps_grid", "4f4"),  # grid of lamps: corner (x, z) [m]; cells a metre; cells along a side, 0 for none
         ("shades_grid", "4f4"),  # grid of shadows of shades, with the same numbers
         # Window of the carpet's shares: the viewer's cell; half its side [cells]; share of the carpet beyond it.
