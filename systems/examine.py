@@ -38,10 +38,10 @@ def _presser(fields: Mapping[str, Any]) -> Presser:
 def treading_saved(treading: Treading, /) -> tuple[SavedTreading, Arrays]:
     """Return the state of pressers as it is saved: records and arrays."""
     walks, arrays = list[SavedWalk](), {"kept": treading.kept}
-    for name, stand in zip(WALKS, treading.walks, strict=True):
-        who = [(entity, fields_of(presser)) for entity, presser in stand.pressers]
-        walks.append(SavedWalk(time=stand.time, begun=stand.begun, who=who))
-        parts = {"pose": stand.pose, "open": stand.open, "way": stand.way, "closed": stand.closed}
+    for name, walk in zip(WALKS, treading.walks, strict=True):
+        pressers = [(entity, fields_of(presser)) for entity, presser in walk.pressers]
+        walks.append(SavedWalk(time=walk.time, begun=walk.begun, who=pressers))
+        parts = {"pose": walk.pose, "open": walk.open, "way": walk.way, "closed": walk.closed}
         arrays |= {f"{name}_{part}": array for part, array in parts.items()}
     declared = [None if presser is None else fields_of(presser) for presser in treading.declared]
     saved = SavedTreading(
@@ -52,18 +52,18 @@ def treading_saved(treading: Treading, /) -> tuple[SavedTreading, Arrays]:
 
 def treading_of(saved: SavedTreading, arrays: Arrays, /) -> Treading:
     """Return the state of pressers from what was saved; raises ValueError for what cannot be."""
-    stands = []
+    walks = []
     for name, walk in zip(WALKS, saved.walks, strict=True):
-        who = [(entity, _presser(shape)) for entity, shape in walk.who]
-        discs = sum(len(discs_of(presser)) for _, presser in who)
+        pressers = [(entity, _presser(fields)) for entity, fields in walk.who]
+        discs = sum(len(discs_of(presser)) for _, presser in pressers)
         opened, way = _stretches(arrays, f"{name}_open", discs), _doubles(arrays, f"{name}_way", (discs,))
-        pose, closed = _doubles(arrays, f"{name}_pose", (len(who), 3)), _stretches(arrays, f"{name}_closed")
-        stands.append(WalkState(who, pose, walk.time, opened, way, closed, walk.begun))
-    declared = [None if shape is None else _presser(shape) for shape in saved.declared]
-    if not all(-len(declared) <= number < 0 for number, _ in stands[0].pressers):
+        pose, closed = _doubles(arrays, f"{name}_pose", (len(pressers), 3)), _stretches(arrays, f"{name}_closed")
+        walks.append(WalkState(pressers, pose, walk.time, opened, way, closed, walk.begun))
+    declared = [None if fields is None else _presser(fields) for fields in saved.declared]
+    if not all(-len(declared) <= number < 0 for number, _ in walks[0].pressers):
         refuse("others walk in it than its scene declares")
     kept = _stretches(arrays, "kept")
-    return Treading((stands[0], stands[1]), kept, saved.since, saved.trodden, saved.anew, declared)
+    return Treading((walks[0], walks[1]), kept, saved.since, saved.trodden, saved.anew, declared)
 
 
 def _doubles(arrays: Arrays, name: str, shape: tuple[int, ...]) -> Doubles:
@@ -77,10 +77,10 @@ def _doubles(arrays: Arrays, name: str, shape: tuple[int, ...]) -> Doubles:
 
 def _stretches(arrays: Arrays, name: str, count: int = -1) -> Stretches:
     found = _doubles(arrays, name, (count, NUMBERS))
-    long = np.hypot(*(found[:, LAST] - found[:, FIRST]).T)
-    right = (np.abs(found[:, : LAST.stop]) <= FARTHEST).all() and (long <= LONGEST).all()
-    right = right and ((found[:, REACH] > 0.0) & (found[:, REACH] <= WIDEST)).all()
-    if not right or (np.abs(found[:, BEGUN : LEFT + 1]) > LATEST).any():
+    length = np.hypot(*(found[:, LAST] - found[:, FIRST]).T)
+    in_range = (np.abs(found[:, : LAST.stop]) <= FARTHEST).all() and (length <= LONGEST).all()
+    in_range = in_range and ((found[:, REACH] > 0.0) & (found[:, REACH] <= WIDEST)).all()
+    if not in_range or (np.abs(found[:, BEGUN : LEFT + 1]) > LATEST).any():
         refuse(f"there is something wrong with its {name}")
     return found
 

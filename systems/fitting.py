@@ -46,10 +46,10 @@ def must_fit(saved: Saved, site: Site, lie: Floats, /) -> None:
     state, scene = saved.state, site.scene
     if isinstance(state.scene, SavedScene):
         _must_be_alike(state.scene, scene_of(site), cleared=len(saved.arrays.get("cleared", ())))
-        then = saved.arrays.get("lie", np.zeros(0))
-        if then.dtype != lie.dtype or then.shape != lie.shape:
+        saved_lie = saved.arrays.get("lie", np.zeros(0))
+        if saved_lie.dtype != lie.dtype or saved_lie.shape != lie.shape:
             refuse("there is something wrong with the lie of its ground")
-        if not np.allclose(then, lie, rtol=0.0, atol=SAME, equal_nan=True):
+        if not np.allclose(saved_lie, lie, rtol=0.0, atol=SAME, equal_nan=True):
             unfit("its ground has other heights or holes")
     if len(state.declared) != len(scene.wind):
         unfit(f"of winds its scene declares {len(state.declared)}, and this one {len(scene.wind)}")

@@ -170,11 +170,11 @@ class Prairie(Tending):
         must_be_known("depth", str(depth), DEPTHS)
         chosen = as_parts(self.scene.parts if parts is None else parts)
         seen = view_of(view, projection, self._origin)
-        self._turn(self._assembly.stage)
+        self._advance_kinds(self._assembly.stage)
         before = self.viewers[viewer].frame if viewer in self.viewers else None
         frame, asked, goes_on = Frame(seen, self.time, self.site, chosen).after(before, depth=depth)
         if not goes_on:
-            self._go_with(viewer, seen)
+            self._follow_viewers(viewer, seen)
         with self._assembly.screen.opened(self.site) as painter:
             if painter is None:
                 return
@@ -231,7 +231,7 @@ class Prairie(Tending):
         Between steps GL state is yours. Keep the same context current. Raises the errors of `draw`.
         """
         self._must_be_there("prepare it")
-        return self._assembly.screen.preparing(self.site, self._look_ahead)
+        return self._assembly.screen.preparing(self.site, self._upload_rehearsal)
 
     def prepare(self, *, on_progress: Callable[[int, int], object] | None = None) -> None:
         """Upload and compile in the current context all that the scene and a game may need, so that no frame waits.
@@ -254,8 +254,8 @@ class Prairie(Tending):
         self.systems.must_be_idle()
         must_be_viewer(viewer)
         seen = view_of(view, projection, self._origin)
-        self._turn()
-        self._go_with(viewer, seen)
+        self._advance_kinds()
+        self._follow_viewers(viewer, seen)
         self._look(seen, viewer)
         self.systems.run(last=Phase.SEE)
 
@@ -297,7 +297,7 @@ class Prairie(Tending):
         self.winds.sources()
         loaded = self._readings.get(site) if scene is None and site is not None else None
         loaded = read_again(self.loaded, scene) if loaded is None else loaded
-        self._move_to(self.finding(loaded)() if site is None else site)
+        self._replace_site(self.finding(loaded)() if site is None else site)
         self.loaded = loaded
         self._seasons.begin(loaded.scene)
         self._ripening.begin()
@@ -333,8 +333,8 @@ class Prairie(Tending):
         self._must_be_there("restore a state")
         self._clock, became, kinds = self._saving.restore(state, self.site, self.loaded, entities)
         self.viewers.begin_anew()
-        self._move_to(self._ripening.resume(self.site, kinds))  # after restoring, so that entities keep their winds
-        self._turn()
+        self._replace_site(self._ripening.resume(self.site, kinds))  # last, so that entities keep their winds
+        self._advance_kinds()
         return became
 
     def release(self) -> None:
@@ -353,18 +353,18 @@ class Prairie(Tending):
         self.systems.clear()
         self._built.clear()
 
-    def _turn(self, stage: Stage = lambda *_: True) -> None:
+    def _advance_kinds(self, stage: Stage = lambda *_: True) -> None:
         """Advance changed kinds of grass to the present time; `stage` uploads what has grown anew."""
         site = self._ripening.step(self.site, self.time, stage)
         scene = self._seasons.scene_at(site.scene, self.time)
         if scene is not site.scene:
             site = replace(site, scene=scene)
         if site.growths is not self.site.growths:
-            self._move_to(site)
+            self._replace_site(site)
         else:
             self.site = site
 
-    def _move_to(self, site: Site) -> None:
+    def _replace_site(self, site: Site) -> None:
         """Continue with another site; keep what has not changed."""
         before, self.site = self.site, site
         for outlook in self.viewers.values():
@@ -375,18 +375,18 @@ class Prairie(Tending):
             feature.settle(self.site, before, time=self.time)
         self.statistics.blades_field = self.site.blades
 
-    def _look_ahead(self) -> None:
-        """Run all systems but `draw` for a temporary viewer at the scene's own camera."""
+    def _upload_rehearsal(self) -> None:
+        """Upload a frame to rehearse, as a temporary viewer sees it by the scene's own camera."""
         camera = camera_at(self.scene.camera, None, self.height_at)
         seen = view_of(view_matrix(camera), projection_matrix(camera.view, 1.0))
-        self._go_with(REHEARSAL, seen)
+        self._follow_viewers(REHEARSAL, seen)
         self._look(seen, REHEARSAL)
         for _, name, system in self._built:
             if name != "draw":
                 system.run()
         self.viewers.forget(REHEARSAL)
 
-    def _go_with(self, viewer: str, seen: View) -> None:
+    def _follow_viewers(self, viewer: str, seen: View) -> None:
         """Let streaming ground and features follow the viewers, one of whom now sees by `seen`."""
         others = [outlook.viewer for outlook in self.viewers.values() if outlook.viewer.name != viewer]
         self._streaming.follow(self.site.ground.terrain, seen.eye, others, time=self.time)
@@ -394,6 +394,7 @@ class Prairie(Tending):
             feature.step(viewer, seen.eye, time=self.time)
 
     def _look(self, seen: View, viewer: str, *, goes_on: bool = False) -> Outlook:
+        """Let a viewer look, unless it `goes_on` with its last frame; return its outlook."""
         outlook = self.viewers.looking(viewer, partial(outlook_on, self.site))
         if goes_on:
             return outlook

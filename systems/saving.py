@@ -111,8 +111,8 @@ class Saving:
         already. Raises what `unpacked` raises, TypeError if `there` is no mapping, and ValueError for a state of
         another scene; then nothing has changed.
         """
-        known = {} if there is None else there
-        must_be_a(Mapping, known, "entities are a mapping, of those in the state to yours")
+        existing = {} if there is None else there
+        must_be_a(Mapping, existing, "entities are a mapping, of those in the state to yours")
         saved = unpacked(data)
         state = saved.state
         must_fit(saved, site, self._samples_of(site.ground))
@@ -136,15 +136,15 @@ class Saving:
         self.mown.plots.resume(*made.mown)
         site.ground.density.sown.resume(*made.sown)
         last, became = self._became or (None, {})
-        entities = self._restore_entities(state, made, {**(became if last == data else {}), **known})
+        entities = self._restore_entities(state, made, {**(became if last == data else {}), **existing})
         self._became = data, entities
         return state.time, dict(entities), made.kinds
 
     def _things(self) -> Iterator[SavedThing]:
         """Yield the other components of a game's entities, except those at a pose that is not finite."""
         own, planted = {entity for entity, _, _ in self.pressers.games()}, self.trees.planted()
-        for kind, sort in THINGS.items():
-            for entity, component in self.world.all(sort):
+        for kind, component_class in THINGS.items():
+            for entity, component in self.world.all(component_class):
                 pose = self.world.find(entity, Pose)
                 if (
                     (kind != "presser" or entity in own)
@@ -165,11 +165,16 @@ class Saving:
             unfit(str(error))
 
     def _samples_of(self, ground: Ground) -> Floats:
+        """Return a ground's `lie_of`, computed once."""
         if self._samples is None or self._samples[0] is not ground:
             self._samples = ground, lie_of(ground)
         return self._samples[1]
 
     def _restore_entities(self, state: State, made: "_Made", became: Mapping[int, int]) -> dict[int, int]:
+        """Restore everything that has entities, and clearings and light; return the present entities of a game's own.
+
+        `became` maps entities of the state to those that they may be now.
+        """
         self.winds.pass_to(state.time)
         entities = self._restore_winds(state, made, became)
         trees = {each.entity for each in state.things if each.kind == "tree"}
@@ -202,30 +207,31 @@ class Saving:
                 self.world.uproot(each.entity, Tree)
 
     def _restore_winds(self, state: State, made: "_Made", became: Mapping[int, int]) -> dict[int, int]:
-        before, sources = dict(self.world.all(WindSource)), made.sources
+        """Restore declared winds, added winds and a game's own; return the present entities of the last two."""
+        existing, sources = dict(self.world.all(WindSource)), made.sources
         declared, added = self.winds.declared, self.winds.added
-        kept, stay = list[int](), {wind.entity for wind in state.added}
+        declared_now = list[int]()
         for wind, entity in zip(state.declared, declared, strict=True):
-            is_there = entity in before
+            exists = entity in existing
             if wind is not None:
-                kept.append(self._give_wind(wind, sources, entity if is_there else None))
+                declared_now.append(self._give_wind(wind, sources, entity if exists else None))
                 continue
-            kept.append(entity)
-            if is_there:
+            declared_now.append(entity)
+            if exists:
                 self.world.delete(entity)
-        for entity in set(added) - stay:
+        for entity in set(added) - {wind.entity for wind in state.added}:
             self.world.delete(entity)
         entities = dict[int, int]()
         for wind in state.added:
             entities[wind.entity] = self._give_wind(wind, sources, wind.entity if wind.entity in added else None)
-        own_now = list(entities.values())
-        own = {*declared, *added}
+        added_now = list(entities.values())
         for wind in state.winds:
-            known = became.get(wind.entity, wind.entity)
-            is_there = known in before and known not in own
-            entities[wind.entity] = self._give_wind(wind, sources, known if is_there else self.world.give())
-        now = entities | {wind.entity: entity for wind, entity in zip(state.declared, kept, strict=True) if wind}
-        self.winds.take(kept, own_now, {now[entity]: wind for entity, wind in made.runs.items()})
+            entity = became.get(wind.entity, wind.entity)
+            exists = entity in existing and entity not in {*declared, *added}
+            entities[wind.entity] = self._give_wind(wind, sources, entity if exists else self.world.give())
+        pairs = zip(state.declared, declared_now, strict=True)
+        now = entities | {wind.entity: entity for wind, entity in pairs if wind}
+        self.winds.take(declared_now, added_now, {now[entity]: wind for entity, wind in made.runs.items()})
         return entities
 
     def _give_wind(self, wind: SavedWind, sources: Mapping[int, WindSource], entity: int | None) -> int:
