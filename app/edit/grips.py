@@ -7,7 +7,7 @@ import numpy as np
 
 from ...components.arrays import Floats
 from ...components.wind import WindPrimitive
-from ...systems.overlay.masks import BEGINS
+from ...systems.overlay.masks import EDGE_WEIGHT
 from ...systems.prairie import Prairie
 from ...systems.wind.blow import Blowing
 from ...systems.wind.quarantine import QuarantinedError
@@ -95,7 +95,7 @@ def _is_on(prairie: Prairie, blown: Blowing, spot: Floats) -> bool:
         )
     except QuarantinedError:
         return False
-    return bool(weight[0] > BEGINS)
+    return bool(weight[0] > EDGE_WEIGHT)
 
 
 def _away(blown: list[Blowing]) -> float:

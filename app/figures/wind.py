@@ -13,7 +13,7 @@ from ...components.arrays import Floats
 from ...components.wind import WindPrimitive
 from ...engine.declared.way import Waypoint
 from ...engine.scene import read_scene
-from ...systems.overlay.masks import BEGINS
+from ...systems.overlay.masks import EDGE_WEIGHT
 from ...systems.prairie import Prairie
 from ...systems.wind.blast import Blast, Shape
 from ...systems.wind.blow import Blowing
@@ -100,7 +100,7 @@ def _outline(
     weight = mask_of(wind, place, time=time).reshape(-1, FINE)
     at_x, at_z = place[:, 0].reshape(-1, FINE), place[:, 1].reshape(-1, FINE)
     line, width = ("dashed", 0.6 * thin) if earlier else ("solid", thin)
-    axes.contour(at_x, at_z, weight, levels=[BEGINS], colors=[color], linewidths=width, linestyles=line)
+    axes.contour(at_x, at_z, weight, levels=[EDGE_WEIGHT], colors=[color], linewidths=width, linestyles=line)
 
 
 def draw_fields(detail: Detail, /) -> Figure:

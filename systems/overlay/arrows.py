@@ -1,4 +1,4 @@
-"""Arrows: the messages that receivers hold, read from their pools (paper, figure 10)."""
+"""Arrows: messages of receivers, read from their pools (paper, figure 10)."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,26 +11,26 @@ from .marks import Marks, on_ground, stroked, together
 from .paint import DARK, index_color
 
 SPACING = 0.042
-"""Distance between arrows 1 m away, seen from straight above [m]; farther off it grows, so that they look as dense."""
+"""Spacing of arrows 1 m below the eye [m]; it grows with distance, so that their density in the picture is even."""
 
 CLOSEST = 0.5
-"""Least distance between arrows [m]."""
+"""Smallest spacing of arrows [m]."""
 
 NEAREST = 1.0
-"""Distance from the eye within which there are none [m]."""
+"""Distance from the eye within which there are no arrows [m]."""
 
 GRAZING = 0.012
-"""Sine of the least angle at which the ground may be seen and still has arrows."""
+"""Sine of the smallest angle between line of sight and ground at which there are arrows."""
 
 LONGEST = 0.08
-"""Length of an arrow of index 1, as a part of its distance from the eye; where arrows stand closer, it is less."""
+"""Length of an arrow of index 1, relative to its distance from the eye; it is at most the spacing."""
 
 HEAD, SPREAD = 0.36, 0.45
-"""Length of an arrow's head, as a part of the arrow's; half the head's width, as a part of its length."""
+"""Length of an arrow's head, relative to the arrow's; half the head's width, relative to the head's length."""
 
 
-def felt(outlook: Outlook, /) -> tuple[Floats, Floats]:
-    """Return places (x, z) [m] and messages of all receivers of grass that is shown, both of shape (n, 2)."""
+def messages_of_shown(outlook: Outlook, /) -> tuple[Floats, Floats]:
+    """Return positions (x, z) [m] and messages of all receivers of shown grass, both of shape (n, 2)."""
     place, message = [], []
     for kept in outlook.kept.values():
         for receiving in kept.receiving:
@@ -42,39 +42,39 @@ def felt(outlook: Outlook, /) -> tuple[Floats, Floats]:
     return np.concatenate(place), np.concatenate(message)
 
 
-def thinned(
+def evenly_spread(
     place: Floats, height: Floats, slope: Floats, /, *, eye: tuple[float, float, float]
 ) -> tuple[NDArray[np.intp], Floats]:
-    """Return rows of places that are about evenly spread in the picture, and how long an arrow may be there [m].
+    """Choose places spread evenly in the picture; return their rows, and the largest length of an arrow there [m].
 
-    Places are ground positions (n, 2) [m], with the ground's height (n,) [m] and slope (n, 2) there. The ground is
-    parted into squares, larger ones where it is farther off or seen at a more grazing angle; of each the place nearest
-    its middle is taken. So the same receivers stay chosen while the eye stays about where it is.
+    Places are ground positions (n, 2) [m], with the ground's height (n,) [m] and slope (n, 2). The ground is divided
+    into squares, larger ones with distance and at grazing angles. In each square, the place nearest its middle is
+    chosen, so that the choice stays while the eye hardly moves.
     """
     ray = np.array(eye, np.float32) - np.stack([place[:, 0], height, place[:, 1]], axis=1)
-    away = np.maximum(np.sqrt((ray * ray).sum(axis=1)), np.float32(1e-3))
-    facing = ray[:, 1] - ray[:, 0] * slope[:, 0] - ray[:, 2] * slope[:, 1]
-    sine = facing / (away * np.sqrt(1.0 + (slope * slope).sum(axis=1)))
-    wanted = SPACING * away / np.sqrt(np.maximum(sine, GRAZING))
-    level = np.maximum(np.round(np.log2(wanted / CLOSEST)), 0.0)
-    apart = (CLOSEST * np.exp2(level)).astype(np.float32)
-    square = np.floor(place / apart[:, None])
-    off_middle = np.abs(place / apart[:, None] - square - 0.5).max(axis=1)
-    rows = np.flatnonzero((away > NEAREST) & (sine > GRAZING))
+    distance = np.maximum(np.sqrt((ray * ray).sum(axis=1)), np.float32(1e-3))
+    height_over_slope = ray[:, 1] - ray[:, 0] * slope[:, 0] - ray[:, 2] * slope[:, 1]
+    sine = height_over_slope / (distance * np.sqrt(1.0 + (slope * slope).sum(axis=1)))
+    target_spacing = SPACING * distance / np.sqrt(np.maximum(sine, GRAZING))
+    level = np.maximum(np.round(np.log2(target_spacing / CLOSEST)), 0.0)
+    spacing = (CLOSEST * np.exp2(level)).astype(np.float32)
+    square = np.floor(place / spacing[:, None])
+    off_middle = np.abs(place / spacing[:, None] - square - 0.5).max(axis=1)
+    rows = np.flatnonzero((distance > NEAREST) & (sine > GRAZING))
     key = np.stack([level, *square.T], axis=1)[rows].astype(np.int64)
     order = np.lexsort((off_middle[rows], *key.T))
-    fresh = (np.diff(key[order], axis=0, prepend=-(2**31)) != 0).any(axis=1)
-    chosen = rows[order[fresh]]
-    return chosen, np.minimum(apart, np.float32(LONGEST) * away)[chosen]
+    is_first = (np.diff(key[order], axis=0, prepend=-(2**31)) != 0).any(axis=1)
+    chosen = rows[order[is_first]]
+    return chosen, np.minimum(spacing, np.float32(LONGEST) * distance)[chosen]
 
 
 def arrows(
     place: Floats, message: Floats, longest: Floats, terrain: Terrain, /, *, eye: tuple[float, float, float]
 ) -> Marks:
-    """Return arrows on the ground from places (n, 2) along messages (n, 2): the index is their length and colour.
+    """Return arrows on the ground from places (n, 2) along messages (n, 2), with length and colour by the index.
 
-    `longest` is the length of an arrow of index 1 [m], shape (n,). Their heads are turned to the eye: on ground that is
-    seen at a grazing angle, flat ones would be mere lines.
+    `longest` is the length of an arrow of index 1 [m], shape (n,). Heads face the eye: on ground seen at a grazing
+    angle, flat ones would look like lines.
     """
     foot, tip = on_ground(terrain, place), on_ground(terrain, place + message * longest[:, None])
     run = tip - foot
@@ -92,8 +92,8 @@ def arrows(
 
 
 def arrow_marks(outlook: Outlook, terrain: Terrain, /) -> Marks:
-    """Return what receivers feel, as arrows: a readable part of them, the nearer the more."""
-    place, message = felt(outlook)
+    """Return arrows for the messages of a readable selection of receivers."""
+    place, message = messages_of_shown(outlook)
     height, slope = height_at(terrain, place), slope_at(terrain, place)
-    rows, longest = thinned(place, height, slope, eye=outlook.viewer.eye)
+    rows, longest = evenly_spread(place, height, slope, eye=outlook.viewer.eye)
     return arrows(place[rows], message[rows], longest, terrain, eye=outlook.viewer.eye)

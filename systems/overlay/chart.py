@@ -16,48 +16,48 @@ from .paint import BRIGHT, DARK, ring_shades
 from .patches import GAP, SETTLED, patch_colors, patch_weights, squares
 
 BEYOND = 6
-"""How many patches beyond the last strips the chart shows."""
+"""Number of patches that the chart shows beyond the last strips."""
 
 CULLED = 0.3
 """Opacity of patches outside the view cone."""
 
 WHOLE = 1.0 / (1.0 - 2.0 * GAP)
-"""Side of a patch's square that leaves no gap."""
+"""Relative side of a patch's square without a gap."""
 
 
 @dataclass(frozen=True, slots=True)
 class Sheet:
-    """A square of the picture that shows the ground from above, -z up."""
+    """A square of the picture that shows the ground from above, with -z up."""
 
     left: float
-    """Its left edge [pixels]."""
+    """Left edge [pixels]."""
 
     bottom: float
-    """Its lower edge, from the picture's lower edge [pixels]."""
+    """Lower edge, from the picture's lower edge [pixels]."""
 
     side: float
-    """Pixels along its side."""
+    """Side [pixels]."""
 
     middle: tuple[float, float]
-    """The ground position (x, z) in its middle [m]."""
+    """Ground position (x, z) at its middle [m]."""
 
     reach: float
-    """From there to its edges [m]."""
+    """Distance on the ground from the middle to the edges [m]."""
 
     def place(self, ground: Floats, /) -> Floats:
-        """Return where ground positions (..., 2) are on it: points (..., 3), in pixels from the lower left."""
+        """Convert ground positions (..., 2) [m] to points (..., 3) in pixels from the picture's lower left."""
         part = (ground - np.array(self.middle, np.float32)) * np.float32(0.5 / self.reach)
         x, y = self.left + (part[..., 0] + 0.5) * self.side, self.bottom + (0.5 - part[..., 1]) * self.side
         return np.stack([x, y, np.zeros_like(x)], axis=-1).astype(np.float32)
 
     @property
     def limits(self) -> tuple[Floats, Floats]:
-        """Least and largest (x, z) on it [m]."""
+        """Smallest and largest ground position (x, z) on it [m]."""
         middle = np.array(self.middle, np.float32)
         return middle - np.float32(self.reach), middle + np.float32(self.reach)
 
     def holds(self, ground: Floats, /) -> NDArray[np.bool_]:
-        """Return whether all corners of things (n, k, 2) lie on it, shape (n,)."""
+        """Return whether all points of polygons (n, k, 2) lie on it, shape (n,)."""
         low, high = self.limits
         return np.asarray(((ground >= low) & (ground <= high)).all(axis=(1, 2)))
 
@@ -70,7 +70,7 @@ def sheet_for(outlook: Outlook, site: Site, /, *, left: float, bottom: float, si
 
 
 def chart(outlook: Outlook, site: Site, masks: Sequence[Masked], sheet: Sheet, /) -> Marks:
-    """Return the chart: patches by representation, dimmer where they are culled; masks, the view cone, the viewer."""
+    """Return the chart: patches by representation, dimmed where culled; masks, view cone and viewer."""
     x, z = sheet.middle
     frame = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], np.float32) * np.float32(sheet.reach) + np.array([x, z])
     border = sheet.place(frame.astype(np.float32))
@@ -84,6 +84,7 @@ def chart(outlook: Outlook, site: Site, masks: Sequence[Masked], sheet: Sheet, /
 
 
 def _patches(outlook: Outlook, site: Site, sheet: Sheet) -> Marks:
+    """Return the squares of patches, clipped to the sheet; colours of patches in a transition are mixed by weight."""
     patches = outlook.patches
     corners, low, high = squares(patches.cell, patch=site.ground.patch, part=WHOLE), *sheet.limits
     rows = np.flatnonzero(patches.alive & (corners[:, 2] > low).all(axis=1) & (corners[:, 0] < high).all(axis=1))
@@ -97,6 +98,7 @@ def _patches(outlook: Outlook, site: Site, sheet: Sheet) -> Marks:
 
 
 def _outline(mask: Masked, sheet: Sheet) -> Marks:
+    """Return the part of a mask's outline that lies on the sheet."""
     inside = sheet.holds(mask.edge)
     a, b = sheet.place(mask.edge[inside, 0]), sheet.place(mask.edge[inside, 1])
     return together(
@@ -105,7 +107,7 @@ def _outline(mask: Masked, sheet: Sheet) -> Marks:
 
 
 def _viewer(cone: tuple[float, float], sheet: Sheet) -> Marks:
-    """Return the view cone from the middle to the edges, and the viewer as the tip of an arrow."""
+    """Return the view cone from the middle to the edges, and the viewer as an arrowhead."""
     middle, half = cone
     centre = np.array([sheet.left + sheet.side / 2, sheet.bottom + sheet.side / 2, 0.0], np.float32)
 

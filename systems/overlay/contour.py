@@ -1,4 +1,4 @@
-"""Contours of a mask that is only known by asking it: sampled on a grid, and its edge found by halving."""
+"""Contours of a mask given as a function: it is sampled on a grid, and its edge is found by bisection."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,13 +12,13 @@ from ...components.wind import Extent
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 Ask = Callable[[Floats], Floats]
-"""Weights (n,) in [0, 1] at places (n, 2)."""
+"""Function from places (n, 2) to weights (n,) in [0, 1]."""
 
 CELLS = 48
-"""Cells of the grid along the longer side of what is sampled."""
+"""Number of cells of the grid along its longer side."""
 
 HALVINGS = 7
-"""How often a cell's side is halved to find where the edge crosses it."""
+"""Number of bisections of a cell's side that the edge crosses."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,29 +29,30 @@ class Grid:
     """Nodes (x, z), shape (rows, columns, 2)."""
 
     weight: Floats
-    """Shape (rows, columns)."""
+    """The mask at the nodes, shape (rows, columns)."""
 
     ask: Ask
+    """The mask itself."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Contour:
-    """Where a mask exceeds a level."""
+    """The area in which a mask exceeds a level."""
 
     corners: Floats
-    """Triangles that cover it, shape (n, 3, 2)."""
+    """Triangles that cover the area, shape (n, 3, 2)."""
 
     weight: Floats
-    """The mask at their corners, shape (n, 3)."""
+    """The mask at the triangles' corners, shape (n, 3)."""
 
     edge: Floats
-    """Pieces of its outline, each from one end to the other, shape (m, 2, 2)."""
+    """Segments of the area's outline, shape (m, 2, 2)."""
 
 
 def sampled(mask: Ask, held: Extent, seen: Extent, /) -> Grid | None:
-    """Return a mask sampled over the part of its extent that is seen, and a cell beyond; None where none is.
+    """Sample a mask over the intersection of its extent `held` and the seen extent, and a cell beyond.
 
-    Outside `held` the mask is taken to be 0.
+    Return None where they do not overlap. Outside `held` the mask is taken as 0.
     """
     low = np.maximum([held.left, held.ahead], [seen.left, seen.ahead])
     high = np.minimum([held.right, held.behind], [seen.right, seen.behind])
@@ -71,30 +72,30 @@ def sampled(mask: Ask, held: Extent, seen: Extent, /) -> Grid | None:
 
 
 def contour(grid: Grid, level: float, /) -> Contour:
-    """Return where a mask exceeds a level, by marching squares; its outline is as sharp as the mask itself."""
+    """Return the area in which a mask exceeds a level, by marching squares with a bisected outline."""
     inside = grid.weight > level
     across, across_weight = _crossings(grid, level, inside, axis=1)
     down, down_weight = _crossings(grid, level, inside, axis=0)
-    cells = _at_corners(inside)
+    cells = _cell_corners(inside)
     mixed = np.nonzero(cells.any(axis=-1) & ~cells.all(axis=-1))
-    slots = _slots(_at_corners(grid.place)[mixed], _at_sides(across, down)[mixed])
-    weights = _slots(_at_corners(grid.weight)[mixed], _at_sides(across_weight, down_weight)[mixed])
-    within = cells[mixed]
-    crossed = within != np.roll(within, -1, axis=1)
-    triangle, owner = _fans(np.stack([within, crossed], axis=2).reshape(-1, 8))
-    whole = cells.all(axis=-1)
-    halves = [0, 1, 2, 0, 2, 3]
-    full = _at_corners(grid.place)[whole][:, halves].reshape(-1, 3, 2)
-    full_weight = _at_corners(grid.weight)[whole][:, halves].reshape(-1, 3)
+    points = _alternating(_cell_corners(grid.place)[mixed], _cell_sides(across, down)[mixed])
+    weights = _alternating(_cell_corners(grid.weight)[mixed], _cell_sides(across_weight, down_weight)[mixed])
+    is_inside = cells[mixed]
+    crossed = is_inside != np.roll(is_inside, -1, axis=1)
+    triangle, owner = _fans(np.stack([is_inside, crossed], axis=2).reshape(-1, 8))
+    is_whole = cells.all(axis=-1)
+    quad_triangles = [0, 1, 2, 0, 2, 3]
+    full = _cell_corners(grid.place)[is_whole][:, quad_triangles].reshape(-1, 3, 2)
+    full_weight = _cell_corners(grid.weight)[is_whole][:, quad_triangles].reshape(-1, 3)
     return Contour(
-        np.concatenate([full, slots[owner[:, None], triangle]]),
+        np.concatenate([full, points[owner[:, None], triangle]]),
         np.concatenate([full_weight, weights[owner[:, None], triangle]]),
-        _pieces(slots[:, 1::2], within, crossed),
+        _outline_segments(points[:, 1::2], is_inside, crossed),
     )
 
 
 def _crossings(grid: Grid, level: float, inside: NDArray[np.bool_], *, axis: int) -> tuple[Floats, Floats]:
-    """Return where the edge crosses the grid's sides along an axis, and the weights just inside it."""
+    """Return the points at which the outline crosses the cells' sides along an axis, and the weights just inside."""
     first, second = (np.take(inside, np.arange(a, inside.shape[axis] - 1 + a), axis=axis) for a in (0, 1))
     place, after = (np.take(grid.place, np.arange(a, inside.shape[axis] - 1 + a), axis=axis) for a in (0, 1))
     crossed = first != second
@@ -109,23 +110,23 @@ def _crossings(grid: Grid, level: float, inside: NDArray[np.bool_], *, axis: int
     return found, weight
 
 
-def _at_corners(nodes: NDArray[Scalar]) -> NDArray[Scalar]:
-    """Return the values at the four corners of each cell, going round: shape (rows - 1, columns - 1, 4, ...)."""
+def _cell_corners(nodes: NDArray[Scalar]) -> NDArray[Scalar]:
+    """Return nodes' values at the four corners of each cell, going round: shape (rows - 1, columns - 1, 4, ...)."""
     return np.stack([nodes[:-1, :-1], nodes[:-1, 1:], nodes[1:, 1:], nodes[1:, :-1]], axis=2)
 
 
-def _at_sides(across: Floats, down: Floats) -> Floats:
-    """Return the values on the four sides of each cell, each after the corner of the same number."""
+def _cell_sides(across: Floats, down: Floats) -> Floats:
+    """Return values on the four sides of each cell; a side follows the corner of the same index."""
     return np.stack([across[:-1], down[:, 1:], across[1:], down[:, :-1]], axis=2)
 
 
-def _slots(corners: Floats, sides: Floats) -> Floats:
-    """Return corners and sides by turns, shape (n, 8, ...)."""
+def _alternating(corners: Floats, sides: Floats) -> Floats:
+    """Return corners and sides alternating, shape (n, 8, ...)."""
     return np.stack([corners, sides], axis=2).reshape(len(corners), 8, *corners.shape[2:])
 
 
 def _fans(present: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the triangles of convex polygons made of those of 8 points (n, 8) that are there, and whose each is."""
+    """Triangulate convex polygons of the present ones of 8 points (n, 8); return triangles, and each one's polygon."""
     numbers = np.where(present, np.arange(8), -1)
     latest = np.maximum.accumulate(numbers, axis=1)
     first = np.argmax(present, axis=1)
@@ -135,13 +136,13 @@ def _fans(present: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp
     return fans[real], np.nonzero(real)[0]
 
 
-def _pieces(sides: Floats, within: NDArray[np.bool_], crossed: NDArray[np.bool_]) -> Floats:
-    """Return the outline inside each cell: from where it is left, going round, to where it is entered again."""
-    pieces = [np.zeros((0, 2, 2), np.float32)]
+def _outline_segments(sides: Floats, within: NDArray[np.bool_], crossed: NDArray[np.bool_]) -> Floats:
+    """Return the outline's segments: in each cell from a leaving crossing, going round, to the next entering one."""
+    segments = [np.zeros((0, 2, 2), np.float32)]
     for corner in range(4):
-        to_go = within[:, corner] & crossed[:, corner]
+        unmatched = within[:, corner] & crossed[:, corner]
         for step in (1, 2, 3):
-            met = to_go & crossed[:, (corner + step) % 4]
-            pieces.append(np.stack([sides[met, corner], sides[met, (corner + step) % 4]], axis=1))
-            to_go &= ~met
-    return np.concatenate(pieces)
+            matched = unmatched & crossed[:, (corner + step) % 4]
+            segments.append(np.stack([sides[matched, corner], sides[matched, (corner + step) % 4]], axis=1))
+            unmatched &= ~matched
+    return np.concatenate(segments)

@@ -1,15 +1,15 @@
-"""Overlays: what can be laid over a prairie to show how it works."""
+"""Layers of the overlay, which shows how a prairie works."""
 
 from typing import Literal, get_args
 
 Layer = Literal["masks", "arrows", "levels", "weights", "map"]
-"""Where winds act; what receivers feel; which representation a patch has; how far it is changing; all from above."""
+"""Masks of winds; messages of receivers; patches' representations; progress of their transitions; a map from above."""
 
 LAYERS: tuple[Layer, ...] = get_args(Layer)
 
 
 def parse_layers(text: str, /) -> frozenset[Layer]:
-    """Return the parts written as `masks,arrows` or `all`; raises ValueError with a sentence about what is none."""
+    """Parse layers written as `masks,arrows` or `all`; raise ValueError with a sentence about an unknown one."""
     words = [word.strip().lower() for word in text.split(",")]
     unknown = [word for word in words if word not in {*LAYERS, "all"}]
     if unknown:

@@ -1,4 +1,4 @@
-"""The legend: which colour is what, written and painted into one image."""
+"""The legend of the overlay's colours, painted into an image."""
 
 from collections.abc import Callable, Sequence
 from collections.abc import Set as AbstractSet
@@ -16,10 +16,10 @@ from .masks import Masked
 from .paint import BRIGHT, DARK, Color, index_color, ring_shades
 
 SWATCH = 2.6
-"""Width of a swatch, of the size of the letters."""
+"""Width of a swatch, relative to the size of the letters."""
 
-PAPER = 205
-"""Opacity of the paper, of 255."""
+BACKGROUND_OPACITY = 205
+"""Opacity of the background, out of 255."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,41 +27,43 @@ class Entry:
     """One line of the legend."""
 
     form: str
-    """How its colours are shown: `areas` side by side, an `outline`, a `ramp`, one `inside` the other, or `none`."""
+    """Form of its swatch: `areas` side by side, an `outline`, a `ramp`, one colour `inside` another, or `none`."""
 
     colors: tuple[Color, ...]
     text: str
 
 
 def entries(
-    parts: AbstractSet[Layer], masks: Sequence[Masked], representations: Sequence[Representation], /
+    layers: AbstractSet[Layer], masks: Sequence[Masked], representations: Sequence[Representation], /
 ) -> list[Entry]:
-    """Return what there is to be told of the parts that are shown, the winds by rising claim."""
-    lines = _of_masks(parts, masks)
-    if "arrows" in parts:
+    """Return the entries for the shown layers, winds by rising claim."""
+    lines = _mask_entries(layers, masks)
+    if "arrows" in layers:
         shades = index_color(np.linspace(0.0, 1.0, 12, dtype=np.float32))
         lines.append(Entry("ramp", _colors(shades), "posture index, 0 to 1"))
-    if parts & {"levels", "weights", "map"}:
-        lines += _of_levels(representations)
-    if "weights" in parts:
+    if layers & {"levels", "weights", "map"}:
+        lines += _level_entries(representations)
+    if "weights" in layers:
         colors = tuple(color for each in representations[1::-1] for color in _colors(ring_shades(each.color)))
         lines.append(Entry("inside", colors, "two at once: the finer's share"))
-    if "map" in parts:
+    if "map" in layers:
         lines.append(Entry("none", (BRIGHT,), "map: dim outside the view cone"))
     return lines
 
 
-def _of_masks(parts: AbstractSet[Layer], masks: Sequence[Masked]) -> list[Entry]:
+def _mask_entries(layers: AbstractSet[Layer], masks: Sequence[Masked]) -> list[Entry]:
+    """Return the entries for winds: outlines of those with an edge, names of those that blow everywhere."""
     edged = dict.fromkeys((mask.kind, mask.color) for mask in masks if not mask.everywhere)
     endless = dict.fromkeys((mask.kind, mask.color) for mask in masks if mask.everywhere)
     outlines = [Entry("outline", (color,), f"where the {kind} acts") for kind, color in edged]
-    if "masks" not in parts:
-        return outlines if "map" in parts else []
+    if "masks" not in layers:
+        return outlines if "map" in layers else []
     names = [Entry("none", (color,), f"{kind}: everywhere") for kind, color in endless]
     return [*names, *outlines, *[Entry("none", (BRIGHT,), "thin line: with full weight")] * bool(outlines)]
 
 
-def _of_levels(representations: Sequence[Representation]) -> list[Entry]:
+def _level_entries(representations: Sequence[Representation]) -> list[Entry]:
+    """Return the entries for representations and their rings."""
     return [
         Entry(
             "areas",
@@ -74,15 +76,15 @@ def _of_levels(representations: Sequence[Representation]) -> list[Entry]:
 
 @lru_cache(maxsize=8)
 def legend(lines: tuple[Entry, ...], size: int, /) -> Bytes:
-    """Return the legend in letters of a size [pixels], on dark paper: display colours and opacity, (h, w, 4).
+    """Return the legend as an image (h, w, 4) of display colours and opacity, top row first.
 
-    The top row is first.
+    `size` is that of the letters [pixels].
     """
     font = ImageFont.load_default(size)
     high, gap = round(1.5 * size), round(0.7 * size)
     swatch = round(SWATCH * size)
     wide = max(round(font.getlength(entry.text)) for entry in lines) + swatch + 3 * gap
-    image = Image.new("RGBA", (wide, high * len(lines) + gap), (*_bytes(DARK), PAPER))
+    image = Image.new("RGBA", (wide, high * len(lines) + gap), (*_bytes(DARK), BACKGROUND_OPACITY))
     draw = ImageDraw.Draw(image)
     for number, entry in enumerate(lines):
         top = gap // 2 + number * high
@@ -106,20 +108,20 @@ Box = tuple[int, int, int, int]
 Colors = tuple[Color, ...]
 
 
-def _areas(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
+def _draw_areas(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
     left, top, right, bottom = box
     sides = np.linspace(left, right, len(colors) + 1).round().astype(int).tolist()
     for color, a, b in zip(colors, sides[:-1], sides[1:], strict=True):
         draw.rectangle((a, top, b - 1, bottom), (*_bytes(color), 255))
 
 
-def _outline(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
+def _draw_outline(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
     line = max(2, (box[3] - box[1]) // 6)
     red, green, blue = (0.3 * mark + 0.7 * paper for mark, paper in zip(colors[0], DARK, strict=True))
     draw.rectangle(box, (*_bytes((red, green, blue)), 255), (*_bytes(colors[0]), 255), line)
 
 
-def _inside(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
+def _draw_inside(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
     left, top, right, bottom = box
     side = bottom - top
     left += (right - left - side) // 2
@@ -128,14 +130,14 @@ def _inside(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
     draw.rectangle((left + inset, top + inset, left + side - inset, bottom - inset), (*_bytes(colors[1]), 255))
 
 
-def _nothing(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
+def _draw_nothing(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
     del draw, box, colors
 
 
 _FORMS: dict[str, Callable[[ImageDraw.ImageDraw, Box, Colors], None]] = {
-    "areas": _areas,
-    "ramp": _areas,
-    "outline": _outline,
-    "inside": _inside,
-    "none": _nothing,
+    "areas": _draw_areas,
+    "ramp": _draw_areas,
+    "outline": _draw_outline,
+    "inside": _draw_inside,
+    "none": _draw_nothing,
 }

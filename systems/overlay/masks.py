@@ -1,4 +1,4 @@
-"""Masks on the ground: where each wind acts, how softly it sets in (paper, figure 7)."""
+"""Masks of winds on the ground, with their soft edges (paper, figure 7)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,44 +15,46 @@ from .contour import contour, sampled
 from .marks import Marks, filled, on_ground, stroked, together
 from .paint import DARK, Color, wind_color
 
-BEGINS, WHOLE = 0.004, 0.98
-"""Weights at which a mask is taken to begin, and to be there wholly."""
+EDGE_WEIGHT, FULL_WEIGHT = 0.004, 0.98
+"""Weights of a mask at its outer outline and at its core's."""
 
 FILL = 0.30
-"""Opacity of the ground where a mask is there wholly."""
+"""Opacity of a mask's tint at full weight."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Masked:
-    """One wind's mask on the ground at one instant; all places are the world's (x, z) [m]."""
+    """One wind's mask on the ground at one instant; positions are the world's (x, z) [m]."""
 
     kind: str
+    """Kind of the wind."""
+
     color: Color
-    """What it is shown in."""
+    """Display colour."""
 
     strength: float
-    """How far the wind has set in, in (0, 1]."""
+    """Strength of the wind as it sets in, in (0, 1]."""
 
     everywhere: bool
-    """Whether it has no edge; then nothing is drawn of it."""
+    """Whether the mask has no edge; then it is not drawn."""
 
     corners: Floats
-    """Triangles of the ground on which it acts, shape (n, 3, 2)."""
+    """Triangles that cover the mask, shape (n, 3, 2)."""
 
     weight: Floats
-    """At their corners, shape (n, 3)."""
+    """Weights at the triangles' corners, shape (n, 3)."""
 
     edge: Floats
-    """Its outline in pieces, shape (m, 2, 2)."""
+    """Segments of the outline, shape (m, 2, 2)."""
 
     core: Floats
-    """The outline of where it is there wholly, shape (k, 2, 2)."""
+    """Segments of the outline of the part with full weight, shape (k, 2, 2)."""
 
 
 def masked(
     winds: Sequence[Blowing], quarantine: Quarantine, /, *, time: float, around: tuple[float, float], far: float
 ) -> list[Masked]:
-    """Return the masks of winds, the weakest claim first, as far as they lie within `far` [m] of a place (x, z)."""
+    """Return the masks of winds within `far` [m] of a place (x, z), the weakest claim first."""
     found = []
     for wind in reversed(winds):
         try:
@@ -65,6 +67,7 @@ def masked(
 
 
 def _masked(wind: Blowing, quarantine: Quarantine, time: float, around: Floats, far: float) -> Masked | None:
+    """Return one wind's mask, None if it lies farther away; raise QuarantinedError where the wind fails."""
     pose, none = wind.pose, np.zeros((0, 3, 2), np.float32)
     made = partial(Masked, wind.primitive.kind, wind_color(wind.primitive), wind.strength)
     if wind.extent is None:
@@ -83,7 +86,7 @@ def _masked(wind: Blowing, quarantine: Quarantine, time: float, around: Floats, 
         world = pose.outside(own.reshape(-1, 2)) + np.array([pose.x, pose.z], np.float32)
         return world.reshape(own.shape).astype(np.float32)
 
-    outer, inner = contour(grid, BEGINS), contour(grid, WHOLE)
+    outer, inner = contour(grid, EDGE_WEIGHT), contour(grid, FULL_WEIGHT)
     return made(
         everywhere=False,
         corners=placed(outer.corners), weight=outer.weight, edge=placed(outer.edge), core=placed(inner.edge),
@@ -91,11 +94,12 @@ def _masked(wind: Blowing, quarantine: Quarantine, time: float, around: Floats, 
 
 
 def mask_marks(masks: Sequence[Masked], terrain: Terrain, /) -> Marks:
-    """Return masks on the ground: tinted as they weigh, outlined where they begin and where they are whole."""
+    """Return marks of masks on the ground: tinted by weight, with an outline and a thin one around full weight."""
     return together(*(_marks(mask, terrain) for mask in masks if not mask.everywhere))
 
 
 def _marks(mask: Masked, terrain: Terrain) -> Marks:
+    """Return the marks of one mask."""
     color = np.zeros((*mask.weight.shape, 4), np.float32)
     color[..., :3], color[..., 3] = mask.color, FILL * mask.strength * mask.weight
     edge, core = on_ground(terrain, mask.edge), on_ground(terrain, mask.core)

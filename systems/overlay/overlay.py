@@ -1,4 +1,4 @@
-"""The overlay of a prairie: chosen parts of how it works, drawn over its picture."""
+"""The overlay: layers that show how a prairie works, drawn over its picture."""
 
 from collections.abc import Iterable
 from functools import partial
@@ -22,22 +22,22 @@ from .painter import MarkPainter, pixels_onto_clip, scale_of
 from .patches import level_marks, weight_marks
 
 EDGE = 10.0
-"""Distance of map and legend from the picture's edges [pixels of a picture 540 high]."""
+"""Margin between map or legend and the picture's edges [pixels of a picture 540 high]."""
 
 LETTERS = 13.0
 """Size of the legend's letters [pixels of a picture 540 high]."""
 
 ROOM = 0.7
-"""Most that the legend may take of the picture's width and height; small pictures go without."""
+"""Largest part of the picture's width and height for the legend, which small pictures do without."""
 
 MAP = 0.42
-"""Side of the map, of the picture's shorter side."""
+"""Side of the map, relative to the picture's shorter side."""
 
 
 class Overlay:
-    """What is laid over a prairie: masks, arrows, levels, weights and the map, any of them or none.
+    """Any of the layers masks, arrows, levels, weights and map, drawn over a prairie.
 
-    It reads the prairie's tables and pools and changes nothing, so the prairie looks the same with it and without.
+    It reads the prairie's tables and pools and changes nothing: the prairie looks the same without it.
     """
 
     def __init__(self, parts: Iterable[Layer] = ()) -> None:
@@ -45,9 +45,9 @@ class Overlay:
         self._painters: Homes[MarkPainter] = Homes()
 
     def draw(self, prairie: Prairie, view: object, projection: object, *, viewer: str = "main") -> None:
-        """Draw over the frame that `prairie.draw` has just drawn with the same matrices, and leave GL as it was.
+        """Draw over the frame that `prairie.draw` has just drawn with the same matrices; GL's state is restored.
 
-        Raises RuntimeError for a prairie that has not been drawn.
+        Raise RuntimeError for a prairie that has not been drawn.
         """
         if not self.layers:
             return
@@ -64,10 +64,11 @@ class Overlay:
             self._draw_flat(painter, outlook, prairie.site, masks, size)
 
     def release(self) -> None:
-        """Give everything back to the context."""
+        """Release all GL objects."""
         self._painters.release()
 
     def _masks(self, prairie: Prairie, outlook: Outlook) -> list[Masked]:
+        """Return the masks of all blowing winds, if a layer shows them."""
         if not self.layers & {"masks", "map"}:
             return []
         winds, time = prairie.winds, prairie.time
@@ -76,6 +77,7 @@ class Overlay:
         return masked(winds.acting(time), winds.quarantine, time=time, around=(x, z), far=far)
 
     def _on_ground(self, outlook: Outlook, site: Site, masks: list[Masked]) -> Marks:
+        """Return the marks of the layers that lie on the ground, fainter behind hills."""
         terrain = site.ground.terrain
         layers = []
         if "levels" in self.layers:
@@ -91,6 +93,7 @@ class Overlay:
     def _draw_flat(
         self, painter: MarkPainter, outlook: Outlook, site: Site, masks: list[Masked], size: tuple[int, int]
     ) -> None:
+        """Draw map and legend in the picture's plane."""
         scale = scale_of(size)
         edge = EDGE * scale
         if "map" in self.layers:

@@ -1,4 +1,4 @@
-"""The overlay's colours, all in display space: which colour stands for what."""
+"""The overlay's colours, in display space."""
 
 from colorsys import hsv_to_rgb
 from typing import TypeGuard
@@ -12,25 +12,25 @@ from ...components.wind import WindPrimitive
 Color = tuple[float, float, float]
 
 PALEST = 0.4
-"""How far towards white the farthest ring of a representation is."""
+"""Part of white in the colour of a representation's farthest ring."""
 
 INDEX = np.array(
     [(0.20, 0.35, 0.95), (0.10, 0.80, 0.95), (0.97, 0.95, 0.45), (1.00, 0.55, 0.10), (0.90, 0.05, 0.20)], np.float32
 )
-"""Of a posture index, from 0 to 1 in even steps."""
+"""Colour ramp of posture indices from 0 to 1, in even steps."""
 
 DARK = (0.05, 0.07, 0.04)
 BRIGHT = (1.0, 1.0, 1.0)
 
 
 def wind_color(wind: WindPrimitive, /) -> Color:
-    """Return the colour of a wind: its class's own, or else a hue from the name of its kind, always the same one."""
+    """Return the colour of a wind: its class's own, or else a hue from a hash of its kind's name."""
     own: object = type(wind).color  # a field of a plugin may have the same name
     return own if is_color(own) else hsv_to_rgb(crc32(wind.kind.encode()) / 2**32, 0.65, 1.0)
 
 
 def is_color(given: object, /) -> TypeGuard[Color]:
-    """Return whether this is a display colour: three numbers in [0, 1]."""
+    """Return whether an object is a display colour: three numbers in [0, 1]."""
     if not isinstance(given, tuple) or len(given) != 3:
         return False
     numbers = float | int | np.floating | np.integer

@@ -1,4 +1,4 @@
-"""Drawing marks and the legend over whatever is in the framebuffer: no depth is tested, none is written."""
+"""Drawing of marks and the legend over the framebuffer's contents, without depth test and depth writes."""
 
 import moderngl
 import numpy as np
@@ -13,8 +13,8 @@ from .marks import LINE, SHAPE, Marks
 
 Matrix = NDArray[np.float32]
 
-ALONG = np.array([[0, -1], [1, -1], [0, 1], [1, 1]], np.float32)
-CORNERS = np.array([[0, 0], [1, 0], [0, 1], [1, 1]], np.float32)
+LINE_CORNERS = np.array([[0, -1], [1, -1], [0, 1], [1, 1]], np.float32)
+IMAGE_CORNERS = np.array([[0, 0], [1, 0], [0, 1], [1, 1]], np.float32)
 
 
 class MarkPainter:
@@ -28,7 +28,7 @@ class MarkPainter:
         ]
         shape, line, paper = self.programs
         self.shapes, self.lines = Stream(ctx, SHAPE), Stream(ctx, LINE)
-        self.corners = ctx.buffer(ALONG), ctx.buffer(CORNERS)
+        self.corners = ctx.buffer(LINE_CORNERS), ctx.buffer(IMAGE_CORNERS)
         form, names = attributes(SHAPE)
         self.arrays = [
             ctx.vertex_array(shape, [(self.shapes.buffer, form, *names)]),
@@ -39,7 +39,7 @@ class MarkPainter:
         self.image: Bytes | None = None
 
     def begin(self, size: tuple[int, int]) -> None:
-        """Make ready to draw over a picture of this size [pixels]."""
+        """Set the state for drawing over a picture of a size [pixels]."""
         self.ctx.enable_only(moderngl.BLEND)
         self.ctx.blend_func = OVER
         for made in self.programs[1:]:
@@ -47,7 +47,7 @@ class MarkPainter:
         self.programs[1]["scale"] = scale_of(size)
 
     def draw(self, marks: Marks, onto: Matrix) -> None:
-        """Draw marks; `onto` (4, 4) leads from their space to clip space, for column vectors."""
+        """Draw marks; `onto` (4, 4) is the matrix from their space to clip space, for column vectors."""
         matrix = tuple(onto.T.reshape(-1).tolist())
         self.shapes.write(marks.shapes)
         self.lines.write(marks.lines)
@@ -59,7 +59,7 @@ class MarkPainter:
             self.arrays[1].render(moderngl.TRIANGLE_STRIP, vertices=4, instances=self.lines.count)
 
     def draw_image(self, image: Bytes, left: int, bottom: int) -> None:
-        """Draw an image (h, w, 4), its lower left corner at a pixel of the picture."""
+        """Draw an image (h, w, 4) with its lower left corner at a pixel of the picture."""
         height, width = image.shape[:2]
         if image is not self.image or self.sheet is None:
             self._release_sheet()
@@ -76,13 +76,13 @@ class MarkPainter:
         self.sheet = None
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release all GL objects."""
         self._release_sheet()
         release_all(*self.arrays, *self.programs, self.shapes, self.lines, *self.corners)
 
 
 def scale_of(size: tuple[int, int], /) -> float:
-    """Return how wide a line of width 1 is on a picture of this size [pixels]."""
+    """Return the scale of line widths and letters for a picture of a size [pixels]: 1 at a height of 540."""
     return float(np.clip(size[1] / 540.0, 0.6, 4.0))
 
 

@@ -1,4 +1,4 @@
-"""Patches: which representation each one has, and how far it is on its way to another (paper, figure 5)."""
+"""Patches' representations, and the progress of their transitions (paper, figure 5)."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,29 +16,29 @@ FILL = 0.48
 """Opacity of a patch's square."""
 
 INNER = 0.7
-"""Opacity of the finer representation's share of it."""
+"""Opacity of the inner square for the finer representation."""
 
 OUTLINED = 20.0
-"""Distance up to which the outlines of changing patches are bright [m]; farther off there are too many."""
+"""Distance up to which outlines of changing patches are bright [m]; farther away there are too many."""
 
 GAP = 0.035
-"""Width of the gap inside a patch's border, as a part of the patch's side."""
+"""Width of the gap inside a patch's border, relative to the patch's side."""
 
 SETTLED = 0.995
-"""Weight from which on a patch has one representation alone."""
+"""Weight from which on a patch counts as having only one representation."""
 
 
 def shown_level(outlook: Outlook, site: Site, /) -> NDArray[np.int8]:
-    """Return the representation that each patch is shown in, or of two the one that it has or is coming to, (rows,)."""
+    """Return the representation that each patch is shown in, during a transition its own or next one, (rows,)."""
     share = patch_weights(outlook, site)
     alone = share.max(axis=0) >= SETTLED
     return np.where(alone, share.argmax(axis=0), outlook.patches.representation).astype(np.int8)
 
 
 def patch_colors(outlook: Outlook, site: Site, /) -> Floats:
-    """Return the colour of each patch's representation, shape (rows, 3).
+    """Return the colour of each patch's representation, shape (rows, 3), in the shade of its ring.
 
-    Its shade tells the ring, blended where the patch is on its way from one ring to another.
+    Shades are interpolated while the patch changes from one ring to another.
     """
     patches, here = outlook.patches, shown_level(outlook, site)
     color = np.zeros((len(here), 3), np.float32)
@@ -46,7 +46,7 @@ def patch_colors(outlook: Outlook, site: Site, /) -> Floats:
         shades = ring_shades(representation.color, representation.rings())
         rows = np.flatnonzero((here == level) | (here < 0))
         unseen, progress = ~patches.visible[rows], patches.sublevel_progress[level, rows, None]
-        # What nobody sees has the sub-level that it was seen in last, if any: it is told by the one that is due.
+        # An unseen patch keeps the sub-level in which it was last seen, if any; it is coloured by the one that is due.
         due = representation.sublevels(outlook, rows, np.full(len(rows), -1, np.int8), slack=0)
         now, before = (
             shades[np.maximum(representation.ring(np.where(unseen, due, sublevel[level, rows])), 0)]
@@ -57,20 +57,23 @@ def patch_colors(outlook: Outlook, site: Site, /) -> Floats:
 
 
 def patch_weights(outlook: Outlook, site: Site, /) -> Floats:
-    """Return how much each representation counts on each patch, (representations, rows), the strips' border too."""
+    """Return the weights of representations on each patch, (representations, rows).
+
+    They include the border where strips give way to the carpet.
+    """
     share, (_, strips, carpet) = weights(outlook.patches), THREE
-    every = np.arange(len(outlook.patches.progress))
-    kept = strips_kept(outlook, every, reach=site.reach, patch=site.ground.patch, choosy=site.choosy)
-    handed = share[strips] * (1.0 - kept)
-    share[strips] -= handed
-    share[carpet] += handed
+    rows = np.arange(len(outlook.patches.progress))
+    kept = strips_kept(outlook, rows, reach=site.reach, patch=site.ground.patch, choosy=site.choosy)
+    handed_over = share[strips] * (1.0 - kept)
+    share[strips] -= handed_over
+    share[carpet] += handed_over
     return share
 
 
 def squares(cell: NDArray[np.int32], /, *, patch: float, part: Floats | float = 1.0) -> Floats:
-    """Return the corners (x, z) [m] of squares in the middle of cells (n, 2), going round: shape (n, 4, 2).
+    """Return the corners (x, z) [m] of squares in the middle of cells (n, 2), in order around, shape (n, 4, 2).
 
-    `part` is their side, of the patch's without its gap: one number, or one each (n,).
+    `part` is their side relative to the patch's without its gap: one number, or (n,).
     """
     half = np.broadcast_to(np.asarray(part, np.float32) * np.float32(0.5 - GAP), (len(cell),))
     corner = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], np.float32)
@@ -78,8 +81,8 @@ def squares(cell: NDArray[np.int32], /, *, patch: float, part: Floats | float = 
     return np.asarray((middle + corner * half[:, None, None]) * np.float32(patch), np.float32)
 
 
-def mixed(outlook: Outlook, site: Site, /) -> NDArray[np.bool_]:
-    """Return which patches have two representations at once, shape (rows,)."""
+def is_mixed(outlook: Outlook, site: Site, /) -> NDArray[np.bool_]:
+    """Return whether each patch has two representations at once, shape (rows,)."""
     share = patch_weights(outlook, site)
     return np.asarray((share.max(axis=0) < SETTLED) & (share.sum(axis=0) > 0.0))
 
@@ -87,42 +90,42 @@ def mixed(outlook: Outlook, site: Site, /) -> NDArray[np.bool_]:
 def level_marks(outlook: Outlook, site: Site, /, *, settled: bool = False) -> Marks:
     """Return a square on each patch in view, in the colour of its representation.
 
-    With `settled`, those that have two at once are left out.
+    With `settled`, patches with two representations are left out.
     """
     shown = outlook.patches.shown
-    rows = np.flatnonzero(shown & ~mixed(outlook, site) if settled else shown)
-    return _tiles(outlook, site, rows, patch_colors(outlook, site)[rows], FILL)
+    rows = np.flatnonzero(shown & ~is_mixed(outlook, site) if settled else shown)
+    return _filled_squares(outlook, site, rows, patch_colors(outlook, site)[rows], FILL)
 
 
 def weight_marks(outlook: Outlook, site: Site, /) -> Marks:
-    """Return the patches in view that have two representations at once, in the coarser one's colour.
+    """Return squares on the patches in view with two representations, in the coarser one's colour.
 
-    Inside each is a square of the finer one's, whose area is the finer one's share. Those that are changing are
-    outlined; the others lie where strips give way to the carpet.
+    The area of an inner square is the finer one's share. Changing patches are outlined; the others lie where strips
+    give way to the carpet.
     """
     patches, share = outlook.patches, patch_weights(outlook, site)
-    rows = np.flatnonzero(patches.shown & mixed(outlook, site))
+    rows = np.flatnonzero(patches.shown & is_mixed(outlook, site))
     here = share[:, rows] > 1.0 - SETTLED
     finer, coarser = here.argmax(axis=0), len(here) - 1 - here[::-1].argmax(axis=0)
     part = np.sqrt(share[finer, rows] / share[:, rows].sum(axis=0))
     shades = np.concatenate([ring_shades(each.color) for each in site.representations])
-    moving = rows[patches.progress[rows] < 1.0]
-    around = on_ground(site.ground.terrain, squares(patches.cell[moving], patch=site.ground.patch))
-    away = np.linalg.norm(around.mean(axis=1) - np.array(outlook.viewer.eye, np.float32), axis=1)
-    bright = np.ones((len(moving), 4), np.float32)
-    bright[:, 3] = 0.9 * np.minimum(1.0, OUTLINED / np.maximum(away, 1e-3)) ** 2
+    changing = rows[patches.progress[rows] < 1.0]
+    outlines = on_ground(site.ground.terrain, squares(patches.cell[changing], patch=site.ground.patch))
+    distance = np.linalg.norm(outlines.mean(axis=1) - np.array(outlook.viewer.eye, np.float32), axis=1)
+    bright = np.ones((len(changing), 4), np.float32)
+    bright[:, 3] = 0.9 * np.minimum(1.0, OUTLINED / np.maximum(distance, 1e-3)) ** 2
+    starts, ends = outlines.reshape(-1, 3), np.roll(outlines, -1, axis=1).reshape(-1, 3)
     return together(
-        _tiles(outlook, site, rows, shades[coarser], FILL),
-        _tiles(outlook, site, rows, shades[finer], INNER, part=part),
-        stroked(
-            around.reshape(-1, 3), np.roll(around, -1, axis=1).reshape(-1, 3), np.repeat(bright, 4, axis=0), width=1.5
-        ),
-    )  # fmt: skip
+        _filled_squares(outlook, site, rows, shades[coarser], FILL),
+        _filled_squares(outlook, site, rows, shades[finer], INNER, part=part),
+        stroked(starts, ends, np.repeat(bright, 4, axis=0), width=1.5),
+    )
 
 
-def _tiles(
+def _filled_squares(
     outlook: Outlook, site: Site, rows: Rows, color: Floats, opacity: float, *, part: Floats | float = 1.0
 ) -> Marks:
+    """Return filled squares on patches."""
     flat = squares(outlook.patches.cell[rows], patch=site.ground.patch, part=part)
     shown = np.column_stack([color, np.full(len(rows), opacity, np.float32)])
     return filled(split(on_ground(site.ground.terrain, flat)), np.repeat(shown, 2, axis=0)[:, None, :])

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from tallgrass.components.arrays import Floats
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.outlook import Outlook
-from tallgrass.systems.overlay.arrows import arrow_marks, arrows, felt, thinned
+from tallgrass.systems.overlay.arrows import arrow_marks, arrows, evenly_spread, messages_of_shown
 from tallgrass.systems.overlay.paint import index_color
 from tallgrass.systems.show.blades.shown import BladesShown, Standing
 from tallgrass.systems.show.strips.shown import StripsOfRing, StripsShown
@@ -65,7 +65,7 @@ def scattered(count: int = 40000) -> Floats:
 
 
 def chosen_from(place: Floats, eye: tuple[float, float, float]) -> tuple[NDArray[np.intp], Floats]:
-    return thinned(place, np.zeros(len(place), np.float32), np.zeros_like(place), eye=eye)
+    return evenly_spread(place, np.zeros(len(place), np.float32), np.zeros_like(place), eye=eye)
 
 
 def test_n8_arrows_are_few_and_as_dense_in_the_picture_near_and_far() -> None:
@@ -89,7 +89,7 @@ def test_n8_ground_that_faces_away_has_no_arrows() -> None:
     place = scattered(4000)
     slope = np.zeros_like(place)
     slope[:, 0] = -np.sign(place[:, 0])
-    rows, _ = thinned(place, np.zeros(len(place), np.float32), slope, eye=(0.0, 2.0, 0.0))
+    rows, _ = evenly_spread(place, np.zeros(len(place), np.float32), slope, eye=(0.0, 2.0, 0.0))
     assert np.abs(place[rows, 0]).max() < 5.0
 
 
@@ -101,7 +101,7 @@ def test_n8_arrows_are_what_receivers_have_been_told_whoever_has_told_them(laid:
     for receiving, angle in zip(kept["strips"].receiving, angles[1:], strict=True):
         for slot in receiving.slots.tolist():
             receiving.letters.ask(slot)[:] = bent(angle)
-    place, message = felt(outlook)
+    place, message = messages_of_shown(outlook)
     assert len(place) > 1000
     reach = site.ground.patch * 0.5 + site.representations[1].margin() + 1e-3
     for ring, angle in zip(rings, angles, strict=True):
@@ -119,5 +119,5 @@ def test_n8_arrows_are_what_receivers_have_been_told_whoever_has_told_them(laid:
 def test_n8_only_grass_that_grows_has_arrows(laid: Laid, look: Look) -> None:
     bare = laid(dense=np.zeros((2, 2, 2), np.float32))
     outlook = look(bare, 0.0, 0.0)
-    assert len(felt(outlook)[0]) == 0
+    assert len(messages_of_shown(outlook)[0]) == 0
     assert len(arrow_marks(outlook, bare.ground.terrain).lines) == 0
