@@ -1,6 +1,6 @@
-"""What your own tests are made of: winds that keep to the rules, small prairies, one step at a time, pictures.
+"""Tools for your own tests: checks of winds, small prairies, single steps of systems, comparison of pictures.
 
-It needs no test runner, and nothing of it loads itself into one.
+It needs no test runner, and registers itself with none.
 """
 
 from ..engine.gl.headless import NoContextError

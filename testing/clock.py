@@ -1,4 +1,4 @@
-"""A clock that moves only when a test says so, for whatever goes by pyglet's."""
+"""A clock that a test advances, in place of pyglet's."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -6,9 +6,9 @@ from math import isfinite
 
 
 class FixedClock:
-    """Time in equal steps, from 0: calling it gives the time [s], as pyglet's own time function does.
+    """Time in equal steps from 0; calling it returns the time [s], as pyglet's own time function does.
 
-    `step` is the length of a step [s]; ValueError where that is not above 0.
+    `step` is the length of a step [s]; ValueError where it is not above 0.
     """
 
     def __init__(self, step: float = 1 / 60) -> None:
@@ -23,14 +23,13 @@ class FixedClock:
 
     @property
     def time(self) -> float:
-        """The time [s], to the nearest microsecond."""
+        """Time, rounded to microseconds [s]."""
         return round(self.steps * self.step, 6)
 
     def tick(self, steps: int = 1) -> float:
-        """Go some steps further, and let pyglet call what is scheduled after each; return the time [s].
+        """Advance by `steps`, and let pyglet call scheduled functions after each; return the time [s].
 
-        Inside `fixed_clock`, what is scheduled is told a dt of `step`, but for rounding. ValueError for negative
-        numbers of steps.
+        Inside `fixed_clock`, they get a dt of `step`, up to rounding. ValueError for a negative number.
         """
         from pyglet import clock  # noqa: PLC0415 - so that a wind's own tests load no window library
 
@@ -44,16 +43,16 @@ class FixedClock:
 
 @contextmanager
 def fixed_clock(step: float = 1 / 60) -> Iterator[FixedClock]:
-    """Put a `FixedClock` in the place of pyglet's default clock, and in the end the host's back, with its schedules.
+    """Replace pyglet's default clock by a `FixedClock`, and in the end restore the host's clock with its schedules.
 
-    What the body schedules by `pyglet.clock` runs when the yielded clock ticks, and never otherwise. `step` is the
-    length of a step [s].
+    Functions that the body schedules by `pyglet.clock` run only when the yielded clock ticks. `step` is the length of a
+    step [s].
     """
     from pyglet import clock  # noqa: PLC0415 - so that a wind's own tests load no window library
 
     fixed, host = FixedClock(step), clock.get_default()
     mine = clock.Clock(fixed)
-    mine.update_time()  # the first tick of a clock that has never been asked tells a dt of 0
+    mine.update_time()  # otherwise the first tick of a new clock would have a dt of 0
     clock.set_default(mine)
     try:
         yield fixed

@@ -8,10 +8,10 @@ from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
 RECORD = "TALLGRASS_RECORD"
-"""The environment variable that, set to 1, lets `same_picture` record what it is given."""
+"""Environment variable; where it is 1, `same_picture` records its picture."""
 
 TILE = 8
-"""Side of the squares that pictures are compared by [pixels]."""
+"""Side of the squares whose means are compared [pixels]."""
 
 Levels = NDArray[np.float64]
 
@@ -20,11 +20,11 @@ def same_picture(picture: ArrayLike, path: str | Path, /, *, tolerance: float, r
     """Raise AssertionError where a picture differs from the one recorded in a PNG file, or there is none.
 
     `picture` holds display colours from 0 to 255, top row first, shape (height, width, 3). Both are cut into squares of
-    8 by 8 pixels; `tolerance` is how much the mean colour of a square may differ in any channel [levels of 255]. At 0
-    every pixel has to be the same. So a single blade may fall a pixel aside on another graphics card, and a thing that
-    is missing is found however large the picture is.
+    8 by 8 pixels; `tolerance` is the greatest difference of a square's mean colour in any channel [levels of 255]. At 0
+    every pixel has to be the same. So a single blade may be a pixel off on another graphics card, and a missing thing
+    is found however large the picture is.
 
-    What differs is written beside the recorded picture, as `NAME.differs.png`. With `record`, or with
+    A picture that differs is written next to the recorded one, as `NAME.differs.png`. With `record`, or with
     `TALLGRASS_RECORD=1` in the environment, the picture is recorded and nothing is compared; nothing else records one.
     Raises ValueError for anything but a picture.
     """
@@ -64,7 +64,7 @@ def _write(picture: NDArray[np.uint8], path: Path) -> None:
 
 
 def _difference(drawn: NDArray[np.uint8], recorded: NDArray[np.uint8], tolerance: float) -> str | None:
-    """Return how a picture differs by more than `tolerance`, or None."""
+    """Return a message on the difference of two pictures, or None where it is within `tolerance`."""
     if drawn.shape != recorded.shape:
         (height, width, _), (rows, columns, _) = drawn.shape, recorded.shape
         return f"the picture is {width} by {height} pixels, not {columns} by {rows} as"
@@ -79,7 +79,7 @@ def _difference(drawn: NDArray[np.uint8], recorded: NDArray[np.uint8], tolerance
 
 
 def _tiles(apart: Levels) -> Levels:
-    """Return the means of squares of `TILE` pixels, shape (rows, columns, 3); those at the edges may be smaller."""
+    """Return the means of squares of `TILE` pixels, shape (rows, columns, 3); squares at the edges may be smaller."""
     for axis in (0, 1):
         starts = np.arange(0, apart.shape[axis], TILE)
         sizes = np.diff(starts, append=apart.shape[axis])

@@ -1,4 +1,4 @@
-"""What the receivers of a prairie have heard, as arrays to assert on."""
+"""Messages of a prairie's receivers, as arrays to assert on."""
 
 from dataclasses import dataclass, replace
 
@@ -16,36 +16,36 @@ Words = NDArray[np.str_]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Heard:
-    """Receivers of the patches that are shown, one row each; blades and strip edges, not carpets."""
+    """Receivers of the patches that are shown, one row each: blades and edges of strips, not carpet."""
 
     place: Floats
     """Ground positions (x, z) [m], shape (n, 2)."""
 
     message: Floats
-    """What each has heard last: vectors along the bending direction whose norm is the posture index, shape (n, 2)."""
+    """Latest messages: vectors along the bending direction whose norm is the posture index, shape (n, 2)."""
 
     kind: Words
-    """The name of the grass kind of each, as the scene calls it, shape (n,)."""
+    """Name of each receiver's kind of grass in the scene, shape (n,)."""
 
     representation: Words
     """`blades` or `strips`, shape (n,)."""
 
     kinds: tuple[str, ...]
-    """The names of the scene's kinds of grass, also of those that none of these is of."""
+    """Names of all kinds of grass in the scene, also of kinds without a receiver here."""
 
     representations: tuple[str, ...]
-    """The names of the representations that have such receivers, likewise."""
+    """Names of all representations with such receivers, also of those without a receiver here."""
 
     def __len__(self) -> int:
         return len(self.place)
 
     @property
     def index(self) -> Floats:
-        """The posture index of each, in [0, 1], shape (n,)."""
+        """Posture index of each receiver, in [0, 1], shape (n,)."""
         return np.asarray(np.hypot(*self.message.T))
 
     def only(self, *, kind: str | None = None, representation: str | None = None) -> "Heard":
-        """Return those of one kind, of one representation, or of both. Raises ValueError for a name that is unknown."""
+        """Return the receivers of a kind, of a representation, or of both. Raises ValueError for an unknown name."""
         chosen = np.ones(len(self), np.bool_)
         for what, name, known, have in (
             ("grass", kind, self.kinds, self.kind),
@@ -57,7 +57,7 @@ class Heard:
         return self._of(chosen)
 
     def near(self, x: float, z: float, *, within: float) -> "Heard":
-        """Return those at most `within` metres from a ground position (x, z) [m]."""
+        """Return the receivers at most `within` metres from a ground position (x, z) [m]."""
         chosen = np.hypot(self.place[:, 0] - x, self.place[:, 1] - z) <= within
         return self._of(chosen)
 
@@ -67,21 +67,21 @@ class Heard:
 
 
 def receivers_of(prairie: Prairie, /, *, viewer: str = "main") -> Heard:
-    """Return the receivers of the patches that a viewer is shown, with what each has heard: copies, to assert on.
+    """Return copies of the receivers of the patches that are shown to a viewer, with their messages.
 
-    They have heard something once the prairie has been drawn, or `watch` and `step(prairie, Phase.BLOW)` were called;
-    patches that nothing has been planted on yet have none.
+    Messages are there once the prairie has been drawn, or after `watch` and `step(prairie, Phase.BLOW)`. Patches that
+    have not been planted yet have no receivers.
     """
     outlook = prairie.viewers[viewer]
-    asked = [receiving for kept in outlook.kept.values() for receiving in kept.receiving if not receiving.still]
-    parts = [_heard(prairie, receiving, outlook.patches) for receiving in asked]
+    pools = [receiving for kept in outlook.kept.values() for receiving in kept.receiving if not receiving.still]
+    parts = [_heard(prairie, receiving, outlook.patches) for receiving in pools]
     place, message, kind, representation = (np.concatenate(rows) for rows in zip(*parts, strict=True))
-    names = tuple(dict.fromkeys(receiving.representation for receiving in asked))
+    names = tuple(dict.fromkeys(receiving.representation for receiving in pools))
     return Heard(place, message, kind, representation, tuple(prairie.scene.grass), names)
 
 
 def _heard(prairie: Prairie, receiving: Receiving, patches: PatchTable) -> tuple[Floats, Floats, Words, Words]:
-    """Return place, message, kind and representation of the receivers of a pool that are shown and planted."""
+    """Return place, message, kind and representation of a pool's receivers that are shown and planted."""
     pool, slots = receiving.pool, receiving.slots
     grows = pool.grows(slots, patches.cell[receiving.rows])
     place, message = pool.places(slots).reshape(-1, 2)[grows], receiving.letters.messages(slots).reshape(-1, 2)[grows]

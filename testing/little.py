@@ -1,4 +1,4 @@
-"""A prairie so small that every test can grow one, its site to make systems from, and single steps of them."""
+"""A prairie so small that every test can grow one, its site to make systems from, and single steps of systems."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -49,7 +49,7 @@ quality:
   carpet_to: 12
   carpet: 32
 """
-"""A scene of two kinds of grass on 60 by 60 m of rolling ground, without wind; all three representations show."""
+"""Scene of two kinds of grass on 60 by 60 m of rolling ground, without wind; all three representations show."""
 
 SPARSE = """\
 tallgrass: 2
@@ -60,10 +60,10 @@ quality:
   carpet_to: 12
   carpet: 32
 """
-"""How scenes begin in which grass matters little: in a quality that is soon grown."""
+"""Beginning of scenes in which grass matters little: a quality that is grown quickly."""
 
 ASPECT = 16 / 9
-"""Width over height of the picture that a viewer is taken to have."""
+"""Aspect ratio (width over height) of a viewer's picture."""
 
 
 @contextmanager
@@ -76,10 +76,9 @@ def little_prairie(
 ) -> Iterator[Prairie]:
     """Grow a small prairie in the current esper world, and release it in the end.
 
-    `winds` blow on it, besides those that `scene` declares, the text of a scene file; the one it has unless told
-    otherwise is `LITTLE`, without wind. `ctx` is the context to draw in; without it the one that is current at the
-    first draw, and none where nothing is drawn. `lod` and `transitions` are those of `Prairie.load`. Raises SceneError
-    with every problem of the text.
+    `winds` blow on it, in addition to those of `scene`, the text of a scene file; the default scene, `LITTLE`, has
+    none. `ctx` is the context to draw in; the default is the one that is current at the first draw. `lod` and
+    `transitions` are those of `Prairie.load`. Raises SceneError with every problem of the text.
     """
     prairie = Prairie(_loaded(scene), ctx=ctx, lod=lod, transitions=transitions)
     try:
@@ -94,8 +93,8 @@ def little_prairie(
 def little_site(scene: str = LITTLE) -> Site:
     """Return the ground, the grown kinds and the representations of a scene, the text of a scene file.
 
-    It is what systems are made from, and grown once for all tests: leave it as it is. Raises SceneError with every
-    problem of the text.
+    Systems are made from it. It is grown once for all tests, so do not change it. Raises SceneError with every problem
+    of the text.
     """
     return found_site(_loaded(scene))
 
@@ -105,9 +104,9 @@ def _loaded(scene: str) -> LoadedScene:
 
 
 def viewer_on(site: Site, world: World, camera: Camera | None = None, /, *, name: str = "main") -> Outlook:
-    """Return the outlook of a viewer who stands on a site and has looked once; no system has run for it yet.
+    """Return the outlook of a viewer on a site, which has looked once; no system has run for it yet.
 
-    `camera` is where, as `looking` makes one; without it the scene's own.
+    `camera` is one of `looking`; the default is the scene's own.
     """
     viewer = Viewer(name)
     outlook = outlook_on(site, viewer, world.create(viewer))
@@ -116,7 +115,7 @@ def viewer_on(site: Site, world: World, camera: Camera | None = None, /, *, name
 
 
 def look(outlook: Outlook, site: Site, camera: Camera | None = None, /, *, time: float = 0.0) -> None:
-    """Let a viewer look from where a camera stands, the scene's own if none is given, at an instant [s]."""
+    """Let a viewer look from a camera, by default the scene's own, at a time [s]."""
     if camera is not None:
         must_be_camera(camera)
     seen = camera or camera_at(site.scene.camera, None, lambda xz: height_at(site.ground.terrain, xz))
@@ -127,7 +126,7 @@ def look(outlook: Outlook, site: Site, camera: Camera | None = None, /, *, time:
 def systems_on(site: Site, outlooks: Sequence[Outlook], world: World, /, *, hear: Hear | None = None) -> Schedule:
     """Return a schedule of the built-in systems for some viewers on a site: `run(last=Phase.BLOW)` needs no GL.
 
-    `hear` gives the messages (n, 2) of receivers at a time [s]; without it there is no wind.
+    `hear` returns the messages (n, 2) of receivers at a time [s]; without it there is no wind.
     """
     schedule = Schedule()
     entities = PatchEntities(world, Clearings(), site.representations)
@@ -149,10 +148,10 @@ def _no_painter() -> Painter:
 
 
 def watch(prairie: Prairie, camera: Camera | None = None, /) -> None:
-    """Let a viewer stand in a prairie for a frame, without drawing it and without any GL.
+    """Let a viewer look at a prairie for a frame, without drawing and without any GL.
 
-    `camera` is where, as `looking` makes one; without it the scene's own. Afterwards patches are where they are due,
-    in the representation that they are due in. TypeError for what is no camera, RuntimeError after `release`.
+    `camera` is one of `looking`; the default is the scene's own. Afterwards all patches around the viewer are there, in
+    their final representation. TypeError for anything but a camera, RuntimeError after `release`.
     """
     if camera is not None:
         must_be_camera(camera)
@@ -161,11 +160,11 @@ def watch(prairie: Prairie, camera: Camera | None = None, /) -> None:
 
 
 def step(prairie: Prairie, which: Phase | str, /) -> None:
-    """Run one system of a prairie once, by its name, or all those of one phase, and nothing else.
+    """Run once one system of a prairie, by its name, or all of one phase, and nothing else.
 
-    The names are those of `prairie.systems`; tile, cull, lod, transition, see, plant, wind, gather and draw come along.
-    What earlier systems leave behind has to be there: `watch` does what comes before `Phase.BLOW`, and a picture has
-    to be drawn before `Phase.DRAW`. Raises KeyError for a name that is none, RuntimeError where something is missing.
+    The names are those of `prairie.systems`; tile, cull, lod, transition, see, plant, wind, gather and draw are built
+    in. The results of earlier systems have to be there: `watch` does all before `Phase.BLOW`, and a picture has to be
+    drawn before `Phase.DRAW`. Raises KeyError for an unknown name, RuntimeError where something is missing.
     """
     phase, name = (which, which.name) if isinstance(which, Phase) else (prairie.systems[which].phase, which)
     looking = list(prairie.viewers)

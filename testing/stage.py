@@ -1,4 +1,4 @@
-"""What tests draw with: a camera, a GL context without a window, and a framebuffer small enough for them."""
+"""Drawing in tests: a camera, a GL context without a window, and a small framebuffer."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -19,7 +19,7 @@ Matrix = NDArray[np.float32]
 
 
 def looking(x: float, y: float, z: float, *, yaw: float = 0.0, pitch: float = 0.0, view: float = 45.0) -> Camera:
-    """Return a camera at a place [m], y counted from 0 and not from the ground.
+    """Return a camera at a position (x, y, z) [m]; y is absolute, not above the ground.
 
     `yaw`, `pitch` and the vertical angle of `view` are in degrees: yaw 0 looks down -z and a positive one turns right;
     a positive pitch looks up.
@@ -28,18 +28,18 @@ def looking(x: float, y: float, z: float, *, yaw: float = 0.0, pitch: float = 0.
 
 
 def must_be_camera(thing: object, /) -> None:
-    """Raise TypeError for what is no camera."""
+    """Raise TypeError for anything but a camera."""
     if not isinstance(thing, Camera):
         raise TypeError(f"a camera is made by looking(x, y, z), unlike {shortened(thing)}")
 
 
 @contextmanager
 def headless_context() -> Iterator[moderngl.Context]:
-    """Make a GL context of OpenGL 3.3 or newer without a window, and give it back in the end.
+    """Make a context of OpenGL 3.3 or newer without a window, and release it in the end.
 
-    A small framebuffer is bound in it, because without one there is nothing to draw into. A software rasteriser will
-    do. Raises NoContextError, a RuntimeError of one sentence that says what to install, where there is none. A second
-    context takes the place of the first: make one for a whole run of tests.
+    A small framebuffer is bound in it, as there is no window to draw into. A software rasteriser will do. Raises
+    NoContextError, a RuntimeError of one sentence that says what to install, where there is no OpenGL. A second context
+    becomes current in place of the first: make one for a whole run of tests.
     """
     ctx = standalone_context()
     try:
@@ -50,7 +50,7 @@ def headless_context() -> Iterator[moderngl.Context]:
 
 
 class Stage:
-    """A framebuffer of 8-bit RGB colour and depth to draw into, as a host would; `size` is (width, height) [pixels].
+    """A framebuffer of 8-bit RGB colour and depth, as a host's; `size` is (width, height) [pixels].
 
     Raises ValueError for a size without pixels.
     """
@@ -63,13 +63,13 @@ class Stage:
         self.target = ctx.framebuffer([self.color], self.depth_map)
 
     def matrices(self, camera: Camera, /) -> tuple[Matrix, Matrix]:
-        """Return a camera's view and projection for this stage's size, shape (4, 4) each."""
+        """Return a camera's view and projection matrix for this stage's size, shape (4, 4) each."""
         must_be_camera(camera)
         width, height = self.size
         return view_matrix(camera), projection_matrix(camera.view, width / height)
 
     def shot(self, prairie: Prairie, camera: Camera | None = None) -> Picture:
-        """Return what a camera sees of a prairie, the scene's own if none is given: display colours from 0 to 255.
+        """Draw a prairie from a camera, by default the scene's own; return display colours from 0 to 255.
 
         The picture has its top row first, shape (height, width, 3).
         """
@@ -79,23 +79,23 @@ class Stage:
         return self.read()
 
     def begin(self) -> None:
-        """Bind the framebuffer and clear it: what is drawn next goes into it."""
+        """Bind the framebuffer and clear it, for drawing."""
         self.target.use()
         self.target.clear(depth=1.0)
 
     def read(self) -> Picture:
-        """Return what has been drawn: display colours from 0 to 255, top row first, shape (height, width, 3)."""
+        """Return the picture: display colours from 0 to 255, top row first, shape (height, width, 3)."""
         width, height = self.size
         data = np.frombuffer(self.target.read(components=3, alignment=1), np.uint8)
         return data.reshape(height, width, 3)[::-1].astype(np.float64)
 
     def depth(self) -> Matrix:
-        """Return how deep each pixel is, 1 where only the sky is, top row first, shape (height, width)."""
+        """Return the depth of each pixel, 1 for sky, top row first, shape (height, width)."""
         width, height = self.size
         return np.frombuffer(self.depth_map.read(alignment=1), np.float32).reshape(height, width)[::-1]
 
     def ground(self, camera: Camera, level: float = 0.0) -> NDArray[np.float64]:
-        """Return where each pixel's ray meets the plane y = `level` [m]: (x, z) [m], shape (height, width, 2).
+        """Return the intersection (x, z) [m] of each pixel's ray with the plane y = `level` [m], (height, width, 2).
 
         Above the horizon it is NaN.
         """
@@ -108,20 +108,20 @@ class Stage:
         return np.asarray(np.array(camera.position)[[0, 2]] + reach[..., None] * rays[..., ::2])
 
     def project(self, camera: Camera, place: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return where points (x, y, z) [m], shape (n, 3), are: column and row [pixels] from the top left, (n, 2)."""
+        """Return points (x, y, z) [m] (n, 3) in the picture: column and row [pixels] from the top left, (n, 2)."""
         view, projection = self.matrices(camera)
         clip = np.column_stack([place, np.ones(len(place))]) @ (projection.astype(float) @ view).T
         across, up = clip[:, 0] / clip[:, 3], clip[:, 1] / clip[:, 3]
         return np.stack([(across + 1) / 2 * self.size[0], (1 - up) / 2 * self.size[1]], 1)
 
     def release(self) -> None:
-        """Give the framebuffer back."""
+        """Delete the framebuffer."""
         release_all(self.target, self.color, self.depth_map)
 
 
 @contextmanager
 def stage(ctx: moderngl.Context, size: tuple[int, int] = (160, 90)) -> Iterator[Stage]:
-    """Make a `Stage` of a size [pixels] in a context, and give it back in the end.
+    """Make a `Stage` of a size [pixels] in a context, and release it in the end.
 
     Raises ValueError for a size without pixels.
     """

@@ -1,4 +1,4 @@
-"""One part of a wind at one instant: what it answers receivers, and whether that is the same however it is asked."""
+"""Checks of one part of a wind at one time: its answers for receivers, and whether they depend on the way of asking."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import astuple, dataclass, field
@@ -20,23 +20,23 @@ Ask = Callable[[Floats, Grass], Any]
 Answer = TypeVar("Answer")
 
 CLOSE = 1e-6
-"""By how much answers may differ when receivers are asked in another order, or only some of them."""
+"""Greatest difference of answers for the same receivers in another order, or without some of the others."""
 
 BESIDE = 0.01
-"""How far outside an extent a mask must be 0 [m]."""
+"""Distance outside an extent from which its mask must be 0 [m]."""
 
 FAR = 10000.0
-"""How far away the farthest receivers are [m]."""
+"""Distance of the farthest receivers [m]."""
 
 WIDE = 50.0
-"""How far from a wind's middle receivers are tried where its extent says nothing [m]."""
+"""Half the side of the square of receivers for a wind without an extent [m]."""
 
 _RESPONSES = ((2.0, 5.0), (5.0, 11.0))
 """Damping and angular frequency of two kinds, a tall soft one and a short stiff one [1/s]."""
 
 
 def bounds(extent: Extent | None, /) -> tuple[float, float, float, float]:
-    """Return the rectangle to look for a wind in: left, right, ahead, behind [m]."""
+    """Return the rectangle in which a wind is tried: left, right, ahead, behind [m]."""
     if extent is None:
         return -WIDE, WIDE, -WIDE, WIDE
     left, right = np.clip((extent.left, extent.right), -FAR, FAR).tolist()
@@ -67,7 +67,7 @@ def crowd(extent: Extent | None, count: int, /) -> Floats:
 
 
 def grass_at(place: Floats, /) -> Grass:
-    """Return grass of two kinds, mixed, at positions (n, 2)."""
+    """Return grass of two kinds in turn, at positions (n, 2)."""
     step, samples = np.array([0.02, 0.01], np.float32), 256
     time = step[:, None].astype(np.float64) * np.arange(samples)
     fading, swinging = np.array(_RESPONSES).T[..., None]
@@ -77,30 +77,30 @@ def grass_at(place: Floats, /) -> Grass:
 
 
 class FailedError(Exception):
-    """A wind's answer is such that nothing more can be asked of it."""
+    """A wind's answer is so wrong that the trial ends."""
 
 
 @dataclass(slots=True)
 class Report:
-    """What is wrong with a wind: one sentence for each thing, however often it shows."""
+    """Problems of a wind: one sentence for each, however often it occurs."""
 
     sentences: dict[str, str] = field(default_factory=dict)
-    """By what they are about."""
+    """Sentences by topic."""
 
     most: float = inf
-    """How long an answer may take, in processor time of this thread [s]."""
+    """Longest duration of an answer, in processor time of this thread [s]."""
 
     def add(self, about: str, sentence: str) -> None:
-        """Take a sentence down, unless there is one about this."""
+        """Add a sentence, unless there is one on this topic."""
         self.sentences.setdefault(about, sentence)
 
     def fail(self, about: str, sentence: str) -> FailedError:
-        """Take a sentence down, and return what to raise."""
+        """Add a sentence, and return the error to raise."""
         self.add(about, sentence)
         return FailedError(sentence)
 
     def ask(self, what: str, when: str, ask: Callable[[], Answer]) -> Answer:
-        """Return a wind's answer; raises FailedError where it raises anything, and where it takes too long."""
+        """Return a wind's answer; raises FailedError where the wind raises anything or takes too long."""
         try:
             answer, took = timed(ask)
             if took > self.most:  # the first time it may have imported or compiled something
@@ -108,12 +108,12 @@ class Report:
         except Exception as error:
             raise self.fail(f"{what} raises", f"{what} raised {said(error)} ({when})") from error
         if took > self.most:
-            told = f"{what} takes {1000.0 * took:.0f} ms of processor time ({when}), over {1000.0 * self.most:.0f} ms"
-            raise self.fail("cost", told)
+            cost = f"{what} takes {1000.0 * took:.0f} ms of processor time ({when}), over {1000.0 * self.most:.0f} ms"
+            raise self.fail("cost", cost)
         return answer
 
     def twice(self, what: str, when: str, ask: Callable[[], Answer], *kinds: type) -> Answer:
-        """Return what a wind answers both times; raises FailedError where that is of none of these types."""
+        """Ask a wind twice, and return its answer; raises FailedError where that is of none of these types."""
         answer = self.ask(what, when, ask)
         if not isinstance(answer, kinds):
             due = f"not {kinds[0].__name__}{' or None' if len(kinds) > 1 else ''}"
@@ -124,16 +124,16 @@ class Report:
 
 
 def timed(ask: Callable[[], Answer], /) -> tuple[Answer, float]:
-    """Return an answer, and how long it took in processor time of this thread [s]: no other program counts."""
+    """Return an answer, and its duration in processor time of this thread [s], which other programs do not affect."""
     start = thread_time()
     answer = ask()
     return answer, thread_time() - start
 
 
 def try_part(part: WindPrimitive, report: Report, /, *, time: float, seed: int) -> list[Floats]:
-    """Ask a part of a wind everything at `time` [s], and return its mask and its messages.
+    """Check all methods of a part of a wind at `time` [s], and return its mask and its messages.
 
-    Raises FailedError where it fails so that there are none.
+    Raises FailedError where it has none.
     """
     when = f"at {time:g} s"
     frame(part, report, time=time)
@@ -158,7 +158,7 @@ def try_part(part: WindPrimitive, report: Report, /, *, time: float, seed: int) 
 
 
 def frame(part: WindPrimitive, report: Report, /, *, time: float) -> None:
-    """Ask a part of a wind where it is, twice. Raises FailedError where that is nowhere."""
+    """Check pose and extent of a part of a wind, asked twice. Raises FailedError where they are invalid."""
     when = f"at {time:g} s"
     _stands("pose", report.twice("pose", when, partial(part.pose, time=time), Pose), report, when)
     extent = report.twice("extent", when, partial(part.extent, time=time), Extent, type(None))
@@ -170,14 +170,14 @@ def frame(part: WindPrimitive, report: Report, /, *, time: float) -> None:
 
 
 def flight(wind: WindPrimitive, report: Report, times: Iterable[float], /) -> None:
-    """Ask a wind for the path of what hovers over it, around times [s]. Raises FailedError where that is nowhere."""
+    """Check a wind's pose around times [s], for a body that hovers over it. Raises FailedError for an invalid pose."""
     for moment in (time + shift for time in times for shift in (-PATH_STEP, 0.0, PATH_STEP)):
         when = f"at {moment:g} s, for what hovers over it"
         _stands("pose", report.twice("pose", when, partial(wind.pose, time=moment), Pose), report, when)
 
 
 def times_of(wind: WindPrimitive, report: Report, /) -> None:
-    """Ask a wind how fast its phases run, and when it is over. Raises FailedError where these are no numbers."""
+    """Check the rates of a wind's phases and its end. Raises FailedError where these are no numbers."""
     rates = report.ask("rates", "at any time", lambda: tuple(wind.rates()))
     if not all(_is_sound(rate, bounded=True) for rate in rates):
         raise report.fail("rates", f"rates returned {rates}, which is not all finite numbers")
@@ -188,7 +188,7 @@ def times_of(wind: WindPrimitive, report: Report, /) -> None:
 
 def _stands(what: str, answer: Pose | Extent, report: Report, when: str) -> None:
     numbers = astuple(answer)
-    if isinstance(answer, Pose) and answer.y is None:  # it has no height, which is last
+    if isinstance(answer, Pose) and answer.y is None:  # the height is the last field
         numbers = numbers[:-1]
     if not all(_is_sound(number, bounded=what == "pose") for number in numbers):
         raise report.fail(what, f"{what} returned {answer}, which is not all numbers ({when})")
@@ -208,7 +208,7 @@ def _outside(extent: Extent, place: Floats) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True, slots=True)
 class _Method:
-    """A method of a wind that answers receivers with arrays."""
+    """A method of a wind that returns an array for receivers."""
 
     name: str
     ask: Ask
@@ -217,7 +217,7 @@ class _Method:
     when: str
 
     def try_at(self, place: Floats, grass: Grass) -> Floats:
-        """Return what it answers, having asked in every way."""
+        """Return its answer for all receivers, after asking for them again, in another order, in part and for none."""
         answer = self._at(place, grass)
         if self._at(place, grass).tobytes() != answer.tobytes():
             self._differs("when it is asked again")

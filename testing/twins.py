@@ -1,4 +1,4 @@
-"""Whether a wind's twin on the graphics card says what its numpy says."""
+"""Comparing a wind's twin on the graphics card with its numpy."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ from .trial import crowd, grass_at
 from .winds import timeline
 
 CLOSE_TWIN = 1e-3
-"""By how much a twin's message may differ from that of numpy."""
+"""Greatest difference of a twin's message from numpy's."""
 
 _CROWD = 2000
 
@@ -29,11 +29,11 @@ _CROWD = 2000
 def twin_problems(
     primitive: WindPrimitive | type[WindPrimitive], ctx: moderngl.Context, /, *, seed: int = 0
 ) -> list[str]:
-    """Return what is wrong with the twin of a wind, or of a class's defaults, one sentence for each thing.
+    """Return the problems of the twin of a wind, or of a class's defaults, one sentence each.
 
-    It is compiled, and what it says all along the timeline is compared with `mask` and `action`, at random places of
-    the extent and by both mixings. A wind without one has no problem. A framebuffer must be bound in `ctx`. `seed` is
-    the wind's own.
+    The twin is compiled, and its messages are compared with `mask` and `action` at times along the wind's timeline, at
+    random places of the extent, by both mixings. A wind without a twin has no problem. A framebuffer must be bound in
+    `ctx`. `seed` is the wind's own.
     """
     made: Any = primitive
     wind: WindPrimitive = made() if isinstance(primitive, type) else made
@@ -92,7 +92,7 @@ class CardEar:
         seed: int,
         mixing: Mixing,
     ) -> Floats:
-        """Return the message that each receiver ends up with, shape (n, 2), as `systems.wind.blow.hear` does."""
+        """Return the mixed message of each receiver, shape (n, 2), as `systems.wind.blow.hear` does."""
         self.card.write(winds, time=time, seed=seed, mixing=mixing)
         self.card.tell(lambda: receivers, quarantine)
         count = len(receivers.place)
@@ -104,7 +104,7 @@ class CardEar:
         form = " ".join(part if name in made else f"{4 * int(part[0])}x" for name, part in names.items())
         source = self.ctx.buffer(np.stack(each, axis=1).astype(np.float32))
         result = self.ctx.buffer(reserve=8 * count)
-        read = [name for name in names if name in made]  # where nothing blows, nothing
+        read = [name for name in names if name in made]  # empty where nothing blows
         array = self.ctx.vertex_array(made, [(source, form, *read)] if read else [])
         array.transform(result, moderngl.POINTS, vertices=count)
         message = np.frombuffer(result.read(), np.float32).reshape(count, 2)
@@ -112,5 +112,5 @@ class CardEar:
         return message
 
     def release(self) -> None:
-        """Give everything back to the context."""
+        """Delete its GL objects."""
         self.card.release()

@@ -1,4 +1,4 @@
-"""Whether a wind keeps to what tallgrass asks of every wind, the built-in ones included, of its fields too."""
+"""Checking a wind, and the fields of its class, against the rules for winds, which the built-in ones keep too."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -21,13 +21,13 @@ from ..systems.wind.quarantine import SLOW
 from .trial import FailedError, Report, crowd, flight, grass_at, timed, times_of, try_part
 
 MOST_COST = 0.02
-"""How long a wind may take for 10,000 receivers, in processor time [s].
+"""Greatest duration of a wind for 10,000 receivers, in processor time [s].
 
 At 60 frames a second a frame has 0.0167 s for everything.
 """
 
 MOST_SEED = 2**32 - 1
-"""The largest seed that a wind is given."""
+"""Largest seed of a wind."""
 
 _CROWD = 10_000
 _TRIES = 5
@@ -46,9 +46,9 @@ _BOUNDS = {"lower": ("ge", "gt"), "upper": ("le", "lt")}
 
 
 def check_wind(primitive: WindPrimitive | type[WindPrimitive], /, *, seed: int = 0) -> None:
-    """Raise AssertionError with one sentence for each thing that is wrong with a wind, or with a class's defaults.
+    """Raise AssertionError with one sentence for each problem of a wind, or of a class's defaults.
 
-    `wind_problems` tells what is looked at.
+    `wind_problems` says what is checked.
     """
     problems = wind_problems(primitive, seed=seed)
     if problems:
@@ -56,14 +56,14 @@ def check_wind(primitive: WindPrimitive | type[WindPrimitive], /, *, seed: int =
 
 
 def wind_problems(primitive: WindPrimitive | type[WindPrimitive], /, *, seed: int = 0) -> list[str]:
-    """Return what is wrong with a wind, or with a class's defaults, one sentence for each thing.
+    """Return the problems of a wind, or of a class's defaults, one sentence each.
 
-    It is looked at its fields (a sentence, a default, bounds, the unit in brackets), its colour, what hovers over it
-    and what its methods answer all along its timeline, for receivers in its extent, around it and 10 km away, for one
-    of them and for none: types, shapes, finite numbers, weights within 0 and 1 and 0 outside the extent, an index of at
-    most 1, the same answers however it is asked, and no more than `MOST_COST` of processor time for 10,000 receivers.
-    An answer to fewer that takes longer is the last one asked for. Numpy's floating-point errors (division by zero,
-    overflow, invalid values) count as raised. `seed` is the wind's own.
+    Checked are its fields (a docstring, a default, bounds, the unit in brackets), its colour, what hovers over it, and
+    the answers of its methods along its timeline, for receivers in its extent, around it and 10 km away, for one alone
+    and for none. Answers have the right types and shapes and finite numbers; weights are within 0 and 1, and 0 outside
+    the extent; an index is at most 1. They do not depend on the way of asking, and take at most `MOST_COST` of
+    processor time for 10,000 receivers; an answer for fewer that takes longer ends the checks. Numpy's floating-point
+    errors (division by zero, overflow, invalid values) count as raised. `seed` is the wind's own.
     """
     kind: Any = primitive if isinstance(primitive, type) else type(primitive)
     if not issubclass(kind, WindPrimitive):
@@ -104,7 +104,7 @@ def _behaviour(wind: WindPrimitive, seed: int) -> list[str]:
 
 
 def timeline(wind: WindPrimitive, /) -> list[float]:
-    """Return instants to try a wind at, from its start to its stop [s]."""
+    """Return times at which a wind is tried, from its start to its stop [s]."""
     times = [wind.start + time for time in _TIMES]
     if wind.stop is None:
         return times
@@ -147,15 +147,15 @@ def _cost(wind: WindPrimitive, report: Report, time: float, seed: int) -> None:
     took = inf
     for _ in range(_TRIES):
         took = min(took, _seconds(wind, time, seed))
-        if not MOST_COST < took < SLOW:  # it is quick enough, or no luck will make it so
+        if not MOST_COST < took < SLOW:  # it is quick enough, or so slow that another try does not help
             break
     if took > MOST_COST:
-        told = f"{1000.0 * took:.0f} ms of processor time for 10,000 receivers (at {time:g} s)"
-        report.add("cost", f"it takes {told}, over {1000.0 * MOST_COST:.0f} ms")
+        cost = f"{1000.0 * took:.0f} ms of processor time for 10,000 receivers (at {time:g} s)"
+        report.add("cost", f"it takes {cost}, over {1000.0 * MOST_COST:.0f} ms")
 
 
 def _seconds(wind: WindPrimitive, time: float, seed: int) -> float:
-    """Return how long all parts take for as many receivers in all, in processor time [s]."""
+    """Return the duration of all parts together for 10,000 receivers, in processor time [s]."""
     parts = wind.parts(time=time, seed=seed)
     places = [crowd(part.extent(time=time), _CROWD // max(1, len(parts))) for part in parts]
     grass = [grass_at(place) for place in places]
@@ -171,7 +171,7 @@ def _ask_all(wind: WindPrimitive, places: list[Floats], grass: list[Grass], time
 
 
 def declaration_problems(primitive: type[WindPrimitive], /) -> list[str]:
-    """Return what is wrong with the fields of a class of winds, one sentence each."""
+    """Return the problems of the fields of a class of winds, one sentence each."""
     return [
         f"the field '{name}' {problem}"
         for name, declared in primitive.model_fields.items()
@@ -197,7 +197,7 @@ def _of_field(primitive: type[WindPrimitive], name: str, declared: FieldInfo) ->
 
 
 def _is_number(annotation: Any) -> bool:
-    """Return whether values may be numbers by themselves, as in `float | None`, and not only in lists."""
+    """Return whether a value may be a number itself, as in `float | None`, and not only a list of numbers."""
     if annotation in {int, float}:
         return True
     return not _is_list(annotation) and any(_is_number(one) for one in get_args(annotation))
@@ -227,5 +227,5 @@ def _of_default(primitive: type[WindPrimitive], name: str, declared: FieldInfo) 
         for one in error.errors():
             if one["loc"][:1] == (name,):
                 yield f"refuses its own default {default!r}: {one['msg']}"
-    except Exception:  # noqa: BLE001 - what its validators raise else is told of the class, not of each field
+    except Exception:  # noqa: BLE001 - other errors of its validators are reported for the class, not for each field
         return

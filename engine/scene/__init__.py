@@ -1,4 +1,4 @@
-"""Reading scenes: YAML with positions, values with paths of keys, problems that show either."""
+"""Reading scenes, from YAML or from a program's values, with problems that name the line or the path of keys."""
 
 from .maps import load_maps
 from .problem import Problem, SceneError, printable

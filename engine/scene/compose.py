@@ -1,4 +1,4 @@
-"""From the bytes of a scene file to its values: YAML by the core schema of version 1.2, within limits."""
+"""Parsing the bytes of a scene file to its values: YAML by the core schema of version 1.2, within limits."""
 
 import re
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ MOST_BYTES = 2**20
 """Size of the largest scene file [bytes]."""
 
 MOST_VALUES = 100_000
-"""Most values, each counted as often as aliases repeat it."""
+"""Greatest number of values, each counted as often as aliases repeat it."""
 
 _TOO_BIG = f"a scene file may have {MOST_BYTES} bytes at most"
 _UNPRINTABLE = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -46,8 +46,8 @@ def decode(data: bytes, *, file: str) -> str:
 def read_document(text: str, *, file: str) -> Document:
     """Return the values of a YAML text.
 
-    Duplicate keys, keys that are no text, merge keys and tags become its `problems`. Raises SceneError for
-    what stops the reading: broken YAML, control characters, recursion, more than the limits of this module.
+    Duplicate keys, keys that are no text, merge keys and tags become its `problems`. Raises SceneError where reading
+    cannot go on: broken YAML, control characters, recursion, more than the limits of this module.
     """
     if len(text) > MOST_BYTES:
         raise SceneError([Problem(file, 1, 1, _TOO_BIG)])
@@ -64,12 +64,12 @@ def _after(before: str, file: str, message: str) -> Problem:
 
 
 class _UnreadableError(Exception):
-    """Reading cannot go on; why is among the problems."""
+    """Reading cannot go on; the reason is the last of the problems."""
 
 
 @dataclass(slots=True, eq=False)
 class _Open:
-    """A list or mapping whose end has not come yet."""
+    """A list or mapping whose end has not been parsed yet."""
 
     node: Node
     anchor: str | None
@@ -77,7 +77,7 @@ class _Open:
 
 
 class _Composer:
-    """Builds nodes from libyaml's events in a loop, so that no nesting can overflow the stack."""
+    """Builds nodes from libyaml's events without recursion, so that no nesting can overflow the stack."""
 
     def __init__(self, file: str, lines: list[str]) -> None:
         self.file, self.lines = file, lines
@@ -210,7 +210,7 @@ def _place(event: yaml.Event) -> tuple[int, int]:
 
 
 def scalar(text: str, /) -> Scalar:
-    """Return what an unquoted scalar means: 1e3 is a number, 017 is 17, and on, off, yes and no are text.
+    """Return the value of an unquoted scalar: 1e3 is a number, 017 is 17, and on, off, yes and no are text.
 
     Raises ValueError for a number of more than 64 characters.
     """

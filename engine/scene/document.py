@@ -1,4 +1,4 @@
-"""The values of a scene, each of which knows its place."""
+"""The values of a scene as a tree of nodes with positions."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -9,7 +9,7 @@ from .problem import Problem
 _LONGEST = 400
 
 Where = Sequence[str | int]
-"""A way from the root to a value, as in `("wind", 0, "kind")`."""
+"""Path from the root to a value, as in `("wind", 0, "kind")`."""
 
 
 @dataclass(slots=True, eq=False)
@@ -17,57 +17,57 @@ class Node:
     """A value of the file."""
 
     line: int
-    """From 0."""
+    """Number of its line, from 0."""
 
     column: int
-    """From 0, in characters."""
+    """Column of its first character, from 0."""
 
     data: Any
-    """The plain value: text, number, true, false, null, list or mapping."""
+    """Plain value: text, number, true, false, null, list or mapping."""
 
     below: dict[str | int, "Node"] = field(default_factory=dict)
-    """The values of a mapping by key, or of a list by index."""
+    """Values of a mapping by key, or of a list by index."""
 
     keys: dict[str, "Node"] = field(default_factory=dict)
-    """The keys of a mapping."""
+    """Keys of a mapping."""
 
     depth: int = 1
-    """Levels, itself included."""
+    """Number of levels, itself included."""
 
     count: int = 1
-    """Values, itself included, each as often as aliases repeat it."""
+    """Number of values, itself included, each as often as aliases repeat it."""
 
 
-def noded(data: Any, was: Node, /) -> Node:
-    """Return plain values as nodes; each has its place from the node that stood there, or from the nearest above."""
-    node = Node(was.line, was.column, data)
+def noded(data: Any, old: Node, /) -> Node:
+    """Return plain values as nodes with the positions of `old` nodes at the same paths, or of their nearest parents."""
+    node = Node(old.line, old.column, data)
     if isinstance(data, dict):
-        node.keys = {key: noded(key, was.keys.get(key, was)) for key in data}
+        node.keys = {key: noded(key, old.keys.get(key, old)) for key in data}
     inner = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ()
-    node.below = {step: noded(value, was.below.get(step, was)) for step, value in inner}
+    node.below = {step: noded(value, old.below.get(step, old)) for step, value in inner}
     return node
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Document:
-    """The values of a scene, and the problems that did not stop the reading."""
+    """The values of a scene, and the problems found while parsing."""
 
     file: str | None
-    """The file, as the person called it; None of values that a program hands in."""
+    """Name of the file, as the user gave it; None for values that a program hands in."""
 
     lines: list[str]
     root: Node
     problems: list[Problem]
 
     def node(self, where: Where) -> Node:
-        """Return the value at `where`; steps that the file does not have are skipped."""
+        """Return the value at the path `where`; steps that the file does not have are skipped."""
         node = self.root
         for step in where:
             node = node.below.get(step, node)
         return node
 
     def problem(self, where: Where, message: str, *, at_key: bool = False) -> Problem:
-        """Return a problem at the value at `where`, or at its key."""
+        """Return a problem positioned at the value at the path `where`, or at its key."""
         node = self.node(where)
         if at_key and where:
             node = self.node(where[:-1]).keys.get(str(where[-1]), node)
@@ -76,7 +76,7 @@ class Document:
         return problem_at(self.file, self.lines, node.line, node.column, message)
 
     def _found(self, where: Where) -> Where:
-        """Return the steps of `where` that there are."""
+        """Return those steps of a path that exist."""
         node, found = self.root, list[str | int]()
         for step in where:
             if step in node.below:
@@ -86,12 +86,12 @@ class Document:
 
 
 def key_path(where: Where, /) -> str:
-    """Return how a message calls a value that a program hands in: `wind[0].speed`."""
+    """Return a path as messages on a program's values write it: `wind[0].speed`."""
     return "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in where).lstrip(".") or "the scene"
 
 
 def problem_at(file: str, lines: list[str], line: int, column: int, message: str) -> Problem:
-    """Return a problem at a place counted from 0; its message becomes one line of a sensible length."""
+    """Return a problem at a line and column, counted from 0; its message is cut to one line of a sensible length."""
     return Problem(file, line + 1, column + 1, _one_line(message), lines[line] if line < len(lines) else "")
 
 

@@ -1,4 +1,4 @@
-"""Loading the maps that a scene names, with problems at the keys that name them."""
+"""Loading the maps that a scene names; problems are reported at the keys that name them."""
 
 from collections.abc import Sequence
 
@@ -16,9 +16,9 @@ Maps = tuple[Terrain, Density]
 
 
 def load_maps(loaded: LoadedScene, /, *, before: tuple[LoadedScene, Maps] | None = None) -> Maps:
-    """Return a scene's elevation and density maps; of those of a scene `before`, what has not changed since.
+    """Return a scene's elevation and density maps; unchanged ones are taken over from the scene `before`.
 
-    Raises SceneError with every map that cannot be used and every place of camera and trees that is off the terrain.
+    Raises SceneError with every unusable map and every place of camera and trees off the terrain.
     """
     scene, folder, document, pictures = loaded.scene, loaded.folder, loaded.document, loaded.pictures
     try:

@@ -1,38 +1,38 @@
-"""Problems of scenes: where, what, and the line itself."""
+"""Problems of scenes, with position, message and source line."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 MOST_PROBLEMS = 200
-"""Most problems told of one file."""
+"""Greatest number of problems that are reported for one file."""
 
 _WIDEST = 120
 
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """One thing wrong in a scene; its text is `file:line:column: what`, the line, and a caret.
+    """One fault of a scene; its text is `file:line:column: what`, the line, and a caret.
 
-    Of values that a program hands in, it is `grass.meadow.height: what`; where there is no file, the sentence alone.
+    For values that a program hands in, the text is `grass.meadow.height: what`; without a file, the message alone.
     """
 
     file: str
-    """The file, as the person called it; empty where there is none."""
+    """Name of the file, as the user gave it; empty where there is none."""
 
     line: int
-    """From 1; without a file, the number of the value."""
+    """Number of the line, from 1; without a file, the number of the value."""
 
     column: int
-    """From 1, in characters."""
+    """Column of the first character, from 1."""
 
     message: str
     """What is wrong, in one sentence."""
 
     source_line: str = ""
-    """The line as it stands in the file; empty where there is none to show."""
+    """The file's line; empty where there is none to show."""
 
     key: str = ""
-    """The path of keys that leads to it, of a value that a program hands in."""
+    """Path of keys of a value that a program hands in, else empty."""
 
     def __str__(self) -> str:
         if self.key:
@@ -50,15 +50,14 @@ class Problem:
 
 
 def printable(text: str, /) -> str:
-    """Return a text with a mark for each character that cannot be printed on one line."""
+    """Return a text with the replacement character for each character that cannot be printed on one line."""
     return "".join(character if character.isprintable() else "\N{REPLACEMENT CHARACTER}" for character in text)
 
 
 class SceneError(ValueError):
     """A scene cannot be read; `problems` holds every problem found, in the order of the file.
 
-    Of very many problems it holds the first `MOST_PROBLEMS`, and one that counts the rest. To make one, `more` says how
-    many there are beside those given.
+    Beyond `MOST_PROBLEMS`, one last problem counts the rest. `more` is the number of problems beyond those given.
     """
 
     def __init__(self, problems: Iterable[Problem], *, more: int = 0) -> None:
@@ -71,12 +70,12 @@ class SceneError(ValueError):
         super().__init__("\n".join(map(str, self.problems)))
 
     def __reduce__(self) -> tuple[Callable[[list[Problem]], "SceneError"], tuple[list[Problem]]]:
-        """Go from one process to another as the problems that it holds."""
-        return _again, (self.problems,)
+        """Return how to unpickle the error: from its problems."""
+        return _unpickled, (self.problems,)
 
 
-def _again(problems: list[Problem]) -> SceneError:
-    """Return an error with just these problems, of which the last may count others."""
+def _unpickled(problems: list[Problem]) -> SceneError:
+    """Return an error with exactly these problems, the last of which may count others."""
     error = SceneError(problems[:MOST_PROBLEMS])
     error.problems = problems
     error.args = ("\n".join(map(str, problems)),)

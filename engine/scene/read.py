@@ -27,49 +27,49 @@ from .validate import validate
 from .values import values_document
 
 SceneLike = str | Path | Mapping[str, Any] | Scene
-"""What names or is a scene: the path of a file, the name of a bundled one, its keys and values, or a `Scene`."""
+"""A scene: the path of its file, the name of a bundled one, its keys and values, or a `Scene`."""
 
 Stamp = tuple[int, int]
-"""When a file was last changed [ns], and its size [bytes]."""
+"""A file's time of last change [ns], and its size [bytes]."""
 
 LONGEST_NAME = 255
-"""Most characters of a file's name that is looked for."""
+"""Greatest length of a text that could name a file [characters]."""
 
 SUFFIXES = (".yaml", ".yml")
-"""What a scene file's name ends with."""
+"""Suffixes of scene files."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LoadedScene:
-    """A scene, and where it comes from."""
+    """A scene, and its source."""
 
     scene: Scene
 
     path: Path | None
-    """The file it was read from; None where a program has handed it in."""
+    """File it was read from; None where a program has handed it in."""
 
     folder: Path
-    """What the scene's own file names are relative to."""
+    """Folder to which the file names in the scene are relative."""
 
     document: Document = field(repr=False)
-    """Its values with their places, for problems that show later."""
+    """Its values with their positions, for problems that are found later."""
 
     files: Mapping[str, Stamp] = field(default_factory=dict)
-    """The files that the scene names, as it names them, and what they were like when it was read."""
+    """Stamps of the files that the scene names, by name, from when it was read."""
 
     pictures: Mapping[str, NDArray[np.uint8]] = field(default_factory=dict, repr=False)
-    """Density maps in place of files of these names, (rows, columns, 3 or 4) each; another array is another map."""
+    """Density maps that replace files, by name, each (rows, columns, 3 or 4); compared by identity."""
 
     @property
     def file(self) -> Path:
-        """The file it was read from. Raises ValueError where a program has handed it in."""
+        """File it was read from. Raises ValueError where a program has handed it in."""
         if self.path is None:
             raise ValueError("this scene was made from a program's values: what writes or sends it needs a file")
         return self.path
 
     @property
     def paths(self) -> dict[str, Path]:
-        """The scene's file, if it has one, and those that it names, by the names that it calls them."""
+        """The scene's file, if it has one, and the files that it names, by name."""
         own = {} if self.path is None else {self.path.name: self.path}
         return own | {name: self.folder / name for name in self.files}
 
@@ -81,7 +81,7 @@ def bundled_scenes() -> dict[str, Path]:
 
 @cache
 def _bundle() -> Path:
-    """Return the folder of the bundled scenes; those in a zip file are unpacked for as long as the program runs."""
+    """Return the folder of the bundled scenes; from a zip file they are unpacked into a temporary folder until exit."""
     found = files(scenes)
     folder = Path(str(found))
     if folder.is_dir():
@@ -95,28 +95,28 @@ def _bundle() -> Path:
 
 
 def read_scene(scene: SceneLike, /) -> LoadedScene:
-    """Return the scene in a file, the bundled scene of a name, or the one that a program's values declare.
+    """Return the scene of a file, of a bundled scene's name, or of a program's values.
 
-    The files that the scene names must exist; `load_maps` reads them. Those that values name lie in the current folder.
-    Raises SceneError with all problems, and then with those of its maps too, as far as they can be known; TypeError for
-    what is no scene.
+    The files that the scene names must exist; `load_maps` reads them. Files that values name are relative to the
+    current folder. Raises SceneError with all problems, including those of its maps that can be found; TypeError for
+    anything but a scene.
     """
     path, document = _document(scene)
     try:
         return load_document(document, path)
     except SceneError as error:
-        told = {(problem.line, problem.column) for problem in error.problems}
+        reported = {(problem.line, problem.column) for problem in error.problems}
         found = unusable(document, _folder(path))
-        more = [problem for problem in found if (problem.line, problem.column) not in told]
+        more = [problem for problem in found if (problem.line, problem.column) not in reported]
         if not more or len(error.problems) > MOST_PROBLEMS:  # the last counts the rest
             raise
         raise SceneError([*error.problems, *more]) from error
 
 
 def read_again(before: LoadedScene, scene: SceneLike | LoadedScene | None, /) -> LoadedScene:
-    """Return another reading of a scene, or of the one that is to take its place; what has been read already stays.
+    """Return `scene`, read unless it has been read already; None reads the file of the scene `before` again.
 
-    Raises what `read_scene` raises, and ValueError for a scene that there is no file to read again from.
+    Raises as `read_scene` does, and ValueError for None if the scene `before` has no file.
     """
     if isinstance(scene, LoadedScene):
         return scene
@@ -144,9 +144,9 @@ def _folder(path: Path | None) -> Path:
 def load_document(
     document: Document, path: Path | None, /, *, pictures: Mapping[str, NDArray[np.uint8]] | None = None
 ) -> LoadedScene:
-    """Return the scene that values declare, with `pictures` in place of the files of their names.
+    """Return the scene of a document, with `pictures` in place of the files of these names.
 
-    `path` is the file that they stand in. Raises SceneError with all problems.
+    `path` is the document's file. Raises SceneError with all problems.
     """
     given, folder = pictures or {}, _folder(path)
     missing = _missing_files(document, folder, given)
@@ -156,7 +156,7 @@ def load_document(
 
 
 def stamp_of(path: Path, /) -> Stamp | None:
-    """Return what changes when a file does; None where there is no file."""
+    """Return the stamp of a file, which changes with the file; None where there is none."""
     try:
         found = path.stat()
     except (OSError, ValueError):
@@ -165,7 +165,7 @@ def stamp_of(path: Path, /) -> Stamp | None:
 
 
 def parse_scene(text: str, /, *, file: str = "<scene>") -> Scene:
-    """Return the scene that a text declares; the files it names are not looked for. Raises SceneError."""
+    """Return the scene of a text, without looking for the files that it names. Raises SceneError."""
     return validate(read_document(text, file=file))
 
 
@@ -230,7 +230,7 @@ def _named_files(values: object) -> Iterator[tuple[Where, str]]:
 
 
 def _names(values: object) -> set[str]:
-    """Return the texts among values that could name a file beside the scene."""
+    """Return the texts among values that could be names of files."""
     names, left = set(), [values]
     while left:
         value = left.pop()
@@ -244,7 +244,7 @@ def _names(values: object) -> set[str]:
 
 
 def _mode(path: Path) -> int:
-    """Return what a path is, as `stat` tells it; 0 where there is nothing or where no file can be."""
+    """Return a path's mode of `stat`; 0 where nothing exists, or where no file can be."""
     try:
         return path.stat().st_mode
     except (OSError, ValueError):
@@ -252,12 +252,12 @@ def _mode(path: Path) -> int:
 
 
 def _irregular(mode: int) -> str:
-    """Return what a sentence calls something of this mode that is no regular file."""
+    """Return the word in messages for something of this mode that is no regular file."""
     return "a folder" if S_ISDIR(mode) else "a device, a pipe or a socket"
 
 
 def _guess(path: Path) -> str:
-    """Return what follows a missing file's name: the file beside it whose name is near."""
+    """Return the end of a message on a missing file: the most similar name in its folder."""
     try:
         names = [other.name for other in path.parent.iterdir()]
     except (OSError, ValueError):
@@ -267,7 +267,7 @@ def _guess(path: Path) -> str:
 
 
 def must_be_read(thing: object, /) -> None:
-    """Raise TypeError for what is no scene that has been read."""
+    """Raise TypeError for anything but a scene that has been read."""
     if isinstance(thing, str | Path):
         raise TypeError(f"Prairie takes a scene that has been read; load one by Prairie.load({str(thing)!r})")
     if not isinstance(thing, LoadedScene):

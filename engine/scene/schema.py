@@ -1,4 +1,4 @@
-"""The schema of scene files, for editors: JSON Schema of draft 7, whose texts are the docstrings."""
+"""The JSON Schema (draft 7) of scene files, for editors; descriptions come from the docstrings."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -11,7 +11,7 @@ from ...components.wind import WindPrimitive
 from ..declared.scene import FORMAT, Scene
 
 DIALECT = "http://json-schema.org/draft-07/schema#"
-"""The draft that the language server for YAML reads."""
+"""Draft of JSON Schema that the language server for YAML reads."""
 
 _PLACE = "#/definitions/"
 _MODE: JsonSchemaMode = "validation"
@@ -20,10 +20,10 @@ Schema = dict[str, Any]
 
 
 def scene_schema(winds: Mapping[str, type[WindPrimitive] | None], /) -> Schema:
-    """Return the schema of scene files whose winds are of these kinds; of one without a class, any keys are right.
+    """Return the schema of scene files with these kinds of wind; a kind without a class may have any keys.
 
-    Everything that can be read fits the schema; what no schema can say, such as the order of a path's times, is left
-    to `check`. Raises what pydantic raises for a class that no schema can be made of.
+    Every valid scene fits the schema. Rules beyond a schema, such as the order of a path's times, are left to `check`.
+    Raises pydantic's errors for a class without a schema.
     """
     classes = [primitive for primitive in winds.values() if primitive is not None]
     models: list[type[BaseModel]] = [Scene, WindPrimitive, *classes]
@@ -42,7 +42,7 @@ def scene_schema(winds: Mapping[str, type[WindPrimitive] | None], /) -> Schema:
 
 
 class _Readable(GenerateJsonSchema):
-    """Leaves out what repeats a field's name, and defaults that no scene file could write."""
+    """Leaves out titles that repeat a field's name, and defaults that no scene file could write."""
 
     ignored_warning_kinds = {"skipped-choice", "non-serializable-default"}  # noqa: RUF012 - as its base declares it
 
@@ -52,7 +52,7 @@ class _Readable(GenerateJsonSchema):
 
 
 def _of_its_kind(kinds: Mapping[str, str | None]) -> Schema:
-    """Return the schema of one wind: the keys that its `kind` has, by name of the definition."""
+    """Return the schema of one wind: its `kind` selects the definition, whose name `kinds` has."""
     return {
         "type": "object",
         "required": ["kind"],
@@ -66,15 +66,15 @@ def _of_its_kind(kinds: Mapping[str, str | None]) -> Schema:
 
 
 def _explain(model: Schema) -> None:
-    """Write a model's texts as an editor shows them, with defaults and ranges."""
+    """Write a model's descriptions for editors, with defaults and ranges."""
     model["description"] = _unfolded(model.get("description", ""))
     for name, field in model.get("properties", {}).items():
-        told = [_unfolded(field.pop("description", "")), _facts(field)]
+        texts = [_unfolded(field.pop("description", "")), _facts(field)]
         if field.get("default") is None or isinstance(field["default"], dict):
             field.pop("default", None)
-        if "$ref" in field:  # in draft 7 nothing counts beside a reference
+        if "$ref" in field:  # in draft 7, other keys next to a reference are ignored
             field = {"allOf": [{"$ref": field.pop("$ref")}], **field}  # noqa: PLW2901
-        model["properties"][name] = {"description": "\n\n".join(filter(None, told)), **field}
+        model["properties"][name] = {"description": "\n\n".join(filter(None, texts)), **field}
 
 
 def _unfolded(text: str) -> str:
@@ -92,7 +92,7 @@ def _facts(field: Schema) -> str:
 
 
 def limits(numbers: Schema, /) -> list[str]:
-    """Return the range that a schema has numbers in, or its ends; nothing where it has none."""
+    """Return the words for a schema's range of numbers, or for each of its limits; empty without limits."""
     words = {"minimum": "at least", "exclusiveMinimum": "above", "maximum": "at most", "exclusiveMaximum": "below"}
     if "minimum" in numbers and "maximum" in numbers:
         return [f"{written(numbers['minimum'])} to {written(numbers['maximum'])}"]
@@ -100,7 +100,7 @@ def limits(numbers: Schema, /) -> list[str]:
 
 
 def written(value: object, /) -> str:
-    """Return a value as a scene file writes it."""
+    """Return a value in the notation of scene files."""
     match value:
         case bool():
             return str(value).lower()

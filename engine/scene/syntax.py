@@ -1,4 +1,4 @@
-"""What libyaml finds wrong with a text, in plain words."""
+"""Errors of libyaml in plain words."""
 
 import re
 
@@ -7,7 +7,7 @@ import yaml
 from ...components.colour import LONG, SHORT
 
 DEEPEST = 64
-"""Most levels of nesting; libyaml's own composer overflows the stack at some ten thousand."""
+"""Greatest number of nested levels; libyaml's own composer overflows the stack at some ten thousand."""
 
 TOO_DEEP = f"nested more than {DEEPEST} levels deep"
 
@@ -34,7 +34,7 @@ _WORDS: dict[str, str] = {
 
 
 def explain(error: yaml.MarkedYAMLError, lines: list[str]) -> tuple[int, int, str]:
-    """Return the line and column, from 0, and the sentence for an error of libyaml."""
+    """Return line and column, from 0, and the message for an error of libyaml."""
     mark = error.problem_mark or error.context_mark
     if mark is None:
         return 0, 0, f"this is not YAML: {error.problem}"
@@ -44,7 +44,7 @@ def explain(error: yaml.MarkedYAMLError, lines: list[str]) -> tuple[int, int, st
         return context.line, context.column, _UNCLOSED
     if problem == "found character that cannot start any token":
         return mark.line, mark.column, _cannot_start(lines, mark.line, mark.column)
-    if "expected ','" in problem or "node content" in problem:  # the latter does not know where its list began
+    if "expected ','" in problem or "node content" in problem:  # the latter does not tell where its list began
         comment = _comment(lines, context.line if "," in problem else 0, mark.line)
         if comment is not None:
             line, column, colour = comment
@@ -55,13 +55,13 @@ def explain(error: yaml.MarkedYAMLError, lines: list[str]) -> tuple[int, int, st
             line, column, key = tight
             return line, column, f"a space is missing after '{key}:'"
     if problem == "could not find expected ':'":
-        mark = context  # the key itself: what shows that its colon is missing may come lines later
+        mark = context  # the key itself: libyaml may notice the missing colon lines later
     words = _WORDS.get(problem, "this is not YAML: " + problem.replace("{", "{{").replace("}", "}}"))
     return mark.line, mark.column, words.format(context=f"{context.line + 1}:{context.column + 1}")
 
 
 def _comment(lines: list[str], first: int, last: int) -> tuple[int, int, str] | None:
-    """Return where a colour without quotes has begun a comment, the last one, and the colour; None where none has."""
+    """Return line and column of the last unquoted colour, which YAML takes for a comment, and the colour; or None."""
     for line in range(min(last, len(lines) - 1), first - 1, -1):
         found = _BARE_COLOUR.search(lines[line])
         if found:
@@ -70,7 +70,7 @@ def _comment(lines: list[str], first: int, last: int) -> tuple[int, int, str] | 
 
 
 def _tight(lines: list[str], last: int) -> tuple[int, int, str] | None:
-    """Return where a key up to a line has no space after its colon, in it or the one before, and the key."""
+    """Return line and column after a colon without a space, and its key, in one of two lines up to `last`; or None."""
     for line in [line for line in range(min(last, len(lines) - 1), -1, -1) if lines[line].strip()][:2]:
         found = _TIGHT.search(lines[line])
         if found:

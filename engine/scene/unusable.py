@@ -1,4 +1,4 @@
-"""What of the maps that a scene names, and of the places of its camera and its trees, cannot be used."""
+"""Problems of a scene's maps, and of places of its camera and trees."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -25,18 +25,18 @@ Pictures = Mapping[str, NDArray[np.uint8]]
 Part = TypeVar("Part", bound=Declaration)
 
 NOWHERE = Terrain(np.zeros((2, 2), np.float32), 100.0)
-"""What density maps are tried on where there is no terrain."""
+"""Terrain on which density maps are tried where the scene's terrain is unusable."""
 
 
 def bad_terrain(document: Document, source: TerrainSource, error: MapError, /) -> Problem:
-    """Return the problem of an elevation map, or of a noise, that cannot be used."""
+    """Return the problem of an unusable elevation map, or of a noise."""
     return document.problem(("terrain", "noise" if source.heights is None else "heights"), str(error))
 
 
 def bad_densities(
     document: Document, kinds: Mapping[str, GrassKind], terrain: Terrain, folder: Path, pictures: Pictures, /
 ) -> Iterator[Problem]:
-    """Give the problem of every density map that cannot be used."""
+    """Yield the problem of every unusable density map."""
     for name, kind in kinds.items():
         try:
             load_density({name: kind}, terrain, folder, pictures)
@@ -47,7 +47,7 @@ def bad_densities(
 def off_terrain(
     document: Document, camera: CameraSource | None, trees: Mapping[str, TreeKind], terrain: Terrain, /
 ) -> Iterator[Problem]:
-    """Give the problem of each place of the camera off the terrain, and of the first one of each kind of tree."""
+    """Yield a problem for each place of the camera off the terrain, and for the first one of each kind of tree."""
     places = list[tuple[Where, list[float]]]()
     if camera is not None:
         places += [(("camera", "position"), camera.position)]
@@ -64,9 +64,9 @@ def off_terrain(
 
 
 def unusable(document: Document, folder: Path, /) -> Iterator[Problem]:
-    """Give these problems of a scene that is refused already, as far as its parts are right by themselves.
+    """Yield problems of maps and places of a scene that has been refused already, as far as its parts are valid.
 
-    So all that is wrong is told in one go, whatever else is wrong with the file.
+    So all problems are reported together, whatever else is wrong with the file.
     """
     if not isinstance(document.root.data, dict):
         return
@@ -87,13 +87,13 @@ def unusable(document: Document, folder: Path, /) -> Iterator[Problem]:
 
 
 def _parts(model: type[Part], values: Any) -> dict[str, Part]:
-    """Return what parts by name declare, without those that are wrong themselves."""
+    """Return the valid parts of a mapping, by name."""
     parts = {name: _part(model, value) for name, value in values.items()} if isinstance(values, dict) else {}
     return {name: part for name, part in parts.items() if part is not None}
 
 
 def _part(model: type[Part], values: Any) -> Part | None:
-    """Return what a part of the scene declares, or None where that is wrong itself."""
+    """Return a part of the scene, or None where it is invalid."""
     try:
         return model.model_validate(values)
     except ValidationError:

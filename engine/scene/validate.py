@@ -1,4 +1,4 @@
-"""From a scene's values, or others for a part of it, to its `Scene`, or to every problem they have."""
+"""Validating the values of a scene, or of a part of it: the `Scene`, or all problems."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
@@ -24,9 +24,9 @@ Part = TypeVar("Part", bound=BaseModel)
 
 
 def validate(document: Document, /, *, folder: Path | None = None, also: Iterable[Problem] = ()) -> Scene:
-    """Return the scene of a file. Raises SceneError with every problem of the file, those in `also` among them.
+    """Return the scene of a document. Raises SceneError with every problem of it, and those in `also`.
 
-    Files that winds name are relative to `folder`, and are read only where there is one.
+    Files that winds name are relative to `folder`, and are read only if it is given.
     """
     if not isinstance(document.root.data, dict):
         message = f"{FIRST}, then its keys; this is {found(document.root.data)}"
@@ -53,7 +53,7 @@ def _of_version(document: Document) -> Iterator[Problem]:
 
 
 def upgraded(document: Document, /) -> dict[str, Any]:
-    """Return the values of a file as the newest format has them. Raises SceneError for a format that there is not."""
+    """Return the values of a file in the newest format. Raises SceneError for an unknown format."""
     values: dict[str, Any] = document.root.data
     version = values.get("tallgrass")
     try:
@@ -67,9 +67,9 @@ def _is_whole(version: object) -> TypeGuard[int]:
 
 
 def _refusal(document: Document, problems: list[Problem], errors: list[ErrorDetails]) -> SceneError:
-    told = {(problem.line, problem.column) for problem in document.problems}
+    reported = {(problem.line, problem.column) for problem in document.problems}
     new = [_problem(document, error) for error in errors[:MOST_PROBLEMS]]
-    problems += [problem for problem in new if (problem.line, problem.column) not in told]
+    problems += [problem for problem in new if (problem.line, problem.column) not in reported]
     return SceneError(problems, more=len(errors[MOST_PROBLEMS:]))
 
 
@@ -83,7 +83,7 @@ def _problem(document: Document, error: ErrorDetails) -> Problem:
 
 
 def field_at(root: Node, where: Where, /) -> Field:
-    """Return the field at `where`, a way as pydantic gives it: marks of a union and unknown keys are skipped."""
+    """Return the field at a path of pydantic's errors; marks of unions and unknown keys in the path are skipped."""
     field, entry, node = Field("the scene", Scene, model=Scene), False, root
     for step in where:
         if isinstance(step, int):
@@ -108,9 +108,9 @@ def _kind(node: Node) -> type[WindPrimitive]:
 
 
 def changed(part: Part, values: Mapping[str, object], /, *, name: str) -> Part:
-    """Return a part of a scene, called `name`, with other values.
+    """Return a part of a scene, called `name`, with some values replaced.
 
-    Raises ValueError with a sentence for each that cannot be.
+    Raises ValueError with a sentence for each invalid value.
     """
     try:
         return type(part).model_validate(part.model_dump() | dict(values))
@@ -119,15 +119,15 @@ def changed(part: Part, values: Mapping[str, object], /, *, name: str) -> Part:
 
 
 def changed_kind(scene: Scene, name: str, values: Mapping[str, object], /) -> GrassKind:
-    """Return a kind of a scene's grass with other values; those of its `head` join those that it has.
+    """Return a kind of a scene's grass with some values replaced; a `head` is merged into the present one.
 
-    Raises SceneError with a sentence for each that cannot be, by the path of its key.
+    Raises SceneError with a problem for each invalid value, by the path of its key.
     """
     kind = scene.grass[name]
-    said = {key: getattr(kind, key) for key in GrassKind.model_fields if key in kind.model_fields_set}
+    old = {key: getattr(kind, key) for key in GrassKind.model_fields if key in kind.model_fields_set}
     head = values.get("head")
     if isinstance(head, Mapping) and kind.head is not None:
-        said["head"] = {key: getattr(kind.head, key) for key in kind.head.model_fields_set} | dict(head)
+        old["head"] = {key: getattr(kind.head, key) for key in kind.head.model_fields_set} | dict(head)
         values = {key: value for key, value in values.items() if key != "head"}
-    whole = {"tallgrass": scene.tallgrass, "grass": {name: said | dict(values)}, "quality": scene.quality}
+    whole = {"tallgrass": scene.tallgrass, "grass": {name: old | dict(values)}, "quality": scene.quality}
     return validate(values_document(whole)).grass[name]

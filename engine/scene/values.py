@@ -1,4 +1,4 @@
-"""Scenes that a program hands in as values: every value knows the path of keys that leads to it."""
+"""Scenes that a program hands in as values; problems name the path of keys."""
 
 from collections.abc import Mapping
 from pathlib import PurePath
@@ -16,7 +16,7 @@ from .syntax import DEEPEST, TOO_DEEP
 
 
 def values_document(values: Mapping[Any, Any] | Declaration, /) -> Document:
-    """Return the values of a program as a document whose places are paths of keys, such as `grass.meadow.height`.
+    """Return the values of a program as a document with paths of keys for positions, such as `grass.meadow.height`.
 
     Keys that are no text become its `problems`. Raises SceneError for values that are too many or too deep.
     """
@@ -26,7 +26,7 @@ def values_document(values: Mapping[Any, Any] | Declaration, /) -> Document:
 
 
 class _Reading:
-    """Turns values into nodes and numbers them, so that problems come in their order."""
+    """Turns values into numbered nodes, so that problems can be sorted."""
 
     def __init__(self) -> None:
         self.problems: list[Problem] = []
@@ -61,7 +61,7 @@ class _Reading:
 
 
 def _plain(value: Any) -> Any:
-    """Return what a scene file would have in place of a program's own types; winds and arrays stay as they are."""
+    """Return a value of a program's type as the type that a scene file gives; winds and arrays stay as they are."""
     match value:
         case Declaration() if not isinstance(value, WindPrimitive):
             return {name: getattr(value, name) for name in type(value).model_fields if name in value.model_fields_set}
