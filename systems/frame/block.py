@@ -71,14 +71,14 @@ FRAME = np.dtype(
         ("clouds_drift", "2f4"),  # drift of the clouds, in sides of their map
         ("toward_sun", "2f4"),  # azimuth of the sun as a direction (x, z)
         ("terrain_origin", "2f4"), ("terrain_size", "2f4"),  # x, z [m]
-        ("lie_origin", "2f4"),  # where the map of how it lies begins, x, z [m]
+        ("lie_origin", "2f4"),  # corner of the map of the terrain's normals, x, z [m]
         ("half_screen", "2f4"),  # half the picture's size, across and up [pixels]
         ("posture_links", "f4"), ("posture_rows", "f4"), ("posture_variants", "f4"),  # of a kind's posture texture
         ("over_hosts", "f4"),  # 1 if grass is blended over the game's own ground
         ("lamplight", "f4"),  # factor like `exposure`, for lamps
         ("beside_sun", "f4"),  # 1 if anything shines beside sun and sky
         ("mesh_low", "2f4"), ("mesh_high", "2f4"),  # x, z [m]: corners of the drawn ground
-        ("patches_per_metre", "f4"), ("windows_per_patch", "f4"),  # 1 / patch side [1/m]; 1 / side of the window
+        ("patches_per_metre", "f4"), ("windows_per_patch", "f4"),  # 1 / patch side [1/m]; 1 / window side [1/patch]
         ("lamps_grid", "4f4"),  # grid of lamps: corner (x, z) [m]; cells a metre; cells along a side, 0 for none
         ("shades_grid", "4f4"),  # grid of shadows of shades, with the same numbers
         # Window of the carpet's shares: the viewer's cell; half its side [cells]; share of the carpet beyond it.

@@ -49,6 +49,7 @@ READY_ROWS, READY_SHEETS, READY_UNTWINNED = 64, 16, 4
 
 _NOTHING = (0.0,) * (SHEET - 1)
 _TRIED = "systems/wind/hear.vert"
+"""Shader that a new twin is compiled in, to find whether it can be used."""
 
 log = logging.getLogger("tallgrass")
 
@@ -66,7 +67,7 @@ class CardWinds:
     """The winds that act, in one GL context.
 
     Each frame: `write` the winds, `tell` the messages of winds without a twin, get each `program`, and `use` the
-    textures. `program` returns another program than before once a new kind of wind has come.
+    textures. A new kind of wind changes what `program` returns.
     """
 
     def __init__(self, ctx: moderngl.Context, units: Mapping[str, int], growths: Sequence[HasResponse]) -> None:
