@@ -9,7 +9,7 @@ from ...components.arrays import Doubles
 from .crown import shading
 from .grow import Stems, Tree
 
-BARK = np.dtype([("stem", "4f4"), ("side", "4f4"), ("own", "4f4"), ("pivot", "3f4"), ("shading", "4f4")])
+BARK = np.dtype([("stem", "4f4"), ("side", "4f4"), ("surface", "4f4"), ("pivot", "3f4"), ("shading", "4f4")])
 """A vertex of bark; `wood.vert` describes each field."""
 
 PACKED = np.dtype(
@@ -124,7 +124,10 @@ def bark_of(
             if limbs is None:
                 vertices["pivot"] = vertices["stem"][..., :3]
             else:
-                vertices["pivot"], vertices["own"][..., 2:] = pivot[limbs][:, None, None], limb[limbs][:, None, None]
+                vertices["pivot"], vertices["surface"][..., 2:] = (
+                    pivot[limbs][:, None, None],
+                    limb[limbs][:, None, None],
+                )
             first = sum(len(each) for each in bark)
             fine, straight = (
                 _faces(*vertices.shape, step=step) + first for step in (1, max(vertices.shape[1] // 4, 3))
@@ -195,7 +198,7 @@ def _tubes(stems: Stems, sides: int) -> NDArray[np.void]:
     vertices = _vertices(stems, sides + 1)
     vertices["side"][..., :3] = aside[:, :, None] * np.cos(angle)[:, None] + other[:, :, None] * np.sin(angle)[:, None]
     vertices["side"][..., 3] = min(1.0 / np.cos(np.pi / sides) - 1.0, MOST_OUTSET)
-    vertices["own"][..., 0] = angle * stems.radius[:, :1, None]
+    vertices["surface"][..., 0] = angle * stems.radius[:, :1, None]
     return vertices
 
 
@@ -203,7 +206,7 @@ def _ribbons(stems: Stems) -> NDArray[np.void]:
     """Return the vertices of ribbons, (n, points, 2); `side` has the tangent, and -1 or 1 for the edge."""
     vertices, edge = _vertices(stems, 2), np.array([-1.0, 1.0])
     vertices["side"][..., :3], vertices["side"][..., 3] = _tangents(stems.spine)[:, :, None], edge
-    vertices["own"][..., 0] = WHOLE_BEND * edge * stems.radius[:, :1, None]
+    vertices["surface"][..., 0] = WHOLE_BEND * edge * stems.radius[:, :1, None]
     return vertices
 
 
@@ -215,7 +218,7 @@ def _vertices(stems: Stems, around: int) -> NDArray[np.void]:
     arc_length = np.concatenate([np.zeros((len(spine), 1)), np.linalg.norm(np.diff(spine, axis=1), axis=-1)], 1).cumsum(
         axis=1
     )
-    vertices["own"][..., 1] = arc_length[..., None]
+    vertices["surface"][..., 1] = arc_length[..., None]
     return vertices
 
 
@@ -242,7 +245,7 @@ def ranges_of(vertices: NDArray[np.void], /) -> Ranges:
 def packed(vertices: NDArray[np.void], ranges: Ranges, /) -> NDArray[np.void]:
     """Return vertices as records of `PACKED`."""
     records, (side, mean) = np.zeros(len(vertices), PACKED), ranges.most_shading
-    for name in ("own", "pivot"):
+    for name in ("surface", "pivot"):
         records[name] = vertices[name]
     part = (vertices["stem"] - np.array(ranges.stem_least)) / np.maximum(ranges.stem_range, LEAST_RANGE)
     records["stem"] = np.round(STEM_SCALE * part)

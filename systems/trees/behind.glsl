@@ -2,15 +2,15 @@
 uniform float behind;  // [m]
 
 // Clip position of a place with the depth of one `off` behind it [m].
-vec4 as_deep(vec3 place, float off) {
+vec4 pushed_back(vec3 place, float off) {
     vec4 at = clip * vec4(place, 1.0), back = clip * vec4(place + off * normalize(place - eye), 1.0);
     at.z = back.z / back.w * at.w;
     return at;
 }
 
-vec4 stood(vec3 place) {
+vec4 clip_position(vec3 place) {
 #ifdef SOFT
-    return as_deep(place, behind);
+    return pushed_back(place, behind);
 #else
     return clip * vec4(place, 1.0);
 #endif
@@ -23,11 +23,11 @@ const float ALL_EDGES = 4.0;
 // Clip position of wood among leaves of a length [pixels]; `leafy` is 1 where leaves surround it. Thin stems are as far behind as the
 // soft edges of leaves, or as far as these are a part of them, so that leaves in front hide as much. They are no farther behind than
 // high over the ground, which would hide them.
-vec4 stood_among_leaves(vec3 place, float leafy, float leaf, float high) {
+vec4 clip_position_among_leaves(vec3 place, float leafy, float leaf, float high) {
 #ifdef SAMPLED
     return clip * vec4(place, 1.0);
 #else
-    return as_deep(place, min(behind * leafy * min(ALL_EDGES / leaf, 1.0), max(high, 0.0)));
+    return pushed_back(place, min(behind * leafy * min(ALL_EDGES / leaf, 1.0), max(high, 0.0)));
 #endif
 }
 

@@ -1,6 +1,6 @@
 // Twigs on cards, within their outlines.
 #include "lib/frame.glsl"
-#include "systems/trees/leaf_sends.glsl"
+#include "systems/trees/leaf_light.glsl"
 #include "systems/trees/hung.glsl"
 #include "systems/trees/behind.glsl"
 #include "systems/trees/outline.py"
@@ -20,11 +20,11 @@ flat out vec3 brightest;
 
 void main() {
     on = corners[gl_VertexID];
-    HungCard hung = hung_card(hung_axes, hung_light);
+    HungCard hung = unpack_card(hung_axes, hung_light);
     picture = hung.picture;
     relief = hung.relief;
     darkest = hung.darkest;
     brightest = hung.brightest;
     vec3 place = hung_at.xyz + hung_at.w * (on.x * card.x * hung.aside + mix(card.y, card.z, on.y) * hung.along);
-    gl_Position = hung_at.w > 0.0 ? stood(place) : vec4(0.0, 0.0, 2.0, 1.0);
+    gl_Position = hung_at.w > 0.0 ? clip_position(place) : vec4(0.0, 0.0, 2.0, 1.0);
 }

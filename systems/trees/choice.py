@@ -83,11 +83,11 @@ class Batch(NamedTuple):
     foliage: float
     """Least share of its leaves that a tree has."""
 
-    keep: float
+    twig_share: float
     """Greatest share of its twigs that is drawn of a tree."""
 
     leaves: float
-    """Greatest product of `keep` and `foliage` of a tree."""
+    """Greatest product of `twig_share` and `foliage` of a tree."""
 
 
 def single(model: int, name: str, first: int, /) -> Batch:
@@ -188,7 +188,7 @@ class Choice:
         pixels[ring > 1] = 0.0
         instances, along = self._instances.take(number), np.hypot(*(middle - look.eye)[:, ::2].T)
         set_detail(instances, pixels, pixels * pictured)
-        instances["shows"] = ring_opacity(ring, along)
+        instances["opacity"] = ring_opacity(ring, along)
         reach = (1.0 + SWAYS) * scale[:, None] * self._ball.take(number, axis=0)
         ahead = nearest_ahead(look.clip, middle, look.eye, reach)
         pixel_radius = THINNEST * np.maximum(ahead, AWAY) / (look.focal * scale)
@@ -197,7 +197,7 @@ class Choice:
     def _leafy(self, look: Look, seen: _Seen, distance: Doubles) -> tuple[Numbers, Numbers]:
         """Return the twigs drawn leaf by leaf: each one's tree, as an index into `seen`, and its own number."""
         if look.leaves_from is not None:
-            near = np.flatnonzero(seen.instances["gone"] < 1.0)
+            near = np.flatnonzero(seen.instances["far_fade"] < 1.0)
             return near, np.zeros(len(near), np.intp)
         scale = self._scale[seen.number]
         within = look.focal * scale * self._leaf[seen.number] / LEAF_PIXELS[0]
@@ -243,8 +243,8 @@ def _by_stream(seen: _Seen, shell: Numbers, leafy: Numbers) -> tuple[Numbers, Nu
     Streams are numbered through all models. A tree has an entry in each stream that draws it; `leafy` are the trees of
     the twigs drawn leaf by leaf, one entry a twig.
     """
-    gone = seen.instances["gone"]
-    near, far = np.flatnonzero(gone < 1.0), np.flatnonzero(gone > 0.0)
+    far_fade = seen.instances["far_fade"]
+    near, far = np.flatnonzero(far_fade < 1.0), np.flatnonzero(far_fade > 0.0)
     back = far[::-1]
     tree = np.concatenate([leafy, near, near, far, back])
     within = [
@@ -264,7 +264,7 @@ def _card_stream(seen: _Seen, near: Numbers, shell: Numbers) -> Numbers:
     Beyond the grass it follows from the share of twigs drawn, if enough trees have a small share; else from the shell.
     """
     model, shell = seen.model[near], shell[near]
-    drawn = seen.instances["keep"][near] * (1.0 - seen.instances["gone"][near])
+    drawn = seen.instances["twig_share"][near] * (1.0 - seen.instances["far_fade"][near])
     group = (drawn[:, None] < SHARES).sum(axis=1)
     beyond_grass, fewest = shell == 0, group == len(SHARES)
     few = np.bincount(model[beyond_grass & fewest], minlength=int(model.max(initial=0)) + 1) < TOO_FEW
@@ -283,7 +283,7 @@ def _batches(stream: Numbers, tree: Numbers, seen: _Seen, distance: Doubles) -> 
     """Return a batch for each run of equal `stream`; `distance` is that of each tree's crown [m]."""
     first = np.flatnonzero(np.diff(stream, prepend=-1))
     instances, count = seen.instances, np.diff(first, append=len(stream))
-    drawn, foliage = instances["keep"] * (1.0 - instances["gone"]), instances["foliage"]
+    drawn, foliage = instances["twig_share"] * (1.0 - instances["far_fade"]), instances["foliage"]
     low, high, total = np.minimum.reduceat, np.maximum.reduceat, np.add.reduceat
     columns = (
         *divmod(stream[first], len(STREAMS)), first, count, low(distance[tree], first),

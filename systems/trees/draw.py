@@ -210,7 +210,7 @@ class TreePart(Part):
             if batch.name in model.wood:
                 model.show_wood(batch.name, batch.pixel_radius, batch.foliage)
             elif batch.name in CARDS:
-                model.show_cards(batch.name, batch.keep, batch.leaves)
+                model.show_cards(batch.name, batch.twig_share, batch.leaves)
             elif batch.name == LEAVES:
                 model.most_twigs[LEAVES] = 1 if self.leaves_from is None else len(model.model.twigs)
         self._send_placed(placed)

@@ -5,7 +5,7 @@
 #include "systems/trees/leaf.glsl"
 #include "systems/trees/motion.py"
 #include "systems/trees/noise.py"
-#include "systems/trees/shown.glsl"
+#include "systems/trees/coverage.glsl"
 
 uniform sampler2DArray tree_far;  // tone, wood, its radius, coverage
 uniform sampler2DArray tree_met;  // optical depths, by direction and in the mean, with larger texels
@@ -14,28 +14,28 @@ uniform sampler2DArray tree_cards;  // in place of twigs' cards: tileable noise
 #endif
 
 in vec3 on;            // outputs of far.vert
-flat in vec4 tiles;
-flat in vec2 mixed;
-flat in vec2 row_told;
+flat in vec4 tile_corners;
+flat in vec2 mix_shares;
+flat in vec2 row_of_trees;
 flat in float texel_side;
 #ifdef CAST
-flat in vec4 shades;   // outputs of far.vert
-flat in vec3 foot;
+flat in vec4 cast_shade;   // outputs of far.vert
+flat in vec3 foot_shade;
 #else
-flat in vec4 meets;
-flat in vec4 behind_meets;
-in vec4 sunlit;
-in vec4 wooden;
-flat in vec4 skylit;
+flat in vec4 sun_weights;
+flat in vec4 ray_weights;
+in vec4 sun_radiance;
+in vec4 wood_gain;
+flat in vec4 sky_radiance;
 flat in vec3 below;
-flat in vec3 hazy;
-flat in vec3 old_bark;
-flat in vec2 sides;
-flat in vec2 waves;
-flat in vec3 gives;
-flat in float grasses;
+flat in vec3 haze_colour;
+flat in vec3 old_pigment;
+flat in vec2 picture_texels;
+flat in vec2 limb_phases;
+flat in vec3 clump_progress;
+flat in float grass_scale;
 #endif
-flat in vec4 told;
+flat in vec4 motion;
 
 out vec4 pixel;
 
@@ -50,22 +50,22 @@ void mix_pictures(vec2 at, vec2 parts, out vec4 texel, out vec4 shading) {
     texel = shading = vec4(0.0);
     for (int row = first.y; row <= last.y; row++)
         for (int column = first.x; column <= last.x; column++) {
-            vec2 place = vec2(column == 0 ? tiles.x : tiles.z, row == 0 ? tiles.y : tiles.w) + at / vec2(COLUMNS, ROWS);
+            vec2 place = vec2(column == 0 ? tile_corners.x : tile_corners.z, row == 0 ? tile_corners.y : tile_corners.w) + at / vec2(COLUMNS, ROWS);
             float part = (column == 0 ? 1.0 - parts.x : parts.x) * (row == 0 ? 1.0 - parts.y : parts.y);
-            vec4 shows = part * textureLod(tree_far, vec3(place, 0.0), told.w);
+            vec4 shows = part * textureLod(tree_far, vec3(place, 0.0), motion.w);
             texel += shows;
-            shading += shows.a * textureLod(tree_met, vec3(place, 0.0), max(told.w - COARSER_BY, 0.0));
+            shading += shows.a * textureLod(tree_met, vec3(place, 0.0), max(motion.w - COARSER_BY, 0.0));
         }
 }
 
 // Position within a picture that reads nothing of its neighbours.
-vec2 within(vec2 at) {
+vec2 inside_tile(vec2 at) {
     vec2 edge = TILE_EDGE * texel_side * vec2(slim, 1.0);
     return clamp(at, edge, 1.0 - edge);
 }
 
 // Coverage by the picture itself: beyond its edge texels are empty.
-float own_of(vec2 at) {
+float tile_cover(vec2 at) {
     vec2 inside = clamp((0.5 - abs(at - 0.5)) / (texel_side * vec2(slim, 1.0)) + TILE_EDGE, 0.0, 1.0);
     return inside.x * inside.y;
 }
@@ -76,16 +76,16 @@ const vec3 ROWS_APART = vec3(7.0, 11.0, 13.0);  // and from row to row
 const vec2 LOWER = vec2(1.0, 0.35);  // height of a row's picture, of its trees' least, and range of it
 
 // Position of a pixel on the picture of its tree in the row.
-vec2 on_own() {
-    if (row_told.x <= 1.0)
+vec2 own_picture() {
+    if (row_of_trees.x <= 1.0)
         return on.xy;
-    float along = on.x * row_told.x, number = floor(along);
-    vec3 own = fract(number * APART + told.x * ROWS_APART);
-    float aside = (fract(along) - 0.5) * row_told.y * (own.z > 0.5 ? 1.0 : -1.0);
+    float along = on.x * row_of_trees.x, number = floor(along);
+    vec3 own = fract(number * APART + motion.x * ROWS_APART);
+    float aside = (fract(along) - 0.5) * row_of_trees.y * (own.z > 0.5 ? 1.0 : -1.0);
     return vec2(0.5 + aside, on.y * (LOWER.x + LOWER.y * own.x));
 }
 #else
-vec2 on_own() {
+vec2 own_picture() {
     return on.xy;
 }
 #endif
@@ -93,19 +93,19 @@ vec2 on_own() {
 #ifdef CAST
 void main() {
     vec4 texel, shading;
-    mix_pictures(within(0.5 + 0.5 * vec2(slim, 1.0) * on.xy), mixed, texel, shading);
+    mix_pictures(inside_tile(0.5 + 0.5 * vec2(slim, 1.0) * on.xy), mix_shares, texel, shading);
     texel *= float(max(slim * abs(on.x), abs(on.y)) < 1.0);
-    float leaves = -log(1.0 - HIDES_MOST * texel.a) * mix(1.0, foot.z, 1.0 - texel.g);
-    vec2 inner = max(1.0 - dot(on.xy, on.xy) / vec2(shades.x * shades.x, foot.x * foot.x), 0.0);
-    float above = dot(vec2(shades.y, foot.y), inner * inner);
-    pixel = vec4(leaves, mix(leaves * shades.w, above, shades.z), 0.0, 0.0);
+    float leaves = -log(1.0 - HIDES_MOST * texel.a) * mix(1.0, foot_shade.z, 1.0 - texel.g);
+    vec2 inner = max(1.0 - dot(on.xy, on.xy) / vec2(cast_shade.x * cast_shade.x, foot_shade.x * foot_shade.x), 0.0);
+    float above = dot(vec2(cast_shade.y, foot_shade.y), inner * inner);
+    pixel = vec4(leaves, mix(leaves * cast_shade.w, above, cast_shade.z), 0.0, 0.0);
 }
 #else
 // Position on the picture before the wind displaced it.
-vec2 blown_from(vec2 at) {
-    vec2 aside = told.y * at.y * sin(waves + SHIMMER_TURNS * at.yx);
+vec2 undisplaced(vec2 at) {
+    vec2 aside = motion.y * at.y * sin(limb_phases + SHIMMER_TURNS * at.yx);
     float high = clamp(on.z, 0.0, 1.0);
-    aside.x += told.z * (high - cantilever(high));
+    aside.x += motion.z * (high - cantilever(high));
     return at + vec2(slim, 1.0) * aside;
 }
 
@@ -117,15 +117,15 @@ const float CLUMPS_FINER = log2(CLUMP / NOISE_FINER);  // levels by which texels
 const float EVENLY = 1.6;      // contrast of noise, whose values lie about the middle: equally many clumps give way at each step
 
 // Random number from 0 to 1 of a clump of leaves.
-float clump_at(vec2 at) {
-    vec2 cell = CLUMPS / NOISE_CELLS * (at * sides) + told.x;
-    float noise = textureLod(tree_cards, vec3(cell, 0.0), max(told.w - CLUMPS_FINER, 0.0)).r;
+float clump_random(vec2 at) {
+    vec2 cell = CLUMPS / NOISE_CELLS * (at * picture_texels) + motion.x;
+    float noise = textureLod(tree_cards, vec3(cell, 0.0), max(motion.w - CLUMPS_FINER, 0.0)).r;
     return clamp(0.5 - 0.5 * EVENLY + EVENLY * noise, 0.0, 1.0);
 }
 
 // Share of the second picture in a clump: they give way one after another, as two views blended are a blur.
-vec2 gives_way(float clump) {
-    return clamp(gives.xy - gives.z * clump, 0.0, 1.0);
+vec2 clump_shares(float clump) {
+    return clamp(clump_progress.xy - clump_progress.z * clump, 0.0, 1.0);
 }
 
 const float BARE = 0.15;  // coverage by stems where clumps are gone that hid them, of the clumps'
@@ -133,33 +133,34 @@ const float BARE = 0.15;  // coverage by stems where clumps are gone that hid th
 const float UNCLUMPED = 2.5;  // leaves behind the first of a clump that is seen, of the optical depth: 1 / CLUMPING
 
 // Share of a clump that is left where a tree has few leaves: of many behind one another, one is seen.
-float left_of(float clump, vec4 shading) {
-    float meets_all = max(UNCLUMPED * sun_meets(shading, behind_meets), LEAST_PART);
-    float left = (1.0 - transmittance(foliage_of(meets) * meets_all)) / (1.0 - transmittance(meets_all));
-    return clamp((1.0 + gives.z) * left - gives.z * clump, 0.0, 1.0);
+float clump_left(float clump, vec4 shading) {
+    float depth = max(UNCLUMPED * sun_depth(shading, ray_weights), LEAST_PART);
+    float left = (1.0 - transmittance(foliage_of(sun_weights) * depth)) / (1.0 - transmittance(depth));
+    return clamp((1.0 + clump_progress.z) * left - clump_progress.z * clump, 0.0, 1.0);
 }
 
 void main() {
     vec4 texel, shading;
-    vec2 at = blown_from(on_own());
-    float clump = clump_at(at);
-    mix_pictures(within(at), gives_way(clump), texel, shading);
-    float own = own_of(at);
+    vec2 at = undisplaced(own_picture());
+    float clump = clump_random(at);
+    mix_pictures(inside_tile(at), clump_shares(clump), texel, shading);
+    float own = tile_cover(at);
     texel *= own;
     shading *= own;
     float whole = 1.0 / max(texel.a, LEAST_COVER);
     shading *= whole;
-    float gone = 1.0 - left_of(clump, shading);
-    float leaves = texel.a - texel.g, stems = texel.g + BARE * gone * leaves, all = leaves * (1.0 - gone) + stems;
-    float cover = 1.0 - pow(max(1.0 - all, 0.0), sunlit.a), wood = stems / max(all, LEAST_COVER);  // twigs that are still drawn cover the rest
-    must_cover(cover);
-    float seen = transmittance(sun_meets(shading, meets)), open = transmittance(sky_meets(shading, meets));
-    vec3 sky = sky_on(skylit.rgb, below, open, skylit.a * (1.0 - wood));
-    Light light = Light((sunlit.rgb + wooden.rgb * wood) * seen, sky, hazy, 0.0, 0.0, vec2(0.0));
-    float aged = aged_at(wooden.a * texel.b / max(texel.g, LEAST_COVER));
-    float tone = texel.r * whole, plain = PLAINER * max(told.w - PLAIN_FROM, 0.0);
+    float missing = 1.0 - clump_left(clump, shading);
+    float leaves = texel.a - texel.g, stems = texel.g + BARE * missing * leaves, all = leaves * (1.0 - missing) + stems;
+    float cover = 1.0 - pow(max(1.0 - all, 0.0), sun_radiance.a);  // twigs that are still drawn cover the rest
+    float wood = stems / max(all, LEAST_COVER);
+    discard_uncovered(cover);
+    float seen = transmittance(sun_depth(shading, sun_weights)), open = transmittance(sky_depth(shading, sun_weights));
+    vec3 sky = hemisphere_light(sky_radiance.rgb, below, open, sky_radiance.a * (1.0 - wood));
+    Light light = Light((sun_radiance.rgb + wood_gain.rgb * wood) * seen, sky, haze_colour, 0.0, 0.0, vec2(0.0));
+    float aged = bark_age(wood_gain.a * texel.b / max(texel.g, LEAST_COVER));
+    float tone = texel.r * whole, plain = PLAINER * max(motion.w - PLAIN_FROM, 0.0);
     float worn = mix(1.0, 2.0 * tone, wood / (1.0 + plain));  // of bark too: 0.5 is the mean
-    vec3 pigment = pigment_of(tone, wood, soiled_at(on.z * grasses) * worn * mix(young_bark, old_bark, aged));
-    pixel = drawn(shade(Surface(pigment, 1.0, LEAF_SCATTERING), light), cover);
+    vec3 pigment = pigment_of(tone, wood, soil_tone(on.z * grass_scale) * worn * mix(young_bark, old_pigment, aged));
+    pixel = output_colour(shade(Surface(pigment, 1.0, LEAF_SCATTERING), light), cover);
 }
 #endif

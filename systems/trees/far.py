@@ -24,13 +24,13 @@ LEVELS = 5
 TILE_EDGE = 0.5
 """Half a texel of the level that is read: within it of an edge, a neighbour's would be interpolated [texels]."""
 
-FINER_BY = -0.5 * log2(3.0)
+LEVEL_BIAS = -0.5 * log2(3.0)
 """Bias of the mip level, so that a picture is as blurred as by the mean over a pixel.
 
 Across, that mean has a variance of 1/12 of a pixel's square. A texel is a mean over itself, with 1/12 of a texel's
 square, and linear interpolation adds 1/6."""
 
-CAST_COARSER = 0.5 * log2(2.0)
+CAST_LEVEL_BIAS = 0.5 * log2(2.0)
 """Bias of the mip level in shade maps.
 
 They are interpolated, with twice the variance of a texel's mean. As light falls off exponentially with optical depth,
@@ -40,6 +40,7 @@ THICKEST = 0.6
 """Radius of a stem that a texel value of 255 stands for [m]."""
 
 GLSL = {
-    "COLUMNS": COLUMNS, "ROWS": ROWS, "FIRST_ROW": FIRST_ROW, "EACH_ROW": EACH_ROW, "TILE_EDGE": TILE_EDGE,
-    "LEVELS": LEVELS, "COARSER": COARSER, "FINER_BY": FINER_BY, "CAST_COARSER": CAST_COARSER, "THICKEST": THICKEST,
+    "COLUMNS": COLUMNS, "ROWS": ROWS, "FIRST_ROW": FIRST_ROW, "EACH_ROW": EACH_ROW,
+    "TILE_EDGE": TILE_EDGE, "LEVELS": LEVELS, "COARSER": COARSER, "THICKEST": THICKEST,
+    "LEVEL_BIAS": LEVEL_BIAS, "CAST_LEVEL_BIAS": CAST_LEVEL_BIAS,
 }  # fmt: skip

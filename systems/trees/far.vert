@@ -1,6 +1,6 @@
 // A tree far off: the picture of its model from the eye's direction. With CAST it is seen from the sun, for the shade maps.
 #include "systems/trees/tree.glsl"
-#include "systems/trees/leaf_sends.glsl"
+#include "systems/trees/leaf_light.glsl"
 #include "systems/trees/behind.glsl"
 #include "systems/trees/far.py"
 #include "systems/trees/packed.glsl"
@@ -11,40 +11,40 @@
 #endif
 
 in float columns;   // number of trees in the row that it stands for
-in float shows;     // opacity
+in float opacity;   // by its ring
 
 uniform float lines; // height of its model's pictures [texels]
 #ifdef CAST
 uniform vec4 tile;  // of the map: middle (across, up) [m], half the side [m], index
-uniform vec3 lawn_shade; // of its model: radius of its shade on grass [m]; optical depth times squared radius [m²]; depth at its foot
+uniform vec3 grass_shade; // of its model: radius of its shade on grass [m]; optical depth times squared radius [m²]; depth at its foot
 
-flat out vec4 shades;  // radius of its shade, of half its picture; optical depth in the middle; 1 in the map from above; position along the sun's
-                       // rays [m]
-flat out vec3 foot;    // radius of its foot's shade; optical depth there; its foliage
+flat out vec4 cast_shade;  // radius of its shade, of half its picture; optical depth in the middle; 1 in the map from above; position along the
+                           // sun's rays [m]
+flat out vec3 foot_shade;    // radius of its foot's shade; optical depth there; its foliage
 #else
 uniform vec4 high;     // heights of its outline's corners, -1 to 1, from foot to top
 uniform vec4 reaches[2 * COLUMNS * ROWS];  // by picture: distances of the corners left and right, of half their height
 
-flat out vec4 meets;   // weights of the pictures' optical depths for the sun, along its axes and in all
-flat out vec4 behind_meets; // and for the ray from the eye behind what is seen, with all its leaves
-out vec4 sunlit;       // radiance of its leaves under the sun; opacity
-out vec4 wooden;       // what its wood has more; radius that THICKEST stands for, on it [m]
-flat out vec4 skylit;  // radiance of the sky; mean of its leaves' normals' y
+flat out vec4 sun_weights;   // weights of the pictures' optical depths for the sun, along its axes and in all
+flat out vec4 ray_weights; // and for the ray from the eye behind what is seen, with all its leaves
+out vec4 sun_radiance;       // radiance of its leaves under the sun; opacity
+out vec4 wood_gain;       // what its wood has more; radius that THICKEST stands for, on it [m]
+flat out vec4 sky_radiance;  // radiance of the sky; mean of its leaves' normals' y
 flat out vec3 below;
-flat out vec3 hazy;
-flat out vec3 old_bark; // mean pigment of its old bark
-flat out vec2 sides;   // size of its pictures, across and up [texels]
-flat out vec2 waves;   // phases of its limbs' swing, along and across its picture [rad]
-flat out vec3 gives;   // progress of clumps of leaves from the first picture to the second, both ways, and their spread
-flat out float grasses; // its height, of that of the grass about its foot
+flat out vec3 haze_colour;
+flat out vec3 old_pigment; // mean pigment of its old bark
+flat out vec2 picture_texels;   // size of its pictures, across and up [texels]
+flat out vec2 limb_phases;   // phases of its limbs' swing, along and across its picture [rad]
+flat out vec3 clump_progress;   // progress of clumps of leaves from the first picture to the second, both ways, and their spread
+flat out float grass_scale; // its height, of that of the grass about its foot
 #endif
 
 out vec3 on;           // position on its picture, each way from 0 to 1, or across a row, with CAST of half its height; height over its foot, of
                        // the tree's
-flat out vec4 tiles;   // corners of the mixed pictures in their texture, the first and the second
-flat out vec2 mixed;   // share of the second
-flat out vec4 told;    // its random number; amplitude of its limbs and displacement of its top, of its picture; mip level
-flat out vec2 row_told; // number of trees in a row; distance between them, of a picture
+flat out vec4 tile_corners;   // corners of the mixed pictures in their texture, the first and the second
+flat out vec2 mix_shares;   // share of the second
+flat out vec4 motion;    // its random number; amplitude of its limbs and displacement of its top, of its picture; mip level
+flat out vec2 row_of_trees; // number of trees in a row; distance between them, of a picture
 flat out float texel_side; // size of the coarser texels that are read, of a picture
 
 const vec2 MIXES = vec2(0.3, 0.7);  // parts of the angle from one picture to the next between which they are mixed
@@ -52,22 +52,22 @@ const float ASKEW_ROWS = 2.0;  // range of the yaws of rows of trees: else all w
 const float OVERHEAD = 0.999;  // sine of the elevation from which on a tree counts as seen from straight above
 
 const vec2 SHIMMER_HERTZ = vec2(1.7, 1.3);  // frequencies of limbs along and across a picture [Hz]
-const float GIVES_WAY = 0.25;  // part of the angle from one picture to the next over which a clump of leaves gives way
-const float BLENDS = 2.0;      // growth of that part with each mip level, until a pixel is many clumps
+const float CLUMP_CHANGE = 0.25;  // part of the angle from one picture to the next over which a clump of leaves gives way
+const float CHANGE_PER_LEVEL = 2.0;      // growth of that part with each mip level, until a pixel is many clumps
 const float SHIMMER = 0.12;  // apparent amplitude of limbs, of their own, on a picture
-const float UPRIGHT_SENDS = 0.25;  // radiance of an upright stem under level light from behind the eye, per half turn of its side [1/rad]
+const float UPRIGHT_RADIANCE = 0.25;  // radiance of an upright stem under level light from behind the eye, per half turn of its side [1/rad]
 
 #ifdef CAST
 // Size of a pixel there [m].
-float pixel_at(vec3 place) {
+float pixel_size(vec3 place) {
     return 2.0 * tile.z / SHADE_SIDE;
 }
 
-vec2 corner_here(ivec4 pictures, float texels) {
+vec2 corner_offset(ivec4 pictures, float texels) {
     return vec2(gl_VertexID % 2 == 1 ? 1.0 : -1.0, gl_VertexID % 4 > 1 ? 1.0 : -1.0);
 }
 #else
-float pixel_at(vec3 place) {
+float pixel_size(vec3 place) {
     return (clip * vec4(place, 1.0)).w / pixels_per_metre();
 }
 
@@ -81,33 +81,34 @@ const float SPREADS = 2.0;  // spread of a coarser picture [texels], and in pixe
 const float LEANS_OFF = 0.2;  // greatest distance of a bent trunk from a line to its top, of the top's displacement: at 0.42 of its height
 
 // A corner of its outline, where a pixel is so many texels, widened by mip levels and the wind. Rows of trees have none.
-vec2 corner_here(ivec4 pictures, float texels) {
+vec2 corner_offset(ivec4 pictures, float texels) {
     int side = gl_VertexID % 2, corner = gl_VertexID / 2;
     vec2 to = vec2(side == 1 ? 1.0 : -1.0, corner == 0 ? -1.0 : corner < OUTLINE / 2 - 1 ? 0.0 : 1.0);
     if (columns > 1.0)
         return vec2(to.x, corner == 0 ? -1.0 : 1.0);
-    float moved = told.y + LEANS_OFF * abs(told.z);
+    float moved = motion.y + LEANS_OFF * abs(motion.z);
     return vec2(to.x * (reach_of(pictures, side, corner) + 2.0 * moved), high[corner]) + to * (SPREADS * 2.0 * texels / lines);
 }
 
 // Radiance of white wood under the sun: the mean over the visible side of an upright stem.
-float wood_sends(vec3 ray) {
+float wood_radiance(vec3 ray) {
     float level = length(sun.xz), apart = acos(clamp(-dot(ray.xz, sun.xz) / max(length(ray.xz) * level, LEAST_PART), -1.0, 1.0));
-    return SENDS * level * UPRIGHT_SENDS * (sin(apart) + (0.5 * AROUND - apart) * cos(apart));
+    return FACE_GAIN * level * UPRIGHT_RADIANCE * (sin(apart) + (0.5 * AROUND - apart) * cos(apart));
 }
 #endif
 
 // Choose the pictures that show it from a direction in its own axes; return those mixed, perhaps one of them several times.
-ivec4 choose(vec3 from) {
+ivec4 choose_pictures(vec3 from) {
     float column = atan(from.x, from.z) / AROUND * float(COLUMNS);
     column = column < 0.0 ? column + float(COLUMNS) : column;
     float up = asin(clamp(from.y, -1.0, 1.0)), row = clamp((up - FIRST_ROW) / EACH_ROW, 0.0, float(ROWS) - 1.0 - LEAST_PART);
     vec2 first = floor(vec2(column, row)), part = vec2(column, row) - first;
     first.x = mod(first.x, float(COLUMNS));
     vec2 second = vec2(mod(first.x + 1.0, float(COLUMNS)), first.y + 1.0);
-    tiles = vec4(first, second) / vec2(COLUMNS, ROWS).xyxy;
-    mixed = smoothstep(MIXES.x, MIXES.y, part);
-    ivec2 some = ivec2(mix(first, second, greaterThan(mixed, vec2(0.0)))), most = ivec2(mix(first, second, greaterThanEqual(mixed, vec2(1.0))));
+    tile_corners = vec4(first, second) / vec2(COLUMNS, ROWS).xyxy;
+    mix_shares = smoothstep(MIXES.x, MIXES.y, part);
+    ivec2 some = ivec2(mix(first, second, greaterThan(mix_shares, vec2(0.0))));
+    ivec2 most = ivec2(mix(first, second, greaterThanEqual(mix_shares, vec2(1.0))));
     return ivec4(most.x, some.x, most.x, some.x) + COLUMNS * ivec4(most.y, most.y, some.y, some.y);
 }
 
@@ -124,36 +125,36 @@ vec4 over_ground(vec3 seen_at, float under, float front) {
 }
 
 // Write what is constant over its pixels.
-void tell_pixels() {
-    float way = GIVES_WAY + GIVES_WAY * BLENDS * told.w;
-    gives = vec3((1.0 + way) * mixed, 1.0) / way;
-    waves = AROUND * (SHIMMER_HERTZ * moment + told.x) + vec2(0.0, 1.0);
-    sides = lines * vec2(1.0 / slim, 1.0);
-    old_bark = old_bark_mean();
-    grasses = tall * scale / stands_in.x;
+void write_flat() {
+    float way = CLUMP_CHANGE + CLUMP_CHANGE * CHANGE_PER_LEVEL * motion.w;
+    clump_progress = vec3((1.0 + way) * mix_shares, 1.0) / way;
+    limb_phases = AROUND * (SHIMMER_HERTZ * moment + motion.x) + vec2(0.0, 1.0);
+    picture_texels = lines * vec2(1.0 / slim, 1.0);
+    old_pigment = old_bark_mean();
+    grass_scale = tall * scale / grass_about.x;
     on.xy = 0.5 + 0.5 * vec2(columns > 1.0 ? 1.0 : slim, 1.0) * on.xy;
 }
 
 // Write the light on it past other trees: more at the top of its crown.
-void light_up(vec3 place, vec3 ray) {
+void write_light(vec3 place, vec3 ray) {
     Light light = light_in_crown(vec3(place.x, max(place.y, root.y), place.z), vec4(0.0), 1.0);
-    meets = meets_by(turned_back(sun), foliage);
-    behind_meets = meets_by(turned_back(ray), 1.0);
-    below = lawn_sends * (1.0 - haze_opacity(place));
-    Seen seen = seen_of(mat3(turned(vec3(1.0, 0.0, 0.0)), vec3(0.0, 1.0, 0.0), turned(vec3(0.0, 0.0, 1.0))), ray, light, below);
-    sunlit = vec4(light.sun * seen.sends, gone * shows);
-    wooden = vec4(light.sun * wood_sends(ray) - sunlit.rgb, THICKEST * scale);
-    skylit = vec4(light.sky, seen.up);
-    hazy = light.haze;
+    sun_weights = depth_weights(to_model(sun), foliage);
+    ray_weights = depth_weights(to_model(ray), 1.0);
+    below = light_from_grass * (1.0 - haze_opacity(place));
+    LeafMean leaves = leaf_mean(mat3(to_world(vec3(1.0, 0.0, 0.0)), vec3(0.0, 1.0, 0.0), to_world(vec3(0.0, 0.0, 1.0))), ray, light, below);
+    sun_radiance = vec4(light.sun * leaves.radiance, far_fade * opacity);
+    wood_gain = vec4(light.sun * wood_radiance(ray) - sun_radiance.rgb, THICKEST * scale);
+    sky_radiance = vec4(light.sky, leaves.up);
+    haze_colour = light.haze;
 }
 #else
 // Write its place in the map.
-void cast_at(vec3 middle_of, vec3 across, vec3 up, float half_tall) {
+void write_cast(vec3 middle_of, vec3 across, vec3 up, float half_tall) {
     bool from_above = tile.w > 1.0;
-    float reach = max(scale * lawn_shade.x, LEAST_SHADE);
-    shades = vec4(reach / half_tall, foliage * lawn_shade.y * scale * scale / (reach * reach), float(from_above), dot(middle_of, sun));
-    foot = vec3(TRUNK_FOOT / half_tall, foliage * min(lawn_shade.z * scale, FOOT_MEETS_MOST), foliage);
-    on *= from_above ? max(shades.x, 1.0) : 1.0;  // grass is shaded beyond the picture, too
+    float reach = max(scale * grass_shade.x, LEAST_SHADE);
+    cast_shade = vec4(reach / half_tall, foliage * grass_shade.y * scale * scale / (reach * reach), float(from_above), dot(middle_of, sun));
+    foot_shade = vec3(TRUNK_FOOT / half_tall, foliage * min(grass_shade.z * scale, FOOT_MEETS_MOST), foliage);
+    on *= from_above ? max(cast_shade.x, 1.0) : 1.0;  // grass is shaded beyond the picture, too
     vec3 seen_at = middle_of + half_tall * (on.x * across + on.y * up);
     vec3 right = from_above ? vec3(1.0, 0.0, 0.0) : trees_across, over = from_above ? vec3(0.0, 0.0, 1.0) : trees_up;
     gl_Position = vec4((vec2(dot(seen_at, right), dot(seen_at, over)) - tile.xy) / tile.z, 0.0, 1.0);
@@ -166,29 +167,29 @@ void main() {
     to = tile.w > 1.0 ? vec3(0.0, 1.0, 0.0) : sun;
 #endif
     to = normalize(to);
-    ivec4 pictures = choose(turned_back(to));
+    ivec4 pictures = choose_pictures(to_model(to));
     vec3 across = normalize(abs(to.y) > OVERHEAD ? vec3(turn.x, 0.0, turn.y) : vec3(to.z, 0.0, -to.x)), up = cross(to, across);
-    float half_tall = scale * ball.y, texels = lines * pixel_at(middle_of) / (2.0 * half_tall);
-    told = vec4(phase, 0.0, 0.0, max(log2(max(texels, LEAST_PART)) + (columns > 1.0 ? 0.0 : FINER_BY), 0.0));
+    float half_tall = scale * ball.y, texels = lines * pixel_size(middle_of) / (2.0 * half_tall);
+    motion = vec4(phase, 0.0, 0.0, max(log2(max(texels, LEAST_PART)) + (columns > 1.0 ? 0.0 : LEVEL_BIAS), 0.0));
 #ifdef CAST
-    told.w += CAST_COARSER;
+    motion.w += CAST_LEVEL_BIAS;
 #else
-    told.y = SHIMMER * LIMB_SWINGS * length(message);
-    told.z = columns > 1.0 ? 0.0 : 0.5 * dot(sways, across.xz) * tall * scale / half_tall;
+    motion.y = SHIMMER * LIMB_SWINGS * length(message);
+    motion.z = columns > 1.0 ? 0.0 : 0.5 * dot(trunk_sway, across.xz) * tall * scale / half_tall;
 #endif
-    on = vec3(corner_here(pictures, max(texels, 1.0)), 0.0);
+    on = vec3(corner_offset(pictures, max(texels, 1.0)), 0.0);
     if (columns > 1.0) {
         float askew = ASKEW_ROWS * (phase - 0.5);
         across = cos(askew) * across + sin(askew) * cross(across, vec3(0.0, 1.0, 0.0));
     }
     float half_wide = columns > 1.0 ? 0.5 * columns * column * scale : half_tall;
     vec3 seen_at = middle_of + half_wide * on.x * across + half_tall * on.y * up;
-    row_told = vec2(columns, 0.5 * slim * column / ball.y);
-    texel_side = exp2(min(ceil(told.w), float(LEVELS) - 1.0)) / lines;
+    row_of_trees = vec2(columns, 0.5 * slim * column / ball.y);
+    texel_side = exp2(min(ceil(motion.w), float(LEVELS) - 1.0)) / lines;
 #ifdef CAST
-    cast_at(middle_of, across, up, half_tall);
+    write_cast(middle_of, across, up, half_tall);
 #else
-    if (gone * shows <= 0.0) {
+    if (far_fade * opacity <= 0.0) {
         gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
         return;
     }
@@ -197,9 +198,9 @@ void main() {
     if (columns > 1.0)
         seen_at.y += height_at(seen_at.xz) - root.y;  // a row of trees follows the ground
     on.z = (seen_at.y - root.y) / (tall * scale);
-    seen_at.xz += sways * (seen_at.y - root.y);  // corners are displaced linearly, and pixels from there to the trunk's curve
-    light_up(lit_at, -to);
-    tell_pixels();
+    seen_at.xz += trunk_sway * (seen_at.y - root.y);  // corners are displaced linearly, and pixels from there to the trunk's curve
+    write_light(lit_at, -to);
+    write_flat();
     gl_Position = just_behind(over_ground(seen_at, under, half_tall));
 #endif
 }

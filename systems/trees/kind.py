@@ -82,7 +82,7 @@ class GpuKind:
         """Coverage from which on its card is drawn as opaque; depth behind its soft edges that is clear of leaves
         [m]."""
         self._normals = Normals()
-        self._hides: tuple[float, ...] = (1.0,) * OF_TWIGS
+        self._picture_cover: tuple[float, ...] = (1.0,) * OF_TWIGS
         """Coverage of its card on each of its pictures, of that on the first."""
         self.bark = mipmapped(ctx, bark_noise())
         self.bark.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
@@ -122,7 +122,7 @@ class GpuKind:
             self.solid_outline = corner_list(card_outline(solid, CLOSE_MARGIN)) if solid.any() else []
             self._normals = card_normals(twig[0][:2])
             cover = twig[0][::2, ..., 3].mean(axis=(1, 2))
-            self._hides = tuple((cover / cover[0]).tolist())
+            self._picture_cover = tuple((cover / cover[0]).tolist())
 
     def _twig_pictures(self, programs: Programs) -> list[Bytes]:
         """Return the pictures of its twig, each with more and mip_levels leaves; the depth test is on meanwhile."""
@@ -187,7 +187,7 @@ class GpuKind:
         if key not in program.extra:  # the model is kept with it: so no other one is taken for it
             uniforms = pack(program, self._uniforms, model.numbers)
             normals = model.normals if "tree_far" in set_used_uniforms(program) else self._normals
-            uniforms += pack(program, {"hides": self._hides, "behind": (self._behind,)})
+            uniforms += pack(program, {"picture_cover": self._picture_cover, "behind": (self._behind,)})
             uniforms += pack_array(program, parameter.NAME, self._vectors[key]) + pack_array(
                 program, "leaf_normals", normals
             )

@@ -1,9 +1,9 @@
 // Leaves: outlines and light.
 #include "lib/least.glsl"
 #include "systems/trees/habit.py"
-#include "systems/trees/leaf_sends.glsl"
+#include "systems/trees/leaf_light.glsl"
 #include "systems/trees/pigment.glsl"
-#include "systems/trees/shown.glsl"
+#include "systems/trees/coverage.glsl"
 
 uniform int form;
 
@@ -13,7 +13,7 @@ const vec2 LOBES = vec2(0.2, 26.0);  // depth of lobes; their frequency [rad]
 const vec2 DELTOID_FOOT = vec2(-0.02, 0.2), DELTOID_TIP = vec2(0.85, 1.12);  // where it widens; as of outlines, without the foot
 const float LANCE_FOOT = 0.8;  // power of the distance from the foot, in a sine
 
-float outline(float along, vec3 shape) {
+float leaf_outline(float along, vec3 shape) {
     return shape.z * pow(along, shape.x) * pow(1.0 - along, shape.y);
 }
 
@@ -24,8 +24,8 @@ float half_width(float along) {
     if (form == DELTOID)
         return smoothstep(DELTOID_FOOT.x, DELTOID_FOOT.y, along) * pow(1.0 - along, DELTOID_TIP.x) * DELTOID_TIP.y;
     if (form == LOBED)
-        return outline(along, LOBED_OUTLINE) * (1.0 - LOBES.x + LOBES.x * cos(along * LOBES.y));
-    return outline(along, OVATE_OUTLINE);
+        return leaf_outline(along, LOBED_OUTLINE) * (1.0 - LOBES.x + LOBES.x * cos(along * LOBES.y));
+    return leaf_outline(along, OVATE_OUTLINE);
 }
 
 const float TUFT_NEEDLES = 3.5;  // to either side of the middle of a tuft

@@ -22,7 +22,10 @@ def near_twigs(model: Model, instance: np.void, eye: Doubles, sides: Doubles, wi
     distance = np.linalg.norm(foot - eye, axis=1)
     near = np.argsort(distance)[: int((distance < within).sum())]
     near = near[
-        near < twigs_drawn(len(model.twigs), float(instance["keep"] * (1.0 - instance["gone"]) * instance["foliage"]))
+        near
+        < twigs_drawn(
+            len(model.twigs), float(instance["twig_share"] * (1.0 - instance["far_fade"]) * instance["foliage"])
+        )
     ]
     reach = scale * (2.0 * model.habit.twigs.length + SWAYS * model.height)
     return np.asarray(near[outside_planes(foot[near], sides) <= reach])

@@ -6,7 +6,7 @@ const vec2 SOILED = vec2(0.3, 2.8);  // heights between which soil and moss on b
 const float SOIL_TONE = 0.62;  // brightness of bark below them, of clean bark
 
 // Brightness of bark under soil and moss at a height, of the grass's.
-float soiled_at(float height) {
+float soil_tone(float height) {
     return mix(SOIL_TONE, 1.0, smoothstep(SOILED.x, SOILED.y, height));
 }
 
@@ -15,7 +15,7 @@ float bark_mean() {
 }
 
 // Age of the bark of a stem of a radius [m], 0 to 1.
-float aged_at(float radius) {
+float bark_age(float radius) {
     return clamp((radius - ripens.x) * ripens.y, 0.0, 1.0);
 }
 

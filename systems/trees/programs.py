@@ -33,7 +33,7 @@ STAND, HANG, HANG_LEAVES = "stand", "hang", "hang leaves"
 """Transform feedback passes: once a tree, once a twig on its card, and once a twig leaf by leaf."""
 
 FEEDBACK: Mapping[str, tuple[str, tuple[str, ...], Mapping[str, str | int]]] = {
-    STAND: ("stand", ("moved", "veil", "among", "sent_up"), {}),
+    STAND: ("stand", ("out_wind_response", "out_haze", "out_grass", "out_light_from_grass"), {}),
     HANG: ("hang", HUNG.names or (), {"STANDS": 1}),
     HANG_LEAVES: ("hang", HUNG_LEAVES.names or (), {"STANDS": 1, "LEAVES": 1}),
 }

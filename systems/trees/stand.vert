@@ -7,27 +7,27 @@ uniform vec2 middle;          // of the viewer's patch [m]
 in float crown_at;            // height of its crown's middle over its root [m]
 in float hertz;               // frequency of its trunk [Hz]
 
-out vec4 moved;  // inputs of tree.glsl
-out vec4 veil;
-out vec4 among;
-out vec3 sent_up;
+out vec4 out_wind_response;  // inputs of tree.glsl
+out vec4 out_haze;
+out vec4 out_grass;
+out vec3 out_light_from_grass;
 
 const vec3 TRUNK_ASIDE = vec3(0.5, TRUNK_ACROSS, 0.37);  // of the trunk across the wind: amplitude and frequency, of those along it; phase
-const vec2 LAWN = vec2(0.5, 0.55);  // part of the sun's and of the sky's light that grass reflects, with its gaps
-const float LAWN_AT = 0.7;  // height on its blades whose pigment is seen from above
+const vec2 GRASS_REFLECTS = vec2(0.5, 0.55);  // part of the sun's and of the sky's light that grass reflects, with its gaps
+const float GRASS_TONE_AT = 0.7;  // height on its blades whose pigment is seen from above
 const float LOWEST_LIGHT = 0.12;  // least sine of the sun's elevation for that light
 
 // Displacement of the trunk's top, of its height.
-vec2 trunk_sways(vec2 message) {
+vec2 sway_of_trunk(vec2 message) {
     vec2 aside = vec2(-message.y, message.x);
     float across = swing(hertz * TRUNK_ASIDE.y, phase + TRUNK_ASIDE.z);
     return message * (TRUNK_LEANS + TRUNK_SWINGS * swing(hertz, phase)) + aside * (TRUNK_ASIDE.x * TRUNK_SWINGS * across);
 }
 
 // Light reflected by the grass about a tree, as radiance of a white face that looks down.
-vec3 from_below() {
-    vec3 grass = pigment_at(0, LAWN_AT);
-    return grass * grass * (LAWN.x * sunlight * max(sun.y, LOWEST_LIGHT) + LAWN.y * skylight);
+vec3 reflected_light() {
+    vec3 grass = pigment_at(0, GRASS_TONE_AT);
+    return grass * grass * (GRASS_REFLECTS.x * sunlight * max(sun.y, LOWEST_LIGHT) + GRASS_REFLECTS.y * skylight);
 }
 
 // Message of the wind where it stands, as the carpet receives it.
@@ -40,14 +40,14 @@ vec2 message_here() {
 
 void main() {
     vec3 place = root + vec3(0.0, crown_at, 0.0);
-    vec2 told = message_here();
-    moved = vec4(told, trunk_sways(told));
-    veil = vec4(haze_radiance(place), haze_opacity(place));
+    vec2 wind_message = message_here();
+    out_wind_response = vec4(wind_message, sway_of_trunk(wind_message));
+    out_haze = vec4(haze_radiance(place), haze_opacity(place));
     ByKind area = leaf_areas(density_at(root.xz));
     float leaves = total(area), high = 0.0;
     for (int group = 0; group < GROUPS; group++)
         high += dot(area[group], crown[group]);
-    among = vec4(max(high / max(leaves, LEAST_PART), LOWEST_CROWN), leaves, sun_extinction(0, sun.y), sun_visibility(place, lie_at(root.xz).visibility));
-    sent_up = from_below();
+    out_grass = vec4(max(high / max(leaves, LEAST_PART), LOWEST_CROWN), leaves, sun_extinction(0, sun.y), sun_visibility(place, lie_at(root.xz).visibility));
+    out_light_from_grass = reflected_light();
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 }

@@ -36,7 +36,7 @@ ROW_SPACING = 1.2
 INSTANCE = np.dtype(
     [
         ("root", "3f4"), ("scale", "f4"), ("turn", "2f4"), ("phase", "f4"), ("tint", "f4"),
-        ("keep", "f4"), ("gone", "f4"), ("foliage", "f4"), ("columns", "f4"), ("shows", "f4"),
+        ("twig_share", "f4"), ("far_fade", "f4"), ("foliage", "f4"), ("columns", "f4"), ("opacity", "f4"),
     ]
 )  # fmt: skip
 """Instance attributes of a tree; `tree.glsl` describes each."""
@@ -48,7 +48,9 @@ PLACED = np.dtype([("root", "3f4"), ("crown_at", "f4"), ("phase", "f4"), ("hertz
 """Input of `stand.vert`: place of a tree, height of its crown's middle above that [m], phase in the wind and frequency
 of its trunk [Hz]."""
 
-STOOD = np.dtype([("blown", "4f4"), ("misty", "4f4"), ("stands_in", "4f4"), ("lawn_sends", "3f4")])
+STOOD = np.dtype(
+    [("wind_response", "4f4"), ("haze_in_front", "4f4"), ("grass_about", "4f4"), ("light_from_grass", "3f4")]
+)
 """Output of `stand.vert`, once a tree."""
 
 HUNG = np.dtype([("hung_at", "4f4"), ("hung_axes", "4u4"), ("hung_light", "4u4")])
@@ -144,8 +146,8 @@ def far_instances(
     instances["turn"] = np.stack([np.cos(rows["yaw"]), np.sin(rows["yaw"])], axis=1)
     instances["phase"], instances["foliage"] = rows["phase"], rows["foliage"]
     instances["tint"] = 1.0 + variety * rows["tint"]
-    instances["keep"], instances["gone"] = FEWEST_TWIGS, 1.0
-    instances["columns"] = instances["shows"] = 1.0
+    instances["twig_share"], instances["far_fade"] = FEWEST_TWIGS, 1.0
+    instances["columns"] = instances["opacity"] = 1.0
     return instances
 
 
@@ -156,8 +158,8 @@ def set_detail(instances: NDArray[np.void], pixels: Doubles, pictured: Doubles, 
     [pixels].
     """
     foliage = np.maximum(instances["foliage"], BAREST)
-    instances["keep"] = np.clip((pixels / ALL_TWIGS_FROM) ** TWIG_POWER / foliage, FEWEST_TWIGS, 1.0)
-    instances["gone"] = np.clip((FADES_BELOW - pictured) / (FADES_BELOW - PICTURE_BELOW), 0.0, 1.0)
+    instances["twig_share"] = np.clip((pixels / ALL_TWIGS_FROM) ** TWIG_POWER / foliage, FEWEST_TWIGS, 1.0)
+    instances["far_fade"] = np.clip((FADES_BELOW - pictured) / (FADES_BELOW - PICTURE_BELOW), 0.0, 1.0)
 
 
 def ring_opacity(ring: NDArray[np.integer], distance: Doubles, /) -> Doubles:

@@ -75,7 +75,7 @@ class GpuModel:
         self.numbers: Numbers = {
             "tall": (model.height,), "twigs": (len(model.twigs),),
             "ball": (model.middle, model.half), "slim": (model.slim,), "lines": (model.lines,),
-            "lawn_shade": model.shade,
+            "grass_shade": model.shade,
             "column": (ROW_SPACING * model.radius,), **ranges._asdict(),
         }  # fmt: skip
         """Uniforms of the model."""
@@ -87,7 +87,7 @@ class GpuModel:
         """First triangle of each of `PIXEL_RADII`."""
         self.bare = Stream(ctx, TWIG_INSTANCE)
         self._alone = np.zeros(1, TWIG_INSTANCE)
-        for name in ("keep", "columns", "shows", "scale", "foliage", "tint"):
+        for name in ("twig_share", "columns", "opacity", "scale", "foliage", "tint"):
             self._alone[name] = 1.0
         self._alone["turn"] = 1.0, 0.0
         self.bare.write(self._alone)
@@ -138,10 +138,10 @@ class GpuModel:
         self.wood_class[name] = wood_class = int(np.searchsorted(PIXEL_RADII, pixel_radius))
         self.wood[name] = parts(self.model.wood[wood_class].radii, pixel_radius, foliage)
 
-    def show_cards(self, name: str, keep: float, leaves: float) -> None:
-        """Set the number of twigs that a stream draws; `keep` and `leaves` are those of its `Batch`."""
+    def show_cards(self, name: str, twig_share: float, leaves: float) -> None:
+        """Set the number of twigs that a stream draws; `twig_share` and `leaves` are those of its `Batch`."""
         twigs = len(self.model.twigs)
-        self.most_twigs[name] = twigs if keep >= SHARES[0] else twigs_drawn(twigs, leaves)
+        self.most_twigs[name] = twigs if twig_share >= SHARES[0] else twigs_drawn(twigs, leaves)
 
     def rehearse(self) -> list[str]:
         """Put a tree into each empty stream, to draw it once; return these streams' names."""

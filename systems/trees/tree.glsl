@@ -10,23 +10,23 @@ in float scale;   // size, of its model's
 in vec2 turn;     // cosine and sine of its yaw
 in float phase;   // random number, 0 to 1
 in float tint;    // brightness, of its kind's
-in float keep;    // share of its twigs that are drawn, each larger so that together they hide as much
-in float gone;    // fade from these to its picture far off, 0 to 1
+in float twig_share;    // share of its twigs that are drawn, each larger so that together they hide as much
+in float far_fade;    // fade from these to its picture far off, 0 to 1
 in float foliage; // share of its leaves
 #ifdef STANDS
 // Outputs of stand.vert.
-in vec4 blown;    // message of the wind; displacement of the trunk's top, of its height
-in vec4 misty;    // radiance of the haze in front, and its opacity
-in vec4 stands_in; // of the grass about its foot: height [m], leaf area, optical depth of sunlight, of that straight down; and sun seen past all
+in vec4 wind_response;    // message of the wind; displacement of the trunk's top, of its height
+in vec4 haze_in_front;    // radiance of the haze in front, and its opacity
+in vec4 grass_about; // of the grass about its foot: height [m], leaf area, optical depth of sunlight, of that straight down; and sun seen past all
                    // but trees
-in vec3 lawn_sends; // light reflected by the grass, as radiance of a white face that looks down
-vec2 message = blown.xy, sways = blown.zw;
+in vec3 light_from_grass; // light reflected by the grass, as radiance of a white face that looks down
+vec2 message = wind_response.xy, trunk_sway = wind_response.zw;
 #else
 const vec2 message = vec2(0.0);
-const vec4 misty = vec4(0.0);
-const vec4 stands_in = vec4(1.0, 0.0, 0.0, 0.0);
-const vec2 sways = vec2(0.0);
-const vec3 lawn_sends = vec3(0.0);
+const vec4 haze_in_front = vec4(0.0);
+const vec4 grass_about = vec4(1.0, 0.0, 0.0, 0.0);
+const vec2 trunk_sway = vec2(0.0);
+const vec3 light_from_grass = vec3(0.0);
 #endif
 
 uniform float moment;  // time, within PERIOD [s]
@@ -44,23 +44,23 @@ float swing(float hertz, float own) {
     return 0.5 * (waves.x + waves.y);
 }
 
-vec3 turned(vec3 own) {
+vec3 to_world(vec3 own) {
     return vec3(turn.x * own.x - turn.y * own.z, own.y, turn.y * own.x + turn.x * own.z);
 }
 
-vec3 turned_back(vec3 world) {
+vec3 to_model(vec3 world) {
     return vec3(turn.x * world.x + turn.y * world.z, world.y, turn.x * world.z - turn.y * world.x);
 }
 
 // Displacement of a trunk of a length [m] at a part of it [m].
-vec2 trunk_bends(float high, float of) {
-    return sways * (of * cantilever(clamp(high, 0.0, OVER_TOP)));
+vec2 trunk_offset(float high, float of) {
+    return trunk_sway * (of * cantilever(clamp(high, 0.0, OVER_TOP)));
 }
 
 // Position of a point of its model, with the trunk bent, and its limb swung about its foot.
 vec3 swayed(vec3 own, vec3 pivot, float limb, float hertz, vec2 message) {
-    vec3 at = turned(own);
-    vec2 bent = trunk_bends(own.y / tall, tall);
+    vec3 at = to_world(own);
+    vec2 bent = trunk_offset(own.y / tall, tall);
     float out_by = distance(own, pivot), loose = out_by * out_by / (out_by + LIMB_STIFF);
     vec3 to = vec3(message, 0.0).xzy;
     float first = swing(hertz, limb + phase), second = swing(hertz * LIMB_ASIDE.y, limb * LIMB_ASIDE.z + phase);
@@ -79,14 +79,14 @@ Light light_in_crown(vec3 place, vec4 shading, float up) {
 #ifdef BAKED
     return Light(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, vec2(0.0));
 #else
-    float seen = stands_in.w * through_crown(shading, turned_back(sun), foliage);
+    float seen = grass_about.w * sun_transmittance(shading, to_model(sun), foliage);
     if (seen > FAINTEST_SUN)
         seen *= trees_visibility_beyond(place, OWN_CROWN * tall * scale);
     Light light = light_at(place, Reflector(FACE, vec2(0.0), vec3(0.0, 1.0, 0.0), 1.0), 1.0, seen);
-    light.sky = sky_on(light.sky, lawn_sends, sky_through(shading, foliage), up);
-    light.sun *= tint * (1.0 - misty.a);
-    light.sky *= tint * (1.0 - misty.a);
-    light.haze = misty.rgb * misty.a;
+    light.sky = hemisphere_light(light.sky, light_from_grass, sky_transmittance(shading, foliage), up);
+    light.sun *= tint * (1.0 - haze_in_front.a);
+    light.sky *= tint * (1.0 - haze_in_front.a);
+    light.haze = haze_in_front.rgb * haze_in_front.a;
     return light;
 #endif
 }

@@ -1,8 +1,8 @@
 // Twigs: leaf by leaf with LEAVES, else on their cards.
 #include "lib/light.glsl"
 #include "systems/trees/leaf.glsl"
-#include "systems/trees/shown.glsl"
-#include "systems/trees/pictured.glsl"
+#include "systems/trees/coverage.glsl"
+#include "systems/trees/card_texel.glsl"
 
 in vec2 on;
 #ifdef BAKED
@@ -17,9 +17,9 @@ layout(location = 1) out vec4 second;
 const float APART = 7.0;  // difference of the thresholds of leaves and twigs, by their random numbers
 const float RIBBED = 0.8;  // as in twig.vert
 #else
-in float covers;
-flat in vec3 shown;
-flat in vec3 ribbed;
+in float stem_cover;
+flat in vec3 leaf_colour;
+flat in vec3 midrib_colour;
 
 out vec4 pixel;
 #endif
@@ -36,7 +36,7 @@ void main() {
     float cover = inside.y > 0.5 ? inside.z : leaf, shows = inside.x * mix(RIBBED, 1.0, beside);
     second = vec4(0.5 + 0.5 * normalize(facing), 1.0);
 #else
-    Pictured seen = pictured(on, picture);
+    CardTexel seen = card_texel(on, picture);
     float cover = seen.cover, shows = seen.tone * tone;
     second = packed_shading(inside);
 #endif
@@ -44,8 +44,8 @@ void main() {
         discard;
     pixel = vec4(clamp(shows, 0.0, 1.0), 0.0, 0.0, 1.0);
 #else
-    float cover = covers < 0.0 ? leaf : covers;
-    must_cover(cover);
-    pixel = covered(mix(ribbed, shown, beside), cover);
+    float cover = stem_cover < 0.0 ? leaf : stem_cover;
+    discard_uncovered(cover);
+    pixel = blend_colour(mix(midrib_colour, leaf_colour, beside), cover);
 #endif
 }

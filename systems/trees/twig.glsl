@@ -7,7 +7,7 @@
 uniform int form;         // outline of its leaves
 uniform int twigs;        // number of its model's twigs
 uniform vec4 card;        // extent: left and right, back from its foot, and along [usual length of a twig]
-uniform vec3 hides;       // coverage of each picture of its card, of the first one's
+uniform vec3 picture_cover;       // coverage of each picture of its card, of the first one's
 uniform float usual;      // usual length of a twig [m]
 uniform vec3 leaf_shape;  // length, half the greatest width, angle from the twig [usual length of a twig; rad]
 #ifdef BAKED
@@ -28,50 +28,50 @@ vec4 random(int twig, int leaf, int number) {
 }
 
 // Picture that its card shows: one with the leaves of as many twigs as it stands for.
-float picture_of(float chance) {
-    float more = -log(max(keep, LEAST_KEPT)) / log(TWIGS_EACH);
+float twig_picture(float chance) {
+    float more = -log(max(twig_share, LEAST_KEPT)) / log(TWIGS_EACH);
     return clamp(floor(more + chance), 0.0, float(PICTURES) - 1.0);
 }
 
 // Size of a twig with such a picture, of its own: 0 where it is left out.
-float size_of(float rank, int picture) {
-    float shown = min(keep * (1.0 - gone), 1.0) * foliage;
-    float dwindles = clamp((shown - rank) * RANKS + 0.5, 0.0, 1.0) * min(foliage * RANKS, 1.0);  // none is left without leaves
-    return dwindles * inversesqrt(max(keep, LEAST_KEPT) * hides[picture]);
+float twig_size(float rank, int picture) {
+    float shown = min(twig_share * (1.0 - far_fade), 1.0) * foliage;
+    float kept = clamp((shown - rank) * RANKS + 0.5, 0.0, 1.0) * min(foliage * RANKS, 1.0);  // none is left without leaves
+    return kept * inversesqrt(max(twig_share, LEAST_KEPT) * picture_cover[picture]);
 }
 
 // Normal of a twig's card: needles stand all around their twig, so their card turns to the eye.
-vec3 face_of(Twig twig) {
+vec3 card_normal(Twig twig) {
     if (form != NEEDLES)
         return twig.face;
 #ifdef BAKED
     vec3 to = -vec3(baked[0].z, baked[1].z, baked[2].z);
 #else
-    vec3 to = turned_back(eye - root) - scale * twig.foot;
+    vec3 to = to_model(eye - root) - scale * twig.foot;
 #endif
     return normalize(to - dot(to, twig.along) * twig.along + ASKEW * twig.face);
 }
 
 #ifndef BAKED
 // Share of twigs at a place of its model that are drawn leaf by leaf, by the size of leaves.
-float leaf_by_leaf(vec3 own) {
-    float off = max(distance(eye, root + scale * turned(own)), NEAREST_TWIG);
+float leaf_share(vec3 own) {
+    float off = max(distance(eye, root + scale * to_world(own)), NEAREST_TWIG);
     float pixels = scale * usual * leaf_shape.x * pixels_per_metre() / off;
     return clamp((pixels - leaf_pixels.x) / (leaf_pixels.y - leaf_pixels.x), 0.0, 1.0);
 }
 
 // Rotation of its leaves by the wind [rad].
-float flutter(vec4 chance) {
+float leaf_rotation(vec4 chance) {
     return LEAF_TURNS * min(length(message), 1.0) * swing(mix(LEAF_HERTZ.x, LEAF_HERTZ.y, chance.x), chance.y + phase);
 }
 
 // Displacement of a twig's tip by that, of its length.
-vec3 fluttered(vec3 face, vec3 aside, float turns) {
-    return turns * (FLUTTERS.x * face + FLUTTERS.y * aside);
+vec3 tip_offset(vec3 face, vec3 aside, float rotation) {
+    return rotation * (FLUTTERS.x * face + FLUTTERS.y * aside);
 }
 
 // Change of its leaves' normals by that.
-vec3 turned_by(vec3 along, vec3 aside, float turns) {
-    return turns * (aside + 0.5 * along);
+vec3 normal_change(vec3 along, vec3 aside, float rotation) {
+    return rotation * (aside + 0.5 * along);
 }
 #endif

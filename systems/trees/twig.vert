@@ -4,7 +4,7 @@
 #ifndef BAKED
 #include "systems/trees/behind.glsl"
 #include "systems/trees/hung.glsl"
-#include "systems/trees/leaf_sends.glsl"
+#include "systems/trees/leaf_light.glsl"
 #include "systems/trees/pigment.glsl"
 
 in vec4 hung_at;      // outputs of hang.vert
@@ -25,9 +25,9 @@ out vec4 inside;  // optical depths; or tone, 1 on a stem, and coverage
 flat out float tone;
 flat out float picture;  // index of the card's picture
 #else
-out float covers;      // coverage of a stem; below 0 on a leaf
-flat out vec3 shown;   // its displayed colour
-flat out vec3 ribbed;  // that of its midrib
+out float stem_cover;      // coverage of a stem; below 0 on a leaf
+flat out vec3 leaf_colour;   // its displayed colour
+flat out vec3 midrib_colour;  // that of its midrib
 #endif
 
 const float STEM = 0.006;  // half the width of a side shoot at its foot, of its twig's length
@@ -94,16 +94,16 @@ vec2 corner_of(int vertex) {
     return vec2(vertex % 2 == 1 ? 1.0 : -1.0, vertex % 4 > 1 ? 1.0 : 0.0);
 }
 
-// A corner of a leaf or a stem of a twig, in its axes [its usual length], no stem narrower than `narrowest`. `told` is its tone, 1 on
+// A corner of a leaf or a stem of a twig, in its axes [its usual length], no stem narrower than `narrowest`. `values` is its tone, 1 on
 // a stem, and its width, of that drawn.
-vec3 corner_on(int twig, int leaf, vec2 corner, float narrowest, out vec3 normal, out vec3 told) {
+vec3 corner_on(int twig, int leaf, vec2 corner, float narrowest, out vec3 normal, out vec3 values) {
     if (leaf < leaf_count) {
-        told = vec3(LEAF_TONES.x + LEAF_TONES.y * random(twig, leaf, 4).x, 0.0, 1.0);
+        values = vec3(LEAF_TONES.x + LEAF_TONES.y * random(twig, leaf, 4).x, 0.0, 1.0);
         return leaf_corner(twig, leaf, corner, normal);
     }
     float wide = stem_width(leaf - leaf_count, corner.y), widened = max(wide, narrowest);
     normal = vec3(0.0, 0.0, 1.0);
-    told = vec3(0.0, 1.0, wide / widened);
+    values = vec3(0.0, 1.0, wide / widened);
     return stem_corner(twig, leaf - leaf_count, corner, widened);
 }
 
@@ -113,28 +113,28 @@ void main() {
     vec3 shape, normal = vec3(0.0, 0.0, 1.0);
     on = corner_of(gl_VertexID);
 #ifdef LEAVES
-    vec3 told;
-    Twig one = Twig(vec3(0.0), usual, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 1.0, vec3(0.0), 0.0, vec4(0.0));
-    shape = corner_on(0, number, on, 0.0, normal, told);
-    inside = vec4(told, 0.0);
+    vec3 values;
+    Twig twig = Twig(vec3(0.0), usual, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 1.0, vec3(0.0), 0.0, vec4(0.0));
+    shape = corner_on(0, number, on, 0.0, normal, values);
+    inside = vec4(values, 0.0);
     float size = 1.0;
     tone = 1.0;
     picture = 0.0;
 #else
-    Twig one = twig_of(number);
+    Twig twig = twig_of(number);
     vec4 chance = random(number, 0, 3);
     tone = CARD_TONES.x + CARD_TONES.y * chance.z;
-    picture = picture_of(chance.y);
-    float size = size_of((float(number) + 0.5) / float(twigs), int(picture));
+    picture = twig_picture(chance.y);
+    float size = twig_size((float(number) + 0.5) / float(twigs), int(picture));
     shape = vec3(on.x * card.x, mix(card.y, card.z, on.y), 0.0);
-    inside = one.shading;
-    one.face = face_of(one);
+    inside = twig.shading;
+    twig.face = card_normal(twig);
 #endif
-    vec3 aside = cross(one.along, one.face);
-    float length_of = size * one.span;
-    one.foot -= 0.5 * max(length_of - one.span, 0.0) * one.along;  // it grows about its middle: a crown stays as wide
-    facing = normal.x * aside + normal.y * one.along + normal.z * one.face;
-    gl_Position = baked * vec4(one.foot + length_of * (shape.x * aside + shape.y * one.along + shape.z * one.face), 1.0);
+    vec3 aside = cross(twig.along, twig.face);
+    float length_of = size * twig.span;
+    twig.foot -= 0.5 * max(length_of - twig.span, 0.0) * twig.along;  // it grows about its middle: a crown stays as wide
+    facing = normal.x * aside + normal.y * twig.along + normal.z * twig.face;
+    gl_Position = baked * vec4(twig.foot + length_of * (shape.x * aside + shape.y * twig.along + shape.z * twig.face), 1.0);
     if (size <= 0.0)
         gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 }
@@ -145,18 +145,18 @@ float half_pixel() {
 }
 
 void main() {
-    HungLeaves hung = hung_leaves(hung_axes, hung_light, hung_haze);
-    vec3 normal, told, face = cross(hung.aside, hung.along);
+    HungLeaves hung = unpack_leaves(hung_axes, hung_light, hung_haze);
+    vec3 normal, values, face = cross(hung.aside, hung.along);
     on = corner_of(gl_VertexID);
-    vec3 shape = corner_on(hung.number, gl_VertexID / 4, on, half_pixel(), normal, told);
-    vec3 own = shape.x * hung.aside + shape.y * hung.along + shape.z * face + shape.y * fluttered(face, hung.aside, hung.turns);
-    vec3 facing = normalize(normal.x * hung.aside + normal.y * hung.along + normal.z * face + turned_by(hung.along, hung.aside, hung.turns));
+    vec3 shape = corner_on(hung.number, gl_VertexID / 4, on, half_pixel(), normal, values);
+    vec3 own = shape.x * hung.aside + shape.y * hung.along + shape.z * face + shape.y * tip_offset(face, hung.aside, hung.rotation);
+    vec3 facing = normalize(normal.x * hung.aside + normal.y * hung.along + normal.z * face + normal_change(hung.along, hung.aside, hung.rotation));
     vec3 ray = normalize(hung_at.xyz - eye);
     vec3 sky = mix(hung.below, hung.above, 0.5 - 0.5 * facing.y * sign(dot(facing, ray)));
-    Light light = Light(hung.sun * leaf_sends(facing, ray), sky, hung.haze, 0.0, 0.0, vec2(0.0));
-    covers = told.y > 0.5 ? told.z : -1.0;
-    shown = tone_mapped(shade(Surface(pigment_of(told.x, 0.0, 0.0), 1.0, LEAF_SCATTERING), light));  // stems are green, as the darkest leaves
-    ribbed = tone_mapped(shade(Surface(pigment_of(RIBBED * told.x, 0.0, 0.0), 1.0, LEAF_SCATTERING), light));
-    gl_Position = hung_at.w > 0.0 ? stood(hung_at.xyz + hung_at.w * own) : vec4(0.0, 0.0, 2.0, 1.0);
+    Light light = Light(hung.sun * leaf_radiance(facing, ray), sky, hung.haze, 0.0, 0.0, vec2(0.0));
+    stem_cover = values.y > 0.5 ? values.z : -1.0;
+    leaf_colour = tone_mapped(shade(Surface(pigment_of(values.x, 0.0, 0.0), 1.0, LEAF_SCATTERING), light));  // stems are green, as the darkest leaves
+    midrib_colour = tone_mapped(shade(Surface(pigment_of(RIBBED * values.x, 0.0, 0.0), 1.0, LEAF_SCATTERING), light));
+    gl_Position = hung_at.w > 0.0 ? clip_position(hung_at.xyz + hung_at.w * own) : vec4(0.0, 0.0, 2.0, 1.0);
 }
 #endif

@@ -1,27 +1,27 @@
 #include "lib/light.glsl"
 #include "systems/trees/leaf.glsl"
-#include "systems/trees/shown.glsl"
+#include "systems/trees/coverage.glsl"
 #include "systems/trees/far.py"
 #include "systems/trees/noise.py"
 
 uniform sampler2DArray tree_cards;  // in place of twigs' cards: tileable noise
 
-in vec2 on_skin;
+in vec2 bark_at;
 in vec3 facing;
 in vec3 seen_at;
 #ifdef BAKED
 in vec4 inside;
 #else
-in vec3 from_sun;
-in vec3 from_sky;
-flat in vec3 hazy;
+in vec3 sun_radiance;
+in vec3 sky_radiance;
+flat in vec3 haze_colour;
 #endif
-in float thick;
-flat in float rounds;
-in vec2 fading;
-in float aged;
-in float stands;
-flat in vec2 among_grass;
+in float stem_cover;
+flat in float ribbon;
+in vec2 edge;
+in float age;
+in float grass_height;
+flat in vec2 grass_here;
 
 #ifdef BAKED
 layout(location = 0) out vec4 pixel;
@@ -50,8 +50,8 @@ const float SHARPER_BY = -1.5, BANDS_SHARPER = -2.5;  // bias of the noise's mip
 
 #ifdef SOFT
 // Brightness of the bark, of its mean.
-float bark_there() {
-    return soiled_at(stands);
+float bark_brightness() {
+    return soil_tone(grass_height);
 }
 #else
 float noise(vec2 at, float sharper) {
@@ -63,52 +63,52 @@ float noise(vec2 at) {
 }
 
 // Brightness of bark with dark bands across its stem, of its ground.
-float banded_at(vec2 on, float broad, float pixel) {
+float banded_bark(vec2 on, float broad, float pixel) {
     float band = smoothstep(BAND.x - SOFTER * pixel, BAND.y + SOFTER * pixel, noise(on * BANDS, BANDS_SHARPER) * (BANDED.x + BANDED.y * broad));
     float foot = (1.0 - smoothstep(FOOT.x, FOOT.y, on.y)) * smoothstep(SPOT.x, SPOT.y, noise(on * SPOTS));
     return mix(1.0, BAND_TONE, max(band, foot));
 }
 
 // Brightness of bark with furrows along its stem, of its ground.
-float furrowed_at(vec2 on, float broad) {
+float furrowed_bark(vec2 on, float broad) {
     float furrows = noise(on * FURROWS + 2.0 * broad), cracks = noise(on * (FURROWS * FINER));
     return mix(1.0, RIDGES.x + RIDGES.y * (DEEP * furrows + (1.0 - DEEP) * cracks), rough);
 }
 
 // Brightness of old bark, of its ground: furrows along it, or dark bands across it; and the broadest octave of its noise.
-vec2 old_bark_there() {
-    float pixel = max(fwidth(on_skin.x), fwidth(on_skin.y)), finest = FINEST_BARK.y / (rough < 0.0 ? BROADER : 1.0);
-    float broad = noise(on_skin * (rough < 0.0 ? BANDED.z : WINDINGS));
-    float old = rough < 0.0 ? banded_at(on_skin, broad, pixel) : furrowed_at(on_skin, broad);
+vec2 old_bark() {
+    float pixel = max(fwidth(bark_at.x), fwidth(bark_at.y)), finest = FINEST_BARK.y / (rough < 0.0 ? BROADER : 1.0);
+    float broad = noise(bark_at * (rough < 0.0 ? BANDED.z : WINDINGS));
+    float old = rough < 0.0 ? banded_bark(bark_at, broad, pixel) : furrowed_bark(bark_at, broad);
     return vec2(mix(bark_mean(), old, clamp(FINEST_BARK.x - finest * pixel, 0.0, 1.0)), broad);
 }
 
 // Brightness of the bark, of its ground.
-float bark_there() {
-    vec2 old = old_bark_there();
-    return soiled_at(stands + old.y - 0.5) * mix(1.0, old.x, aged);
+float bark_brightness() {
+    vec2 old = old_bark();
+    return soil_tone(grass_height + old.y - 0.5) * mix(1.0, old.x, age);
 }
 #endif
 
 // Coverage of a stem with soft edges. The part of `facing` across the ray is the distance from its middle.
 float edge_cover(vec3 ray) {
-    float across = fading.y * length(facing - dot(facing, ray) * ray);
-    return mix(1.0, clamp((1.0 - across) / max(fwidth(across), LEAST_WIDTH), 0.0, 1.0), fading.x);
+    float across = edge.y * length(facing - dot(facing, ray) * ray);
+    return mix(1.0, clamp((1.0 - across) / max(fwidth(across), LEAST_WIDTH), 0.0, 1.0), edge.x);
 }
 
 void main() {
 #ifdef BAKED
-    float worn = mix(1.0, old_bark_there().x / bark_mean(), aged_at(aged * THICKEST));
-    pixel = vec4(0.5 + 0.5 * SHARPER * (worn - 1.0), 1.0, aged, 1.0);
+    float worn = mix(1.0, old_bark().x / bark_mean(), bark_age(age * THICKEST));
+    pixel = vec4(0.5 + 0.5 * SHARPER * (worn - 1.0), 1.0, age, 1.0);
     second = packed_shading(inside);
 #else
-    float worn = bark_there();
+    float worn = bark_brightness();
     vec3 ray = normalize(seen_at - eye);
-    float cover = thick * edge_cover(ray);
-    must_cover(cover);
-    vec3 out_to = facing - ray * (rounds * sqrt(max(1.0 - dot(facing, facing), 0.0)));
+    float cover = stem_cover * edge_cover(ray);
+    discard_uncovered(cover);
+    vec3 out_to = facing - ray * (ribbon * sqrt(max(1.0 - dot(facing, facing), 0.0)));
     float lit = max(dot(out_to, sun), 0.0) * inversesqrt(dot(out_to, out_to));
-    vec2 seen = transmittance(vec2(among_grass.y, OPEN_SKY) * leaf_area_above(stands, vec2(0.0, among_grass.x)));
-    pixel = drawn(worn * worn * (from_sun * (lit * seen.x) + from_sky * seen.y) + hazy, cover);
+    vec2 seen = transmittance(vec2(grass_here.y, OPEN_SKY) * leaf_area_above(grass_height, vec2(0.0, grass_here.x)));
+    pixel = output_colour(worn * worn * (sun_radiance * (lit * seen.x) + sky_radiance * seen.y) + haze_colour, cover);
 #endif
 }

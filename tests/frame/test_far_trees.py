@@ -14,7 +14,7 @@ from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_truth, without_trees
 from tallgrass.systems.trees import kept, kind, standing
 from tallgrass.systems.trees.draw import TreePart
-from tallgrass.systems.trees.far import COLUMNS, FINER_BY, LINES, ROWS
+from tallgrass.systems.trees.far import COLUMNS, LEVEL_BIAS, LINES, ROWS
 from tallgrass.systems.trees.habit import HABITS
 from tallgrass.systems.trees.model import models_of
 from tallgrass.testing import Stage, little_prairie, looking, private_world
@@ -57,7 +57,7 @@ def test_where_a_tree_begins_to_be_a_picture_no_texel_is_larger_than_a_pixel(hab
 
 def test_a_picture_is_as_blurred_as_the_mean_over_a_pixel() -> None:
     """A texel is a mean over itself, and is read between its neighbours."""
-    texel, lies = 2.0**FINER_BY, np.random.default_rng(3).uniform(-0.5, 0.5, (4, 100_000))
+    texel, lies = 2.0**LEVEL_BIAS, np.random.default_rng(3).uniform(-0.5, 0.5, (4, 100_000))
     assert (texel * lies[:3].sum(axis=0)).std() == pytest.approx(lies[3].std(), rel=0.02)
 
 

@@ -84,7 +84,7 @@ def test_a_tree_is_in_as_many_streams_as_it_is_drawn_in_ways(models: list[Model]
     instances = np.concatenate(
         [rows for batch, rows in zip(found.batches, found.instances, strict=True) if batch.name == FAR]
     )
-    between = {tuple(each["root"]) for each in instances if each["gone"] < 1.0}
+    between = {tuple(each["root"]) for each in instances if each["far_fade"] < 1.0}
     near = {tuple(root) for model in range(len(models)) for root in roots(found, model, *CARDS)}
     assert between == near & {tuple(each["root"]) for each in instances}
     assert between
@@ -115,7 +115,7 @@ def test_what_is_placed_and_how_far_off_it_is_is_of_the_trees_of_each_stream(mod
         off = np.linalg.norm(placed["root"] + placed["crown_at"][:, None] * (0.0, 1.0, 0.0) - EYE, axis=1)
         assert (batch.nearest, batch.mean) == pytest.approx((off.min(), off.mean()))
         assert batch.foliage == rows["foliage"].min()
-        assert batch.keep == (rows["keep"] * (1.0 - rows["gone"])).max()
+        assert batch.twig_share == (rows["twig_share"] * (1.0 - rows["far_fade"])).max()
 
 
 def test_trees_with_fewest_twigs_are_drawn_apart_only_where_they_are_many_of_a_model(models: list[Model]) -> None:

@@ -16,15 +16,15 @@ uniform float solid_from;  // coverage from which on pixels are opaque
 const vec4 BAYER = vec4(0.125, 0.625, 0.875, 0.375);  // thresholds of two by two samples of a pixel
 
 // Threshold of coverage of this sample: neighbours have different ones, and each object has its own order.
-float threshold_of(float own) {
+float threshold_of(float random) {
     ivec2 sample_at = ivec2(gl_FragCoord.xy) & 1;
-    return fract(BAYER[2 * sample_at.y + sample_at.x] + own);
+    return fract(BAYER[2 * sample_at.y + sample_at.x] + random);
 }
 
 const float OWN_ORDER = 0.618034;  // golden section: successive multiples are evenly spread
 
 // Discards what the other pass draws.
-void must_cover(float cover) {
+void discard_uncovered(float cover) {
 #ifdef SOFT
     if (cover >= solid_from || cover < FAINTEST)
         discard;
@@ -38,7 +38,7 @@ void must_cover(float cover) {
 }
 
 // Colour to output for a displayed colour.
-vec4 covered(vec3 shown, float cover) {
+vec4 blend_colour(vec3 shown, float cover) {
 #ifdef SOFT
     return vec4(shown, 1.0) * cover;
 #else
@@ -46,6 +46,6 @@ vec4 covered(vec3 shown, float cover) {
 #endif
 }
 
-vec4 drawn(vec3 radiance, float cover) {
-    return covered(tone_mapped(radiance), cover);
+vec4 output_colour(vec3 radiance, float cover) {
+    return blend_colour(tone_mapped(radiance), cover);
 }
