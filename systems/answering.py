@@ -88,7 +88,7 @@ class Answering(Underflowing):
         if time < self._clock:
             self.pressers.go_back()
         self._clock = float(time)
-        self.winds.pass_to(self.time)
+        self.winds.set_clock(self.time)
         self.viewers.begin_anew()
 
     def advance(self, dt: float) -> None:
@@ -101,7 +101,7 @@ class Answering(Underflowing):
         later = self._clock + float(dt)  # float32 would soon round short steps to nothing
         must_be_time(later, "a prairie advances", "to")
         self._clock = later
-        self.winds.pass_to(self.time)
+        self.winds.set_clock(self.time)
 
     @property
     def light(self) -> Light:

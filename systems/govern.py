@@ -162,7 +162,7 @@ class Governor:
         self._rungs: dict[str, int] = {}
         """Rung at which the present frame is drawn, by viewer."""
         self._begun = 0.0
-        """Time of the processor's clock at which the present frame began [s]."""
+        """Reading of the clock when the present frame began [s]."""
 
     @property
     def hold(self) -> float | None:

@@ -79,7 +79,7 @@ class ChooseLevels:
     """Largest discrete distance of each representation."""
 
     representations: tuple[Representation, ...] = ()
-    """All representations, from the finest. One may be unfit for how a near patch is seen; empty if none is asked."""
+    """All representations, from the finest, which may be unfit for how a near patch is seen; empty to ask none."""
 
     slack: int = SLACK
 

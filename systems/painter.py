@@ -102,8 +102,8 @@ class Painter(Holding):
         for part in self._parts_with["send"]:
             part.send(outlook, self.record)
         counts = {name: painter.receivers(outlook) for name, painter in self.painters.items()}
-        laid = iter(self.received.allocate([count for each in counts.values() for count in each]))
-        self._first = {name: [next(laid) for _ in each] for name, each in counts.items()}
+        first = iter(self.received.allocate([count for pools in counts.values() for count in pools]))
+        self._first = {name: [next(first) for _ in pools] for name, pools in counts.items()}
         self._outlook = outlook
         self.blades = 0
         for painter in self.painters.values():

@@ -175,7 +175,7 @@ class Saving:
 
         `became` maps entities of the state to those that they may be now.
         """
-        self.winds.pass_to(state.time)
+        self.winds.set_clock(state.time)
         entities = self._restore_winds(state, made, became)
         trees = {each.entity for each in state.things if each.kind == "tree"}
         self.trees.fell(*made.felled, trees)
@@ -231,7 +231,7 @@ class Saving:
             entities[wind.entity] = self._give_wind(wind, sources, entity if exists else self.world.give())
         pairs = zip(state.declared, declared_now, strict=True)
         now = entities | {wind.entity: entity for wind, entity in pairs if wind}
-        self.winds.take(declared_now, added_now, {now[entity]: wind for entity, wind in made.runs.items()})
+        self.winds.resume(declared_now, added_now, {now[entity]: wind for entity, wind in made.runs.items()})
         return entities
 
     def _give_wind(self, wind: SavedWind, sources: Mapping[int, WindSource], entity: int | None) -> int:

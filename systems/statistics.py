@@ -53,7 +53,7 @@ class Statistics:
     _counts: Remembered[Counts] = field(default_factory=Remembered, repr=False, compare=False)
 
     def count(self, outlook: Outlook, site: Site, systems: Schedule, painter: Painter, /) -> None:
-        """Count what a viewer was shown in a frame."""
+        """Take the times and counts of a viewer's frame."""
         appears = outlook.appearance
         made_of = None if appears is None else (appears, site)
         made = self._counts.of(outlook.viewer.name, made_of, partial(_counts_of, outlook, site, self.blades_field))

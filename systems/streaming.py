@@ -14,7 +14,8 @@ GOES, WAITS = 0.75, 2.0
 """Distance of viewers from the window's middle from which it moves, and from which a frame waits for it [steps]."""
 
 APART = 0.25
-"""Largest distance of a viewer from the middle of all viewers for the window to be around all, over its width."""
+"""Largest distance from the looking viewer to the middle of all at which the window follows that middle, over its
+width."""
 
 LATELY = 1.0
 """Time since their last look for which other viewers count [s]: games do not close the viewer of a map or a mirror."""

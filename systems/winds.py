@@ -161,7 +161,7 @@ class Winds(Feature):
             return False
         return self._world.find(entity, WindSource) is not None
 
-    def pass_to(self, time: float) -> None:
+    def set_clock(self, time: float) -> None:
         """Set the prairie's clock to `time` [s], at which a game's next changes of winds take effect."""
         self._clock = time
         self.quarantine.let_back(time)
@@ -181,7 +181,7 @@ class Winds(Feature):
         self._standing(self._clock)
         return {entity: known.wind for entity, known in self._known.items() if known.wind.course is not None}
 
-    def take(self, declared: Sequence[int], added: Sequence[int], runs: Mapping[int, WindPrimitive]) -> None:
+    def resume(self, declared: Sequence[int], added: Sequence[int], runs: Mapping[int, WindPrimitive]) -> None:
         """Take over entities as the scene's declared winds and a game's added winds.
 
         `runs` are the winds, by entity, whose rates a game has changed, with the courses of their phases.
