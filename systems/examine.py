@@ -61,7 +61,7 @@ def treading_of(saved: SavedTreading, arrays: Arrays, /) -> Treading:
         walks.append(WalkState(pressers, pose, walk.time, opened, way, closed, walk.begun))
     declared = [None if fields is None else _presser(fields) for fields in saved.declared]
     if not all(-len(declared) <= number < 0 for number, _ in walks[0].pressers):
-        refuse("others walk in it than its scene declares")
+        refuse("pressers walk in it that its scene does not declare")
     kept = _stretches(arrays, "kept")
     return Treading((walks[0], walks[1]), kept, saved.since, saved.trodden, saved.anew, declared)
 
@@ -104,12 +104,12 @@ def sown_of(saved: Saved, density: Density, loaded: LoadedScene, /) -> tuple[Int
     """
     found, plots, kinds = saved.arrays.get("sown_densities", np.zeros(0)), density.sown, loaded.scene.grass
     if found.dtype != np.uint8 or found.ndim != plots.pages.ndim:
-        refuse("what is sown are no densities")
+        refuse("there is something wrong with its densities")
     if not len(found):
         return _plots(saved.arrays, "sown", plots, 0), plots.pages[:0]
     then = kinds_of(saved.state, list(kinds))
     if found.shape[1:] != (CELLS, CELLS, len(then)):
-        refuse("what is sown are no densities of its scene's kinds")
+        refuse("its densities are not those of its scene's kinds")
     where = _plots(saved.arrays, "sown", plots, len(found))
     if then == list(kinds):
         return where, found

@@ -52,9 +52,9 @@ def must_fit(saved: Saved, site: Site, lie: Floats, /) -> None:
         if not np.allclose(saved_lie, lie, rtol=0.0, atol=SAME, equal_nan=True):
             unfit("its ground has other heights or holes")
     if len(state.declared) != len(scene.wind):
-        unfit(f"of winds its scene declares {len(state.declared)}, and this one {len(scene.wind)}")
+        unfit(f"its scene declares {len(state.declared)} winds, and this one {len(scene.wind)}")
     if len(state.treading.declared) != len(scene.pressers):
-        unfit(f"of pressers its scene declares {len(state.treading.declared)}, and this one {len(scene.pressers)}")
+        unfit(f"its scene declares {len(state.treading.declared)} pressers, and this one {len(scene.pressers)}")
     for season in state.seasons:
         if season.name not in scene.grass:
             unfit(f"the grass '{season.name}' is changed in it, which this scene does not have")

@@ -241,7 +241,7 @@ def unpacked(state: object, /) -> Saved:
         raise ValueError("these bytes are no state of a prairie")
     digest, body = data[len(MAGIC) :][:_DIGEST], data[len(MAGIC) + _DIGEST :]
     if blake2b(body, digest_size=_DIGEST).digest() != digest:
-        raise ValueError("this state has been altered or is broken off")
+        raise ValueError("this state has been altered or truncated")
     version = int.from_bytes(body[:2])
     if not OLDEST <= version <= FORMAT:
         due = f"formats {OLDEST} to {FORMAT}"
@@ -297,5 +297,5 @@ def component_of(kind: Kind, fields: Mapping[str, Any], /) -> Thing:
     try:
         made: Thing = make(**{name: tuple(each) if isinstance(each, list) else each for name, each in fields.items()})
     except TypeError as error:
-        raise ValueError(f"what was a {kind} is none: {error}") from error
+        raise ValueError(f"a {kind} of this state cannot be made: {error}") from error
     return made

@@ -158,7 +158,7 @@ class Saving:
         """Return the numbers of the scene's felled trees and those of a large forest; ValueError if they do not fit."""
         felled, wild, stood = state.felled, state.wild_felled, state.stood
         if stood is not None and len(stood) != len(felled) + len(wild):
-            refuse("it has felled trees that stood nowhere")
+            refuse("it does not have a place for each felled tree")
         try:
             return self.trees.found_again(felled, wild, stood)
         except ValueError as error:
@@ -324,7 +324,7 @@ def _wind_on_course(wind: SavedWind, saved: SavedCourse, reading: Reading) -> Wi
     rates, offsets = (tuple(map(tuple, part)) for part in (saved.rates, saved.offsets))
     widths = {len(each) for each in (*rates, *offsets)}
     if not len(rates) == len(offsets) == len(saved.times) + 1 or widths != {due}:
-        refuse("a wind's phases have run at no rates")
+        refuse("there is something wrong with the phases of a wind")
     return with_course(made, Course(tuple(saved.times), rates, offsets), _wind_of(wind.kind, saved.first, reading))
 
 

@@ -116,7 +116,7 @@ class Seasons:
     def change(self, name: str, keys: Mapping[str, object], /, *, over: float, time: float) -> None:
         """Change keys of a kind over `over` seconds from `time` [s] on; raises ValueError for what cannot change."""
         if not isinstance(over, NUMBERS) or not 0.0 <= over < inf:
-            raise ValueError(f"a kind changes over so many seconds, 0 or more, not {shortened(over)}")
+            raise ValueError(f"a kind changes over a time in seconds, 0 or more, not {shortened(over)}")
         for key, why in ELSEWHERE.items():
             if key in keys:
                 raise ValueError(f"grass.{name}.{key}: {why}")
@@ -167,7 +167,7 @@ class Seasons:
         coming = [each for each in saved if each.comes is not None]
         for each in saved:
             if each.name not in found.due or any(ease.key not in EASED for ease in each.eases):
-                refuse("it has changed what kinds of grass do not have")
+                refuse("it has changed kinds of grass or keys of them that do not exist")
             declared = self.declared.grass[each.name]
             found.due[each.name] = _kind_of(declared, each.due)
             found.standing[each.name] = _kind_of(declared, each.stands)

@@ -85,7 +85,7 @@ class Tending(Answering):
         among = [each.plant == "flower" for each in self.scene.grass.values()]
         number = self.scene.number_of(kind)
         if number is None:
-            raise TypeError(f"what is sown is the name of a kind, not {kind!r}")
+            raise TypeError(f"sow takes the name of a kind of grass, not {kind!r}")
         sow(self.site.ground.density, number, among, footprint, density, pose, soft=soft)
 
     def clear(self, footprint: Footprint | Road, *, soft: float = 0.0, pose: Pose = HERE) -> None:
@@ -138,7 +138,7 @@ class Tending(Answering):
                 f"'{name}' are trees: give each another Tree, or reload the scene with another leaf or bark"
             )
         if self.scene.number_of(name) is None:
-            raise TypeError(f"what changes is the name of a kind, not {name!r}")
+            raise TypeError(f"change_kind takes the name of a kind of grass, not {name!r}")
         self._seasons.change(name, keys, over=over, time=self.time)
 
     def ground_texture(self, texture: object, *, side: float | None = None, linear: bool = False) -> None:

@@ -143,7 +143,7 @@ UNFIT = {
     },
     "its ground has other heights or holes": {"terrain": {"size": [60, 60], "cell": 5.0, "offset": 1.0}},
     "its scene declares the wind breeze, gust, and this one the wind breeze": {"wind": [{"kind": "breeze"}]},
-    "of pressers its scene declares 1, and this one 0": {"pressers": []},
+    "its scene declares 1 pressers, and this one 0": {"pressers": []},
     "the grass 'green' is changed in it, which this scene does not have": {"grass": {"lush": GREEN, "dry": DRY}},
     "ground is sown or cleared in it with the grass dry, which this scene does not have": {
         "grass": {"green": GREEN, "red": DRY}

@@ -237,7 +237,7 @@ def test_what_is_no_state_of_this_release_is_refused_in_a_sentence(played: Prair
     state = played.state()
     refused(played, b"", "^these bytes are no state of a prairie$")
     refused(played, b"PK" + state, "^these bytes are no state of a prairie$")
-    refused(played, state[:-1], "^this state has been altered or is broken off$")
+    refused(played, state[:-1], "^this state has been altered or truncated$")
     refused(
         played,
         signed(b"\x00\x01" + state[HEAD + 22 :]),
