@@ -41,7 +41,7 @@ def test_n5_a_kind_is_not_changed_to_what_no_scene_may_say(
 def test_n5_what_is_no_kind_is_not_changed(prairie: Prairie) -> None:
     with pytest.raises(ValueError, match=r"unknown grass 'gren'; there are green"):
         prairie.change_kind("gren", tip="#000000")
-    with pytest.raises(TypeError, match="the name of a kind, not None"):
+    with pytest.raises(TypeError, match="the name of a kind of grass, not None"):
         prairie.change_kind(None, tip="#000000")  # type: ignore[arg-type]
 
 
