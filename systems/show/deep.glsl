@@ -1,9 +1,10 @@
-// Depth of what covers pixels only in part: written where it covers at least half of one. What is thinner than a pixel, or is
-// the mean of many that are, covers no pixel so far: it writes depth in as many pixels as it covers in all, drawn by lot
-// (Enderton, Sintorn, Shirley, Luebke, Stochastic Transparency, 2010). So as much is seen past many as past all of them drawn.
+// Depth of fragments that cover their pixel in part: written from a coverage of one half on. Things thinner than a pixel, and
+// texels that are means of many of them, cover no pixel so far. They write depth in a random part of their pixels, as large as
+// their coverage (stochastic transparency: Enderton, Sintorn, Shirley, Luebke 2010). So many of them let as much through as if
+// blended.
 #include "lib/random.glsl"
 
-// How much something must cover to write depth, by its number: half, and any part where all of it is `thin`, which is 0 to 1.
-float least_cover(int number, float thin) {
+// Coverage from which on a thing writes depth: one half, or for a thing that is `thin` (0 to 1) a random threshold by its number.
+float depth_threshold(int number, float thin) {
     return 0.5 + thin * (unit(hash3(int(gl_FragCoord.x), int(gl_FragCoord.y), number)) - 0.5);
 }

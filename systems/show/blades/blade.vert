@@ -210,7 +210,7 @@ void main() {
         stands.w *= uncovered(kinds[k].head, foot.xyz - eye);
 #endif
 #ifdef HIDING
-    high.w = clamp((hidden_to(blade.root, OF(crown, k), lodged(blown)) - up.y) / blade.height, 0.0, 1.0);
+    high.w = clamp((hidden_height(blade.root, OF(crown, k), lodged(blown)) - up.y) / blade.height, 0.0, 1.0);
 #endif
 #ifdef TOOTHED
     joints.w = outline_seen(int(blade.organ), blade.height, blade.width, foot.xyz);

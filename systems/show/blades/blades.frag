@@ -73,7 +73,7 @@ void main() {
 #endif
     covered = covered < FAINT ? 0.0 : covered;
 #ifdef DEEP
-    if (covered < least_cover(number, clamp(2.0 - 2.0 * half_width, 0.0, 1.0)))
+    if (covered < depth_threshold(number, clamp(2.0 - 2.0 * half_width, 0.0, 1.0)))
         discard;
 #endif
 #ifdef PARTED

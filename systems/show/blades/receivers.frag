@@ -5,12 +5,12 @@
 uniform int each;  // blades of a patch model
 
 void main() {
-    int number = number_here();
+    int number = receiver_number();
     if (number >= pool.y) {
-        told = vec4(0.0);
+        received_texel = vec4(0.0);
         return;
     }
     Standing stands = standing_of(number / each);
     Blade blade = blade_of(int(stands.row) * each + number % each);
-    told = told_at(blade.root.xz + stands.cell * patch_side, int(blade.kind), number);
+    received_texel = receiver_texel(blade.root.xz + stands.cell * patch_side, int(blade.kind), number);
 }
