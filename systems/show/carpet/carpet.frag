@@ -92,7 +92,7 @@ void evaluate(float slope) {
 #endif
 #if KINDS > 4
     strips_before = 1.0;
-    slow_noise = slow_seen(leaf_place(place, slope, tall, leaf_area), slope, tall);
+    slow_noise = slow_noise_at(leaf_place(place, slope, tall, leaf_area), slope, tall);
     vec2 message = message_at(place.xz);
     stands = lodged(message);
     sway = sway_of(leaf_areas(grown), message);
@@ -117,9 +117,9 @@ Canopy canopy_here(Sight sight) {
 // Display colour of the carpet, grass over the ground `below`, and the spike_factor of its plants. `cover` is the coverage of its grass.
 vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     vec2 shown_at = image_place(place.xz, sight.heading, lowered, sight.slope);
-    Patch own = patch_at(shown_at, sway, stands);
+    Patch grass_patch = patch_at(shown_at, sway, stands);
     Canopy canopy = canopy_here(sight);
-    own.blown.xy += canopy.sway;
+    grass_patch.blown.xy += canopy.sway;
     vec2 among = vec2(1.0);
     if (min(sight.share, 1.0 - strips_before) < 1.0) {  // by pixel, as it is too curved between vertices
         float on_strips = strips_met(place.xz, max(sight.slope, TINY), mesh_share, tall, stands).y;
@@ -138,11 +138,11 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     vec4 sent = any_lamps() ? lamps_seen(sight) : vec4(0.0);
     View view = View(canopy.light, canopy.bent, among, shallow, left, stubble, area, sent, dryness_tint(slow_noise));
 #if KINDS > 4 || defined(EDGED)
-    elevation = elevation_seen(sight.on_level, leaf_area);
+    elevation = elevation_index(sight.on_level, leaf_area);
 #endif
-    Reading read = reading(own, sight, shown_at, tall, elevation);
-    float taller, grain = grain_of(read, sight, tall, stands, own.blown.z);
-    vec4 sum = kinds_seen(own, read, sight, grain, view, taller);
+    Reading read = reading(grass_patch, sight, shown_at, tall, elevation);
+    float taller, grain = grain_scale(read, sight, tall, stands, grass_patch.blown.z);
+    vec4 sum = kinds_seen(grass_patch, read, sight, grain, view, taller);
     // Past grass over a crest one sees the grass behind, and no ground. A game's own ground may lie lower.
     float ground = over_hosts > 0.0 ? 1.0 + HOSTS_OFF / (ENDS.x * max(tall, LOWEST_GRASS)) : 1.0;
     float ends = smoothstep(ENDS.x * sight.share * ground, ENDS.y * sight.share * ground, deep);
@@ -207,8 +207,8 @@ void evaluate_kinds(float slope, float left) {
 // Set the pixel's colour, and return whether it shows anything. `hidden` is a factor of its coverage. `dx` and `dy` lead to the next
 // pixels across and up (x, z) [m], `soil_dx` and `soil_dy` do so on the ground between.
 bool draw_pixel(float slope, float ahead, float left, float share, float hidden, vec2 dx, vec2 dy, vec3 ground, vec2 soil_dx, vec2 soil_dy) {
-    vec3 pigment = pigment_lying(ground.xz, soil_dx, soil_dy, transmittance(leaf_area / max(slope, LOWEST)), lush, left);
-    vec3 soil_light = soil_between(Soil(soil_seen, sunlit, skylit, soil_extinction, soil_through), ground, left);
+    vec3 pigment = litter_pigment(ground.xz, soil_dx, soil_dy, transmittance(leaf_area / max(slope, LOWEST)), lush, left);
+    vec3 soil_light = soil_radiance(Soil(soil_seen, sunlit, skylit, soil_extinction, soil_through), ground, left);
     vec3 color = tone_mapped(soil_light * pigment * pigment + lit[2].rgb);
     float cover = 0.0;
     if (over_hosts > 0.0)
@@ -247,15 +247,16 @@ void main() {
 #if KINDS > 4
     rise = gradient_at(place.xz);
 #endif
-    float slope = viewing_slope(rise, place), left = left_seen(place.xz), ahead = carpet_rise_ahead(place.xz, tall), share = share_here();
+    float slope = viewing_slope(rise, place), left = cut_height_seen(place.xz), share = share_here();
+    float ahead = carpet_rise_ahead(place.xz, tall);
     evaluate(slope);
-    vec3 ground = met_at(0.0, slope);
+    vec3 ground = sight_at_height(0.0, slope);
     bool shown = draw_pixel(slope, ahead, left, share, 1.0, dx, dy, ground, dFdx(ground.xz), dFdy(ground.xz));
 #else
     vec2 dx = dFdx(mesh_place.xz), dy = dFdy(mesh_place.xz);
     float hidden = find_grass(), left = cut_height_at(place.xz), share = share_here();
     float slope = viewing_slope(rise, place);
-    vec3 ground = met_at(0.0, slope);
+    vec3 ground = sight_at_height(0.0, slope);
     vec2 soil_dx = dFdx(ground.xz), soil_dy = dFdy(ground.xz);
     bool shown = false;
     // Most pixels of these tiles meet no grass. They are discarded only at the end: after a discard, Mesa tests in each turn of a loop.

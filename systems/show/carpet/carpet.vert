@@ -61,13 +61,13 @@ WITHIN out float lowered;   // depth of the carpet below its height where no str
 FEW_KINDS float sway;       // displacement of leaves per message of the wind [m]
 FEW_KINDS vec2 slow_noise;  // slow noises of the pigment at the leaves that are seen
 #endif
-OF_SOIL float elevation;  // from elevation_seen
+OF_SOIL float elevation;  // from elevation_index
 #ifndef COARSE
-OF_SOIL vec3 sunlit;         // radiance of the soil without any grass: from the sun
-OF_SOIL vec3 skylit;         // and from the sky
-OF_SOIL float soil_extinction;      // leaves that sunlight meets, per leaf area seen from the side
-OF_SOIL float soil_through;  // transmittance of the grass for sunlight
-OF_SOIL vec3 lush;           // pigment of the understorey, relative to that of the ground between
+OF_SOIL vec3 sunlit;            // radiance of the soil without any grass: from the sun
+OF_SOIL vec3 skylit;            // and from the sky
+OF_SOIL float soil_extinction;  // of sunlight: optical depth for each 1 of leaf area seen from the side
+OF_SOIL float soil_through;     // transmittance of the grass for sunlight
+OF_SOIL vec3 lush;              // pigment of the understorey, relative to that of the ground between
 #endif
 
 const float UNEVENNESS = 0.4;  // amplitude, as a fraction of the grass's height
@@ -123,7 +123,7 @@ ByKind filled_covers(ByKind covers) {
 #endif
         int layer = int(OF(first, kind)) + low * HEADINGS;
         float lower = layer_mean(images, layer, stock.z).a, steeper = layer_mean(images, layer + HEADINGS, stock.z).a;
-        OF(covers, kind) *= filled(lower, steeper, low, on_level, mix(lower, steeper, elevation - float(low)));
+        OF(covers, kind) *= opacity_ratio(lower, steeper, low, on_level, mix(lower, steeper, elevation - float(low)));
     }
     return covers;
 }
@@ -140,13 +140,13 @@ void light_leaves(float slope, float on, ByKind grows, vec2 message) {
     canopy.bent.y *= tip_ratio(met, grows, on);
 #endif
 #ifdef COARSE
-    vec3 fresh = dryness_tint(slow_seen(there, slope, tall));
+    vec3 fresh = dryness_tint(slow_noise_at(there, slope, tall));
     canopy.light.sun *= fresh * fresh;  // a factor of the pigment, whose square is the albedo
     canopy.light.sky *= fresh * fresh;
     set_leaf_range(slope, canopy.bent.yz);
     canopy.bent.x = transmittance(canopy.bent.x);
 #else
-    slow_noise = slow_seen(there, slope, tall);
+    slow_noise = slow_noise_at(there, slope, tall);
 #endif
     lit = pack_light(hazed(canopy.light, place), canopy.bent);
 }
@@ -204,7 +204,7 @@ void main() {
 #ifdef HEADS
     riper = ripe;
 #endif
-    elevation = elevation_seen(on_level, leaf_area);
+    elevation = elevation_index(on_level, leaf_area);
 #ifdef COARSE
     blown = sway_of(met, laid.message) * laid.message;
 #else

@@ -1,5 +1,5 @@
-// The carpet as cheaper presets have it where no lamps shine: one image of each kind, one light for all of them, and of the ground
-// between how bright litter is. Corners of the mesh make out the rest that carpet.frag does by pixel.
+// The carpet of cheaper presets, without lamps: one image of each kind, one light for all kinds, and the brightness of litter on the
+// ground between. The rest of what carpet.frag does by pixel is computed at the vertices.
 #define PIXELS_ASK
 #include "lib/light.glsl"
 #include "lib/tone.glsl"
@@ -17,7 +17,7 @@ WITHIN in float rim_path;
 WITHIN in float tall;
 WITHIN in float leaf_area;
 WITHIN in ByKind met;
-WITHIN in vec3 soil_seen;  // as it is shown, for litter whose brightness is 1
+WITHIN in vec3 soil_seen;  // display colour, for litter whose brightness is 1
 WITHIN in vec3 soil_shaded;
 WITHIN in mat4 lit;
 #ifdef HEADS
@@ -32,46 +32,48 @@ WITHIN in float elevation;
 
 out vec4 pixel;
 
-uniform int part;  // what is drawn: 0, all of it; 1, where it covers at least half a pixel; 2, the rest
-const int ROWS = 40503;  // by which cells are numbered, row after row
-const float CONTRAST = 1.3;  // of what is seen of several kinds, which are lit as one: they are as far from their mean as if each were lit
-const float BITS = 16.0;  // of what is drawn for a patch, in each half
+uniform int part;  // pixels to draw: 0, all; 1, those with a coverage of at least half; 2, the others
+const int ROWS = 40503;  // numbers of cells from one row to the next
+const float CONTRAST = 1.3;  // gain of contrast: several kinds are lit as one, and differ as much as if each were lit
+const float BITS = 16.0;  // in each half of the random bits of a patch
 const uint LOWER_HALF = 0xFFFFu;
 
-// Where one image shows what a line of sight meets, which of each kind's that is, and how.
+// Texture coordinates, image and level that a pixel reads of each kind.
 struct Look {
     vec2 at;
-    int image;
-    ivec2 between;  // the images of both slopes
-    float next;     // how far the line of sight is on the way from the first to the second
+    int image;      // index among the images of a kind
+    ivec2 between;  // images of both slopes
+    float blend;    // weight of the second slope
     float level;
-    float grain;  // how far what is read is from its mean, of how far it is in images
+    float grain;  // gain of contrast about the mean of images
 };
 
-// How far what is read at a level is from its mean, where a pixel is so broad [m].
+// Gain of contrast at a mip level, for a pixel `across` [m] wide.
 float grain_seen(float level, float across) {
     float steep = smoothstep(STEEP.x, STEEP.y, on_level), filtered = clamp(level + FILTERED - log2(SHARP), 0.0, 1.0);
     float far = inversesqrt(1.0 + across / (FEATURE * max(tall, LOWEST_GRASS)));
     return CONTRAST * mix(far * mix(1.0, GRAIN, filtered), mix(1.0, GRAIN_ABOVE.x, filtered), steep);
 }
 
-// Of the images of two slopes a patch shows either, the more often the nearer it is.
+// Of the images of two slopes each patch shows one, chosen at random by their weights.
 Look look_along(vec2 heading) {
     vec2 at = place.xz * patches_per_metre, cell = floor(at), here = fract(at) - blown * patches_per_metre - 0.5;
-    uint drawn = scramble(uint(int(cell.x) * ROWS + int(cell.y) ^ stock.y));
-    float upper = float(drawn >> UPPER_HALF);
-    int low = min(int(elevation), SLOPES - 2), slope = min(int(elevation + upper * exp2(-BITS)), low + 1), side = int(drawn >> UPPER_HALF) & (HEADINGS - 1);
-    int model = int((float(drawn & LOWER_HALF) + 0.5) * (float(stock.x) * exp2(-BITS)));
+    uint random_bits = scramble(uint(int(cell.x) * ROWS + int(cell.y) ^ stock.y));
+    float upper = float(random_bits >> UPPER_HALF);
+    int low = min(int(elevation), SLOPES - 2), slope = min(int(elevation + upper * exp2(-BITS)), low + 1);
+    int side = int(random_bits >> UPPER_HALF) & (HEADINGS - 1);
+    int model = int((float(random_bits & LOWER_HALF) + 0.5) * (float(stock.x) * exp2(-BITS)));
     float longer = max(on_level, FLATTEST) / slopes[slope] - 1.0;
     float along = dot(here, heading) * longer * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, on_level));
     vec2 beside = vec2(-heading.y, heading.x);
     float across = max(abs(dot(dFdx(place.xz), beside)), abs(dot(dFdy(place.xz), beside)));
     float level = log2(max(across * patches_per_metre, THINNEST_PIXEL) * (SHARP * float(textureSize(images, 0).x)));
     ivec3 image = (model * SLOPES + ivec3(low, low + 1, slope)) * HEADINGS + side;
-    return Look(rotated(here + heading * along, turned(heading, side)) + 0.5, image.z, image.xy, elevation - float(low), level, grain_seen(level, across));
+    vec2 place_in_image = rotated(here + heading * along, image_turn(heading, side)) + 0.5;
+    return Look(place_in_image, image.z, image.xy, elevation - float(low), level, grain_seen(level, across));
 }
 
-// What is met of all kinds: pigment and height, each of so much grass; and how much taller it is than the mean.
+// Sums over all kinds, weighted by coverage: pigment and height; coverage; excess of height over the mean.
 struct Grass {
     vec3 pigment;
     float height;
@@ -79,12 +81,12 @@ struct Grass {
     float taller;
 };
 
-// `high` is how high they are met among strips, of how high without any.
+// Add a kind; `high` is the factor of height from among_strips.
 void add_kind(inout Grass sum, int kind, Look look, vec2 facing, float high) {
     float part = OF(met, kind), from = OF(first, kind);
     vec4 lower = layer_mean(images, int(from) + look.between.x, stock.z), steeper = layer_mean(images, int(from) + look.between.y, stock.z);
-    vec4 mean = mix(lower, steeper, look.next), own = look.image == look.between.x ? lower : steeper;
-    vec4 image = max(mean + (layer_at(images, vec3(look.at, from + float(look.image)), look.level) - own) * look.grain, 0.0);
+    vec4 mean = mix(lower, steeper, look.blend), own_mean = look.image == look.between.x ? lower : steeper;
+    vec4 image = max(mean + (layer_at(images, vec3(look.at, from + float(look.image)), look.level) - own_mean) * look.grain, 0.0);
     float covers = max(1.0 - (1.0 - min(image.a, 1.0)) * packed_extra(lit).x, 0.0);
     vec3 shown = min(image.rgb / max(image.a, LEAST_TEXEL), 1.0);
     vec2 at = leaf_range.xy - leaf_range.zw * (1.0 - high * shown.rg);
@@ -94,14 +96,14 @@ void add_kind(inout Grass sum, int kind, Look look, vec2 facing, float high) {
     covers = OF(bears, kind) > 0.0 ? min(image.a / max(mean.a, LEAST_MEAN), 1.0) : covers;
 #endif
     covers *= part;
-    float twice = 2.0 * shown.b - 1.0, eyed = 0.0;
+    float cos_double = 2.0 * shown.b - 1.0, eyed = 0.0;
 #ifdef EYED
     if (has_eyes(kind, false)) {
-        eyed = eyed_of(shown);
-        twice = FACING;
+        eyed = eye_share(shown);
+        cos_double = FACING;
     }
 #endif
-    sum.pigment += covers * pigment_at(kind, at.x, at.x * eyed) * azimuth_tint(kind, facing * twice);
+    sum.pigment += covers * pigment_at(kind, at.x, at.x * eyed) * azimuth_tint(kind, facing * cos_double);
     sum.height += covers * at.y * OF(tops, kind);
     sum.covers += covers;
     sum.taller += part * (shown.g * mean.a / max(mean.g, LEAST_TEXEL) - 1.0);
@@ -117,8 +119,8 @@ Grass grass_seen(vec2 heading, float high) {
     return Grass(sum.pigment * all, sum.height * all, min(sum.covers, 1.0), sum.taller);
 }
 
-// How much of what is behind an outline the grass hides, that of a crest or of a rim. What one image shows is twice as uneven as two
-// do, which are mixed.
+// Opacity of the grass along an outline, that of a crest or of a rim. One image has twice the variance of two that are mixed, hence the
+// root of `spikes`.
 float hides_behind(float slope, float spikes) {
     if (rim_path < NO_RIM)
         return 1.0 - transmittance(RIM * leaf_area * sqrt(spikes) * rim_path * rim_path);
@@ -129,7 +131,7 @@ void main() {
     float share = mesh_share > 0.0 ? share_at(ivec2(floor(place.xz * patches_per_metre))) : 0.0, covered = 1.0;
     float sunny = has_casters() ? casters_visibility(place) : 1.0;
     vec3 soil = has_casters() ? mix(soil_shaded, soil_seen, sunny) : soil_seen;
-    vec3 color = soil * lying_seen(place.xz, dFdx(place.xz), dFdy(place.xz), share > 0.0 ? 0.0 : 1.0).x;
+    vec3 color = soil * litter_at(place.xz, dFdx(place.xz), dFdy(place.xz), share > 0.0 ? 0.0 : 1.0).x;
     if (share > 0.0) {
         vec3 ray = place - eye;
         float nearness = inversesqrt(max(dot(ray.xz, ray.xz), TINY * TINY)), facing = (dot(rise, ray.xz) - ray.y) * nearness;

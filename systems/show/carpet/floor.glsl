@@ -1,15 +1,16 @@
-// The ground between plants: with the light that comes through the grass, and with that of the open.
+// The ground between plants, lit through the grass and in the open.
 #include "lib/soil.glsl"
 
-// The soil as it is lit: under the grass that stands there, and under none by the sun and by the sky alone.
+// Radiance of the soil under the grass that stands there, and without any grass by the sun and by the sky alone.
 struct Soil {
-    vec3 seen;  // radiance, without haze
+    vec3 seen;  // under the grass, without haze
     vec3 sunlit;
     vec3 skylit;
     float extinction;  // of sunlight: optical depth for each 1 of leaf area seen from the side
-    float through;  // how much of the sun's light comes through the grass
+    float through;     // transmittance of the grass for sunlight
 };
 
+// Light the soil; `clear` is the transmittance of the air before it.
 Soil soil_lit(vec3 place, Lie lies, ByKind grows, float clear) {
     Surface surface = soil_surface(lies, grows);
     float leaves = total(leaf_areas(grows));
@@ -19,7 +20,7 @@ Soil soil_lit(vec3 place, Lie lies, ByKind grows, float clear) {
     vec3 both = shade(surface, light);
     light.sun = vec3(0.0);
     vec3 sky = shade(surface, light);
-    if (any_lamps()) {  // theirs counts with the sky's
+    if (any_lamps()) {  // lamps count as sky
         light.sun = sunlight * (SOIL_SENDS * lies.sun_sine * sun_visibility(place, lies.visibility));
         light.sky = vec3(0.0);
         sky = both - shade(surface, light);

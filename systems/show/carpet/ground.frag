@@ -26,9 +26,9 @@ void main() {
 #else
     Soil soil = Soil(soil_seen, sunlit, skylit, soil_extinction, soil_through);
 #endif
-    float left = left_seen(place.xz);
-    vec3 pigment = pigment_lying(place.xz, dFdx(place.xz), dFdy(place.xz), 1.0, lush, left);
-    vec3 ground = soil_between(soil, place, left);
+    float left = cut_height_seen(place.xz);
+    vec3 pigment = litter_pigment(place.xz, dFdx(place.xz), dFdy(place.xz), 1.0, lush, left);
+    vec3 ground = soil_radiance(soil, place, left);
     pixel = vec4(tone_mapped(ground * pigment * pigment + haze), 1.0);
 #ifdef EDGED
     if (is_hole(place.xz))

@@ -9,12 +9,12 @@ uniform float pushed;  // added depth, as a fraction of the depth range
 out vec3 place;
 centroid out vec3 haze;  // radiance of the haze before it
 #ifndef EDGED
-centroid out vec3 soil_seen;      // radiance of the soil, without haze
-centroid out vec3 sunlit;         // its radiance without any grass: from the sun
-centroid out vec3 skylit;         // and from the sky
-centroid out float soil_extinction;      // leaves that sunlight meets, per leaf area seen from the side
-centroid out float soil_through;  // transmittance of the grass for sunlight
-centroid out vec3 lush;           // pigment of the understorey, relative to that of the ground between
+centroid out vec3 soil_seen;         // radiance of the soil, without haze
+centroid out vec3 sunlit;            // its radiance without any grass: from the sun
+centroid out vec3 skylit;            // and from the sky
+centroid out float soil_extinction;  // of sunlight: optical depth for each 1 of leaf area seen from the side
+centroid out float soil_through;     // transmittance of the grass for sunlight
+centroid out vec3 lush;              // pigment of the understorey, relative to that of the ground between
 #endif
 
 void main() {

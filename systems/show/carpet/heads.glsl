@@ -1,31 +1,31 @@
-// How much of each kind lines of sight meet where some kinds bear heads: these stand high, and are met first.
+// Shares of kinds in what lines of sight meet, if some kinds bear heads: these stand high, and are met first.
 #include "systems/show/carpet/heads.py"
 
-uniform vec2 profile[KINDS * (HEIGHTS + 1)];  // by kind and height: how much of its leaf area is above that; of heads
+uniform vec2 profile[KINDS * (HEIGHTS + 1)];  // by kind and height: leaf area above it, of all organs and of heads; from profile_of
 
 const int LAYERS = 12;
-const vec2 LONE = vec2(0.9, 1.0);  // parts of the height from which on lone heads above the canopy are met as well
+const vec2 LONE = vec2(0.9, 1.0);  // values of `below` between which lone heads above the canopy come to be met
 
-// How much of a kind's leaf area is above a height, of its canopy's: in all, and of heads.
+// Fraction of a kind's leaf area above a height, in canopy heights: of all organs, and of heads.
 vec2 profile_above(int kind, float height) {
     float at = min(height / HIGHEST, 1.0) * float(HEIGHTS);
-    int low = min(int(at), HEIGHTS - 1), own = kind * (HEIGHTS + 1) + low;
-    return mix(profile[own], profile[own + 1], at - float(low));
+    int low = min(int(at), HEIGHTS - 1), entry = kind * (HEIGHTS + 1) + low;
+    return mix(profile[entry], profile[entry + 1], at - float(low));
 }
 
-// What has been met on the way down.
+// What has been met down to some layer.
 struct Met {
-    ByKind all;
-    ByKind heads;
-    ByKind alone;  // of each kind, did it grow alone, in the image that shows it
-    ByKind heads_alone;
-    ByKind through_alone;
-    float through;
+    ByKind all;            // opacity of each kind
+    ByKind heads;          // of its heads
+    ByKind alone;          // of each kind if it grew alone, as in its image
+    ByKind heads_alone;    // of its heads then
+    ByKind through_alone;  // transmittance then
+    float through;         // transmittance of all kinds
 };
 
-// Take in a layer that has so many leaves of each kind on the way, and such parts of heads, as far as the line of sight is `inside`;
-// in images there are `part` of them.
-void take_in(inout Met met, ByKind stop, ByKind heads, ByKind grows, float inside, float part) {
+// Add a layer with the optical depths `stop` of kinds and the fractions `heads` of that. The line of sight is `inside` for a fraction of
+// the layer; `part` is the factor of optical depths in images.
+void add_layer(inout Met met, ByKind stop, ByKind heads, ByKind grows, float inside, float part) {
     float sum = weighted_sum(stop, grows), stopped = met.through * (1.0 - transmittance(inside * sum));
     for (int group = 0; group < GROUPS; group++) {
         vec4 share = stopped * stop[group] * grows[group] / max(sum, THINNEST_LAYER);
@@ -40,16 +40,16 @@ void take_in(inout Met met, ByKind stop, ByKind heads, ByKind grows, float insid
     met.through -= stopped;
 }
 
-// How much of what a line of sight meets is of each kind, in layers from the top that grow thicker downwards, up to `below` of
-// its height, or from `left` [m]. `riper` is how much more of a kind's heads are met than its image shows, which has it grow
-// alone: all the others at 1, none at -1.
+// Share of each kind in what a line of sight meets. Layers grow thicker downwards from the top or from the cut height `left` [m], and
+// begin at a fraction `below` of that. `riper` is the excess of a kind's heads over its image, in which it grows alone: at 1 all is
+// heads, at -1 none.
 ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind riper) {
     float top = 0.0, from = 1.0;
     for (int kind = 0; kind < KINDS; kind++)
         top = max(top, OF(grows, kind) > LEAST_MET ? OF(crown, kind) * HIGHEST : 0.0);
     top = min(top, left);
     Met met = Met(all_kinds(0.0), all_kinds(0.0), all_kinds(0.0), all_kinds(0.0), all_kinds(1.0), 1.0);
-    below /= mix(HIGHEST, 1.0, smoothstep(LONE.x, LONE.y, below));  // strips take away from the canopy, not from lone heads
+    below /= mix(HIGHEST, 1.0, smoothstep(LONE.x, LONE.y, below));  // strips hide parts of the canopy, not of lone heads
     ByKind leaves = leaves_met(slope);
     vec2 above[KINDS];
     for (int kind = 0; kind < KINDS; kind++)
@@ -63,7 +63,7 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
             OF(stop, kind) = here.x * OF(leaves, kind);
             OF(heads, kind) = here.y / max(here.x, THINNEST_LAYER);
         }
-        take_in(met, stop, heads, grows, clamp((below - to) / (from - to), 0.0, 1.0), min(slope / LOWEST, 1.0));
+        add_layer(met, stop, heads, grows, clamp((below - to) / (from - to), 0.0, 1.0), min(slope / LOWEST, 1.0));
         from = to;
     }
     for (int group = 0; group < GROUPS; group++) {
@@ -74,7 +74,7 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
     return met.all;
 }
 
-// How much an image of a kind hides where it grows densely and alone; one with heads is taken in parts of its mean.
+// Opacity of a kind that grows densely and alone, as its image shows it; images with heads are relative to their mean.
 float image_opacity(int kind, ByKind leaves) {
     return OF(bears, kind) > 0.0 ? 1.0 : 1.0 - transmittance(OF(leaves, kind));
 }

@@ -1,4 +1,4 @@
-// Light on what is met of the carpet, in the mean over the kinds, and how the wind bends it.
+// Mean light on the leaves of all kinds that are met, and their bending.
 #include "lib/light.glsl"
 #include "lib/shares.glsl"
 #include "lib/posture.glsl"
@@ -9,40 +9,40 @@ uniform sampler2D air;  // the wind's message in the middle of each patch, wrapp
 uniform sampler2D mean_air;
 
 struct Canopy {
-    Light light;  // on the leaves of the kinds that are met
-    vec3 bent;    // how what is met changes as they are bent: of bent_to
-    vec2 sway;    // how far they are moved by that [m]
+    Light light;  // on the leaves that are met
+    vec3 bent;    // from bent_change
+    vec2 sway;    // displacement of the leaves by bending [m]
 };
 
-const float SWAYS = 0.35;  // how far leaves are moved that are seen, of the canopy's height and the posture index
-const vec2 LAID = vec2(0.96, 0.22);  // sine of how far blades lie over, of their posture index; less that by the index's square
-const vec2 FAR_AIR = vec2(0.35, 0.48);  // from where to where the mean message takes over, of the width of what is asked
+const float SWAYS = 0.35;  // displacement of the leaves that are seen, in canopy heights, per posture index
+const vec2 LAID = vec2(0.96, 0.22);  // sine of the lean of blades per posture index; its decrease by the index's square
+const vec2 FAR_AIR = vec2(0.35, 0.48);  // distances between which the mean message takes over, in widths of the window
 
-// How leaves of a kind lean that is bent so, for their height at rest.
-vec3 leaning(vec2 bend) {
+// Vector from foot to tip of leaves with this bending, in heights at rest.
+vec3 lean_direction(vec2 bend) {
     vec2 leans = bend * (LAID.x - LAID.y * dot(bend, bend));
     return vec3(leans, lodged(bend)).xzy;
 }
 
-// The pigment of what is met of a kind that leans so, of that where it stands upright.
-vec3 turned_to(int kind, vec3 lean, vec3 ray) {
+// Factor of the pigment of a leaning kind, relative to upright.
+vec3 turned_pigment(int kind, vec3 lean, vec3 ray) {
     return azimuth_tint(kind, seen_azimuth(kind, lean, ray) - seen_azimuth(kind, vec3(0.0, 1.0, 0.0), ray));
 }
 
-// The slow noises of the pigment where leaves are seen: the mean of nearer and farther ones.
-vec2 slow_seen(vec3 there, float slope, float tall) {
+// Slow noises of the pigment, averaged over the nearer and farther leaves that are seen.
+vec2 slow_noise_at(vec3 there, float slope, float tall) {
     vec2 apart = heading_to(there.xz) * min(SPREAD * ground_spread(slope, tall), FARTHEST_SEEN);
     return 0.5 * (slow_noise_at(there.xz - apart) + slow_noise_at(there.xz + apart));
 }
 
-// The wind's message; far off, where nobody asks for it, the mean of those nearer by.
+// The wind's message; far away, where there are no receivers, the mean message.
 vec2 message_at(vec2 at) {
     vec2 on = at * (patches_per_metre * windows_per_patch), apart = abs(on - (carpet_window.xy + 0.5) * windows_per_patch);
     float far = smoothstep(FAR_AIR.x, FAR_AIR.y, max(apart.x, apart.y));
     return mix(textureLod(air, on, 0.0).xy, texelFetch(mean_air, ivec2(0), 0).xy, far);
 }
 
-// The light there on each kind as its message has bent it, in the mean of all that are met.
+// Mean over the kinds that are met of their light and bending, each bent by its own message.
 Canopy canopy_lit(ByKind met, float slope, float on_level, vec3 there, Lie lies, vec2 messages[KINDS]) {
     ByKind grows = density_at(there.xz);
     Canopy sum = Canopy(Light(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, vec2(0.0)), vec3(0.0), vec2(0.0));
@@ -53,11 +53,11 @@ Canopy canopy_lit(ByKind met, float slope, float on_level, vec3 there, Lie lies,
         vec2 bend = bending(kind, messages[kind]);
         float part = OF(met, kind) * all;
         Light light = leaf_light(kind, bend, there, lies, grows);
-        vec3 turned = turned_to(kind, leaning(bend), ray);
+        vec3 turned = turned_pigment(kind, lean_direction(bend), ray);
         light.sun *= turned * turned;
         light.sky *= turned * turned;
         sum.light = light_sum(sum.light, light, part);
-        sum.bent += part * bent_to(kind, bend, ray.xz, slope, -ray.y, on_level * OF(leaf, kind) / area);
+        sum.bent += part * bent_change(kind, bend, ray.xz, slope, -ray.y, on_level * OF(leaf, kind) / area);
         sum.sway += part * SWAYS * OF(crown, kind) * bend;
     }
     return sum;

@@ -6,7 +6,7 @@
 
 in vec2 corner;  // grid coordinates on the tile, or on the piece
 in vec3 piece;  // grid coordinates of the piece's start, 0 for whole tiles; bits of its sides with skirts
-in vec4 tile;  // low corner (x, z) [m]; grid spacing [m]; distance at which the next coarser one has taken over [m], negative if only rims count
+in vec4 tile;  // low corner (x, z) [m]; grid spacing [m]; take-over distance of the next coarser one [m], negative if only rims count
 
 uniform sampler2D rims;  // over the terrain: distance from the nearest rim of a cliff [m]
 
@@ -35,11 +35,11 @@ vec2 mesh_distances(vec2 at, float from_rim) {
 // Progress of the morph into the next coarser grid and, for a quarter of a tile, from there into the one after it, both in [0, 1].
 // Quarters are finer than other tiles at the same distance; near a rim they have morphed into the grid of whole tiles.
 vec2 grid_morph(vec2 far) {
-    float slide = clamp(((tile.w < 0.0 ? far.y : min(far.x, far.y)) - MORPH_FROM) / (1.0 - MORPH_FROM), 0.0, 1.0);
+    float morph = clamp(((tile.w < 0.0 ? far.y : min(far.x, far.y)) - MORPH_FROM) / (1.0 - MORPH_FROM), 0.0, 1.0);
     if (tile.w < QUARTERED * tile.z)
-        return vec2(slide, 0.0);
+        return vec2(morph, 0.0);
     float at_rim = 1.0 - clamp((far.y - MORPH_FROM) / (1.0 - MORPH_FROM), 0.0, 1.0);
-    return vec2(max(clamp((far.x - QUARTER_MORPH_FROM) / (MORPH_FROM - QUARTER_MORPH_FROM), 0.0, 1.0), at_rim), slide);
+    return vec2(max(clamp((far.x - QUARTER_MORPH_FROM) / (MORPH_FROM - QUARTER_MORPH_FROM), 0.0, 1.0), at_rim), morph);
 }
 
 // The nearest of the terrain's samples, along each axis in which it is at most half a grid spacing away, so that vertices together
@@ -53,9 +53,9 @@ vec2 on_mesh_at(vec2 corner) {
     float wide = tile.z * stride;
     vec2 at = tile.xy + corner * tile.z;
     float from_rim = rim_at(at);
-    vec2 slide = grid_morph(mesh_distances(at, from_rim) / abs(tile.w)), pair = 0.5 / stride * corner;
-    grid_spacing = wide * (1.0 + slide.x) * (1.0 + slide.y);
-    at -= 2.0 * wide * (slide.x * fract(pair) + 2.0 * slide.y * fract(0.5 * floor(pair)));
+    vec2 morph = grid_morph(mesh_distances(at, from_rim) / abs(tile.w)), pair = 0.5 / stride * corner;
+    grid_spacing = wide * (1.0 + morph.x) * (1.0 + morph.y);
+    at -= 2.0 * wide * (morph.x * fract(pair) + 2.0 * morph.y * fract(0.5 * floor(pair)));
     if (from_rim < ON_RIM.y * terrain_cell) {
         from_rim = rim_at(at);
         at = mix(snapped_to_samples(at), at, smoothstep(ON_RIM.x, ON_RIM.y, from_rim / terrain_cell));

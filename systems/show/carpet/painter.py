@@ -72,6 +72,7 @@ class CarpetPainter(RepresentationPainter):
         self._deep = False
         """Whether depth is written only where the carpet covers at least half a pixel."""
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
+        """The viewer's cell, the number of the first receiver, and the receivers that `hear` serves."""
         self.ground = GroundPainter(
             canvas.ctx, canvas.block, stock, canvas.units, side=side, seed=canvas.seed, coarse=coarse
         )
@@ -85,7 +86,7 @@ class CarpetPainter(RepresentationPainter):
         return self.ground.making()
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
-        """Draw on this ground from now on, with each kind as far on its way to what it is to become."""
+        """Draw on this ground from now on, with each kind's progress towards what it is to become."""
         if grown.came != self._came:
             self._come(grown.came)
         terrain = grown.ground.terrain

@@ -1,10 +1,10 @@
-// The canopy where somebody walks or has walked: a way is narrower than the mesh that light is made out on.
+// The canopy where grass is trodden, by pixel, as a trail is narrower than the mesh whose vertices light is computed at.
 #include "systems/press/press.glsl"
 #include "systems/show/carpet/lit.glsl"
 
-const float HARDLY = 1e-3;  // pressing of less is none
+const float HARDLY = 1e-3;  // least length of pressing that counts
 
-// The canopy of the mesh, and what pressing changes of it there.
+// The canopy of the vertices, changed by pressing.
 Canopy trodden(Canopy canopy, ByKind met, vec3 place, float slope, float on_level, vec3 there) {
     vec2 message = message_at(place.xz), messages[KINDS], blown[KINDS];
     float most = 0.0;

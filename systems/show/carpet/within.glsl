@@ -1,6 +1,6 @@
-// Of several samples a pixel, its middle may lie beyond the edge of a tile, where what corners bring along has any value: over a
-// crest, that is wild. So all but the place is that of somewhere WITHIN; the place tells how far it is to the next pixel.
-#if KINDS > 15  // with a vector for the place alone, not all numbers of so many kinds are sure to come through
+// With multisampling, a pixel's centre may lie outside of a triangle, where extrapolated varyings are wrong, badly so over a crest. So all
+// are taken WITHIN it, except the place, whose derivatives are needed.
+#if KINDS > 15  // a separate varying for the place would exceed the guaranteed components with so many kinds
 #define WITHIN
 #else
 #define WITHIN centroid
