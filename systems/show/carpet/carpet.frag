@@ -186,7 +186,7 @@ float find_grass() {
         at = -1.0;
     place = moved_along(mesh_place, max(at, 0.0));
     grown = density_at(place.xz);
-    float left = cut_height_at(place.xz);
+    float left = cut_height_here(place.xz);
     tall = carpet_height(grown, left);
     leaf_area = weighted_sum(grown, leaf_areas(leaf_area_left(left)));
     return at < 0.0 ? 0.0 : hidden_behind(way, at, aside, leaf_areas(grown), left);
@@ -254,7 +254,7 @@ void main() {
     bool shown = draw_pixel(slope, ahead, left, share, 1.0, dx, dy, ground, dFdx(ground.xz), dFdy(ground.xz));
 #else
     vec2 dx = dFdx(mesh_place.xz), dy = dFdy(mesh_place.xz);
-    float hidden = find_grass(), left = cut_height_at(place.xz), share = share_here();
+    float hidden = find_grass(), left = cut_height_here(place.xz), share = share_here();
     float slope = viewing_slope(rise, place);
     vec3 ground = sight_at_height(0.0, slope);
     vec2 soil_dx = dFdx(ground.xz), soil_dy = dFdy(ground.xz);

@@ -25,7 +25,7 @@ float carpet_height(ByKind grows, float left) {
 }
 
 // Height to which grass is cut at a place [m].
-float cut_height_at(vec2 place) {
+float cut_height_here(vec2 place) {
     return anything_is_cut() ? cut_height_at(place) : tallest_grass;
 }
 
@@ -63,7 +63,7 @@ float height_over_ground(Way way, float at) {
 // Depth below the top of the grass at a distance [m]; negative above it, and where no grass stands.
 float depth_below_top(Way way, float at) {
     vec2 there = way.from.xz + way.heading * at;
-    float stands = way.mesh_lift * carpet_height(density_at(there), cut_height_at(there));
+    float stands = way.mesh_lift * carpet_height(density_at(there), cut_height_here(there));
     return stands > NO_GRASS ? stands - height_over_ground(way, at) + ROUNDED * way.high : -1.0;
 }
 
