@@ -39,6 +39,21 @@ def cells_over(terrain: Terrain, part: Part, /, *, patch: float) -> tuple[Ints, 
     return first, last
 
 
+def cells_touching(cells: Ints, parts: NDArray[np.int64], /, *, patch: float) -> Ints:
+    """Return those of `cells` (n, 2) that parts of the density map touch, each a cell of the map wider on all sides.
+
+    `parts` are (row, column, rows, columns) in the map's cells, shape (m, 4).
+    """
+    first, last = parts[:, 1::-1], parts[:, 1::-1] + parts[:, :1:-1]  # each (column, row)
+    ends = cell_of((np.stack([first - 1, last + 1], axis=1) * CELL).astype(np.float32), patch=patch)
+    cells = cells[between(cells, ends[:, 0].min(axis=0), ends[:, 1].max(axis=0))]  # leaves few, mostly
+    rectangles = np.array(sorted({tuple(corners) for corners in ends.reshape(-1, 4).tolist()}))
+    i, j = cells.T[..., None]
+    left, far, right, near = rectangles.T
+    touching: Ints = cells[((i >= left) & (i <= right) & (j >= far) & (j <= near)).any(axis=1)]
+    return touching
+
+
 def patch_models(cell: Ints, /, *, seed: int, models: int) -> tuple[Ints, Ints]:
     """Return the index of the patch model on each cell (n, 2), and its number of quarter turns, each (n,)."""
     hashed = hash_cells(seed, cell)
@@ -142,17 +157,10 @@ class Tile:
         outlook.heights = terrain.changes.count
 
     def _update_densities(self, outlook: Outlook) -> None:
-        sown, cells, patch = self.ground.density.sown, outlook.patches.cell, self.ground.patch
+        sown, cells = self.ground.density.sown, outlook.patches.cell
         changed = sown.since(outlook.sown)
         if changed is not None:
-            parts = np.array(changed)
-            first, last = parts[:, 1::-1], parts[:, 1::-1] + parts[:, :1:-1]
-            ends = cell_of((np.stack([first - 1, last + 1], axis=1) * CELL).astype(np.float32), patch=patch)
-            cells = cells[between(cells, ends[:, 0].min(axis=0), ends[:, 1].max(axis=0))]  # mostly few
-            squares = np.array(sorted({tuple(each) for each in ends.reshape(-1, 4).tolist()}))
-            i, j = cells.T[..., None]
-            left, far, right, near = squares.T
-            cells = cells[((i >= left) & (i <= right) & (j >= far) & (j <= near)).any(axis=1)]
+            cells = cells_touching(cells, np.array(changed), patch=self.ground.patch)
         self._replant(outlook, cells)
         outlook.sown = sown.count
 
