@@ -157,7 +157,7 @@ class Answering(Underflowing):
         self._must_be_there("ask about it")
         number, then = self.scene.number_of(kind), self.time if time is None else time
         must_be_time(then)
-        return self.winds.at(as_places(xz), time=float(then), kind=number)
+        return self.winds.messages_at(as_places(xz), time=float(then), kind=number)
 
     def bent_at(self, xz: ArrayLike, *, kind: str | None = None) -> Floats:
         """Return the messages (n, 2) of winds and pressers at ground positions (x, z) [m], shape (n, 2), now.
@@ -204,7 +204,7 @@ class Answering(Underflowing):
     def _messages_at(self, place: Floats, kind: int | None, /, *, time: float) -> Floats:
         """Return the messages (n, 2) at places (n, 2) [m] to a kind, or the densest, after all pressers have moved."""
         self.pressers.note(time)
-        return self._messages_to(self.winds.standing(place, kind=kind), time=time)
+        return self._messages_to(self.winds.receivers_at(place, kind=kind), time=time)
 
 
 def _entities_on(world: World, clearings: Clearings, viewers: Outlooks, site: Site, /) -> PatchEntities:
@@ -214,7 +214,7 @@ def _entities_on(world: World, clearings: Clearings, viewers: Outlooks, site: Si
 
 def _messages_to(winds: Winds, pressers: Pressers, receivers: ReceiverArrays, /, *, time: float) -> Floats:
     """Return the messages (n, 2) of winds and pressers to receivers at `time` [s]."""
-    return pressers.over(winds.heard(receivers, time=time), receivers)
+    return pressers.over(winds.messages_to(receivers, time=time), receivers)
 
 
 def grass_at(site: Site, clearings: Clearings, mown: Mown, messages_at: MessagesAt, place: Floats, /) -> GrassAt:

@@ -95,7 +95,7 @@ def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /, *, seen: 
     place = np.ascontiguousarray(blades["root"][:, ::2])
     grass = grass_of(site.growths, blades["kind"].astype(np.intp))
     receivers = lone_receivers(place, grass)
-    painter.write(blades, prairie.pressers.over(prairie.winds.heard(receivers, time=prairie.time), receivers))
+    painter.write(blades, prairie.pressers.over(prairie.winds.messages_to(receivers, time=prairie.time), receivers))
     return len(blades)
 
 

@@ -95,12 +95,12 @@ class Screen:
             if 0 in state.viewport[2:]:
                 yield None
                 return
-            self._must_have_depth(state)
+            self._warn_without_depth(state)
             self.painter = self._painters.here(state.gl, self._made)
             sync_framebuffer(self.painter.ctx)
             yield self.painter
 
-    def _must_have_depth(self, state: State) -> None:
+    def _warn_without_depth(self, state: State) -> None:
         """Warn once of a framebuffer without depth, whose picture is wrong."""
         if self._has_warned or has_depth(state.gl, state.framebuffer):
             return

@@ -39,7 +39,7 @@ KEPT = 60.0
 
 
 @dataclass(frozen=True, slots=True)
-class _Known:
+class _Record:
     """A wind's entity as it was in the last frame."""
 
     source: WindSource
@@ -71,7 +71,7 @@ class Winds(Feature):
         """Generation of the world in which each wind was added, by its handle."""
         self.quarantine = quarantine or Quarantine()
         self._clock = 0.0
-        self._known: dict[int, _Known] = {}
+        self._records: dict[int, _Record] = {}
         self.change(scene, ground, growths)
 
     @classmethod
@@ -178,8 +178,8 @@ class Winds(Feature):
 
     def runs(self) -> dict[int, WindPrimitive]:
         """Return the winds whose rates a game has changed, with the courses of their phases, by entity."""
-        self._standing(self._clock)
-        return {entity: known.wind for entity, known in self._known.items() if known.wind.course is not None}
+        self._ongoing(self._clock)
+        return {entity: record.wind for entity, record in self._records.items() if record.wind.course is not None}
 
     def resume(self, declared: Sequence[int], added: Sequence[int], runs: Mapping[int, WindPrimitive]) -> None:
         """Take over entities as the scene's declared winds and a game's added winds.
@@ -189,8 +189,9 @@ class Winds(Feature):
         generation = self._world.check()
         self._declared, self._added = [*declared], dict.fromkeys(added, generation)
         there = dict(self._world.all(WindSource))
-        known = {entity: (self._noted(there[entity], None), wind) for entity, wind in runs.items()}
-        self._known = {entity: replace(each, wind=wind) for entity, (each, wind) in known.items()}
+        self._records = {
+            entity: replace(self._record_of(there[entity], None), wind=wind) for entity, wind in runs.items()
+        }
 
     def sources(self) -> list[WindSource]:
         """Return all winds."""
@@ -215,8 +216,8 @@ class Winds(Feature):
         """
         top_at = top_over(self._ground, self._canopy)
         sources, poses, winds = list[WindSource](), list[Pose | None](), list[WindPrimitive]()
-        for entity, known in self._standing(time):
-            source, pose = known.source, self._world.find(entity, Pose)
+        for entity, record in self._ongoing(time):
+            source, pose = record.source, self._world.find(entity, Pose)
             if pose is not None and not self._world.stands(entity, pose, "the wind"):
                 continue
             with suppress(QuarantinedError):
@@ -226,57 +227,57 @@ class Winds(Feature):
                     pose = foot(body, self._height_at)
             sources.append(source)
             poses.append(pose)
-            winds.append(known.wind)
+            winds.append(record.wind)
         seed = self._scene.seed
         return blowing(sources, self.quarantine, time=time, seed=seed, poses=poses, winds=winds)
 
-    def _standing(self, time: float) -> list[tuple[int, _Known]]:
+    def _ongoing(self, time: float) -> list[tuple[int, _Record]]:
         """Return the winds that are not over at `time` [s], after noting what a game has changed.
 
         Added winds are deleted `KEPT` seconds after their end.
         """
         self._revive()
-        found, known = self._world.all(WindSource), self._known
-        if len(known) > len(found):
+        found, records = self._world.all(WindSource), self._records
+        if len(records) > len(found):
             there = {entity for entity, _ in found}
-            self._known = known = {entity: each for entity, each in known.items() if entity in there}
-        standing: list[tuple[int, _Known]] = []
+            self._records = records = {entity: record for entity, record in records.items() if entity in there}
+        ongoing: list[tuple[int, _Record]] = []
         for entity, source in found:
-            if entity not in known or known[entity].source is not source:
-                known[entity] = self._noted(source, known.get(entity))
-            each = known[entity]
-            if time < each.end:
-                standing.append((entity, each))
-            elif each.end + KEPT < self._clock and self._added.get(entity) == self._generation:
+            if entity not in records or records[entity].source is not source:
+                records[entity] = self._record_of(source, records.get(entity))
+            record = records[entity]
+            if time < record.end:
+                ongoing.append((entity, record))
+            elif record.end + KEPT < self._clock and self._added.get(entity) == self._generation:
                 self._world.delete(entity)
-        return standing
+        return ongoing
 
-    def _noted(self, source: WindSource, before: _Known | None) -> _Known:
-        """Return the record of a source from now on, in place of the record `before` of the same entity."""
+    def _record_of(self, source: WindSource, before: _Record | None) -> _Record:
+        """Return the new record of a source; `before` is the last one of the same entity."""
         wind = source.primitive
         try:
             if before is not None and type(before.wind) is type(wind):
-                go_on = partial(on_course, wind, before.wind, time=self._clock)
-                wind = self.quarantine.ask(source, "rates", go_on)
+                continued = partial(on_course, wind, before.wind, time=self._clock)
+                wind = self.quarantine.ask(source, "rates", continued)
             end = self.quarantine.ask_end(source, wind.ends)
         except QuarantinedError:
-            return _Known(source, wind, inf)
-        return _Known(source, wind, end)
+            return _Record(source, wind, inf)
+        return _Record(source, wind, end)
 
     def bent(self, time: float) -> float:
         """Return the mean posture index to which the winds bend grass everywhere at `time` [s]."""
-        return mean_index([known.source for _, known in self._standing(time)], self.quarantine, time=time)
+        return mean_index([record.source for _, record in self._ongoing(time)], self.quarantine, time=time)
 
-    def heard(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
+    def messages_to(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
         """Return the messages (n, 2) of all winds together to receivers at `time` [s]."""
         seed, mixing, yaw = self._scene.seed, self._scene.mixing, mean_yaw(self._scene.wind)
         return hear(self.acting(time), receivers, self.quarantine, time=time, seed=seed, mixing=mixing, yaw=yaw)
 
-    def at(self, place: Floats, /, *, time: float, kind: int | None = None) -> Floats:
+    def messages_at(self, place: Floats, /, *, time: float, kind: int | None = None) -> Floats:
         """Return the messages (n, 2) at ground positions (n, 2) [m] to a kind of grass, or to the densest there."""
-        return self.heard(self.standing(place, kind=kind), time=time)
+        return self.messages_to(self.receivers_at(place, kind=kind), time=time)
 
-    def standing(self, place: Floats, /, *, kind: int | None = None) -> ReceiverArrays:
+    def receivers_at(self, place: Floats, /, *, kind: int | None = None) -> ReceiverArrays:
         """Return receivers of a kind of grass, or of the densest there, at ground positions (n, 2) [m]."""
         kinds = densest_kind(self._ground.density, place) if kind is None else np.full(len(place), kind, np.intp)
         return lone_receivers(place, grass_of(self._growths, kinds))
@@ -285,7 +286,7 @@ class Winds(Feature):
         """Make the scene's winds entities again after the game has cleared its world, and log that once."""
         if self._generation == self._world.check():
             return
-        self._declared, self._known = [], {}  # other entities may have their numbers by now
+        self._declared, self._records = [], {}  # other entities may have their numbers by now
         self.change(self._scene, self._ground, self._growths)  # raises if the world is gone, or another is current
         self._generation = self._world.generation
         log.warning("the esper world was cleared: what the scene declares is there again, added winds are gone")

@@ -150,7 +150,7 @@ def test_r4_a_strangers_wind_acts_where_its_tilted_jet_meets_the_ground(
     assert blowing.pose == there
     assert abs(there.x - body.place[0]) > 0.5, "it slows down and leans"
     away = np.array([[1.9, 0.0], [-1.9, 0.0], [2.1, 0.0], [-2.1, 0.0]], np.float32)
-    felt = winds.at(np.array([there.x, there.z], np.float32) + away, time=time)
+    felt = winds.messages_at(np.array([there.x, there.z], np.float32) + away, time=time)
     assert np.linalg.norm(felt, axis=1) == pytest.approx([0.5, 0.5, 0.0, 0.0])
 
 

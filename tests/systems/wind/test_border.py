@@ -67,7 +67,7 @@ def at_time(winds: Winds, time: float) -> Hear:
     """Let receivers hear winds at one time."""
 
     def hear(heard: ReceiverArrays, /, **_: float) -> Floats:
-        return winds.heard(heard, time=time)
+        return winds.messages_to(heard, time=time)
 
     return hear
 
@@ -149,7 +149,7 @@ def test_n4_what_is_asked_of_the_wind_is_what_receivers_of_that_kind_hold(
         pool, slots = receiving.pool, receiving.slots
         kind, place, message = pool.kind(slots), pool.places(slots).reshape(-1, 2), receiving.letters.heard(slots)
         for number in range(len(site.growths)):
-            felt = made.at(place[kind == number], time=2.6, kind=number)
+            felt = made.messages_at(place[kind == number], time=2.6, kind=number)
             np.testing.assert_array_equal(felt.view(np.uint32), message[kind == number].view(np.uint32))
         np.testing.assert_array_equal(first, message[: len(first)])
 
@@ -179,11 +179,11 @@ def test_n4_a_carpet_hears_what_is_asked_for_in_its_patchs_middle_less_the_small
     made.add(gust.model_copy(update={"swing": 0.0}), "gust")
     middle = ((outlook.patches.cell[rows] + 0.5) * SIDE).astype(np.float32)
     heard = outlook.kept["carpet"].receiving[0].letters.heard(rows)
-    np.testing.assert_array_equal(heard, made.at(middle, time=5.0))
+    np.testing.assert_array_equal(heard, made.messages_at(middle, time=5.0))
     west = middle[:, 0] < 0.0
     for kind, side in ((0, west), (1, ~west)):
         assert np.linalg.norm(heard[side], axis=1).max() > 0.3
-        np.testing.assert_array_equal(heard[side], made.at(middle[side], time=5.0, kind=kind))
+        np.testing.assert_array_equal(heard[side], made.messages_at(middle[side], time=5.0, kind=kind))
     assert outlook.noted(Blown, Blown()).heard == sum(len(each.pool.kind(each.slots)) for each in pooled(outlook))
 
 

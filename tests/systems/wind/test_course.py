@@ -102,7 +102,7 @@ def test_n4_the_card_hears_a_wind_that_was_changed_as_numpy_does(
         esper.add_component(entity, WindSource(RAMPS[what](part), "wind"))
         prairie.wind_at(FIELD)
         prairie.advance(3.0)
-    now, receivers = prairie.winds.acting(prairie.time), prairie.winds.standing(FIELD)
+    now, receivers = prairie.winds.acting(prairie.time), prairie.winds.receivers_at(FIELD)
     assert [wind.primitive.course is not None for wind in now] == [True] * len(now) != []
     ear = CardEar(ctx, receivers.grass)
     found = ear.hear(now, receivers, prairie.winds.quarantine, time=prairie.time, seed=1, mixing="weight")
@@ -114,7 +114,7 @@ def test_n4_the_card_hears_a_wind_that_was_changed_as_numpy_does(
 @pytest.mark.parametrize("steps", [1, 7])
 def test_d6_a_wind_that_nobody_changes_is_the_same_to_the_bit_however_time_is_cut(prairie: Prairie, steps: int) -> None:
     entity = esper.create_entity(WindSource(Breeze(speed=4.0), "wind"))
-    alone = prairie.winds.at(FIELD, time=20.0)
+    alone = prairie.winds.messages_at(FIELD, time=20.0)
     for _ in range(10 * steps):
         prairie.advance(1.0 / steps)
         prairie.wind_at(FIELD[:1])
