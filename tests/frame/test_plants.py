@@ -129,7 +129,7 @@ def test_f3_each_organ_is_drawn_where_numpy_has_it_and_with_its_own_pigment(stag
             foot = foot_of(blade[own], growth, message[own])
             foot[:, 1] += blade["root"][own, 1]
             np.testing.assert_allclose(made["foot"][own, :3], foot, atol=2e-3)
-            np.testing.assert_array_equal(made["stands"][own, 2], blade["organ"][own])
+            np.testing.assert_array_equal(made["canopy_organ"][own, 2], blade["organ"][own])
             np.testing.assert_array_equal(made["foot"][own, 3], blade["height"][own])
             low, high = (pigment(color) for color in (kinds[kind].root, kinds[kind].tip))
             for organ in np.unique(blade["organ"][own]).astype(int).tolist():
@@ -137,7 +137,7 @@ def test_f3_each_organ_is_drawn_where_numpy_has_it_and_with_its_own_pigment(stag
                 some = own & (blade["organ"] == organ)
                 ends = [low + (high - low) * tone for tone in organs.TONES[organ]]
                 # What grain and dry stretches do to a blade they do to both of its ends.
-                ratio = made["low"][some, :3] / ends[0] * ends[1] / made["high"][some, :3]
+                ratio = made["root_pigment"][some, :3] / ends[0] * ends[1] / made["tip_pigment"][some, :3]
                 np.testing.assert_allclose(ratio, 1.0, atol=1e-3)
         first += count
     assert met >= {organs.BLADE, organs.STEM, organs.LEAF, organs.PETAL, organs.EYE, organs.BUD, *TOOTHED}

@@ -275,8 +275,8 @@ def test_w1_each_blade_is_drawn_where_it_stands_with_its_own_message(
         of_kind = [bending(growth.postures, message) for growth in mapped.site.growths]
         bent = np.where(blade["kind"][:, None] == 0.0, *of_kind)
         lie = bent + blade["rest"] * (1.0 - np.minimum(np.linalg.norm(bent, axis=1, keepdims=True), 1.0))
-        np.testing.assert_allclose(made["lie_of"][:, :2], lie, atol=CLOSE)
-        np.testing.assert_array_equal(made["joints"][:, 2], blade["kind"])
+        np.testing.assert_allclose(made["lean_across"][:, :2], lie, atol=CLOSE)
+        np.testing.assert_array_equal(made["level_kind"][:, 2], blade["kind"])
         assert count > 100
         first += count
 

@@ -1,7 +1,7 @@
-// One vertex is one blade: all about it that is the same along its ribbon. With STORED it is looked up by the number of
-// its receiver; with MORPH it is on its way between its own place and its painted place on a moving strip (paper, 4.2).
-// With HIDING others hide it up to some height.
-#define PIXELS_ASK  // or rather ribbons, for shadow maps
+// The pass over blades: a vertex computes everything about a blade that is the same along its ribbon. With STORED the blade
+// is read from textures, by the number of its receiver. With MORPH it is between its own place and its painted place on a
+// moving strip (paper, section 4.2). With HIDING, a height is computed below which other blades hide it.
+#define PIXELS_ASK  // shadow maps are read along the ribbons, not here
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
 #include "systems/show/blades/organs.glsl"
@@ -15,17 +15,17 @@
 
 in uint number;            // of its receiver, among those of blades
 uniform int each;          // blades of a patch model
-uniform int blades_from;   // the first of these receivers among all
-uniform float near;        // distance up to which blades hide one another by depth [m]; beyond it order alone says
+uniform int blades_from;   // number of the first of these receivers among all
+uniform float near;        // distance up to which the depth buffer sorts blades [m]; beyond it drawing order does
 #ifdef MORPH
-uniform sampler2D slices;  // by ring, model, orientation and blade: the strip that it is painted on
-uniform vec2 sizes[FORMS]; // by form: how far strips reach beyond their patch [m], and how high they are
-uniform ivec4 stacks[RINGS]; // by ring: columns of a strip, sections of a column, strips of a kind on a patch
+uniform sampler2D slices;  // strip that a blade is painted on, by ring, model, orientation and blade
+uniform vec2 sizes[FORMS]; // reach of strips beyond their patch, and their height [m], by form
+uniform ivec4 stacks[RINGS]; // columns of a strip, sections of a column, strips of a kind on a patch, by ring
 uniform int models;
 #include "lib/stack.glsl"
 
 out vec4 base;             // foot of its strip's first edge (x, z), and the way from edge to edge (x, z) [m]
-out vec4 painted;          // receiver of that edge; row of its targets; height of the strip [m]; how far it has moved
+out vec4 painted;          // receiver of that edge; row of its targets; height of the strip [m]; morph
 #endif
 #else
 in vec3 root_at;
@@ -50,58 +50,58 @@ in vec2 message;
 #include "systems/show/blades/teeth.glsl"
 #endif
 
-out vec4 foot;   // where its ribbon begins [m]; its length [m]
-out vec4 lie_of; // bending vector; half its way across at the root [m]
-out vec4 low;    // pigment at the root; row of the posture table
-out vec4 high;   // pigment at the tip; the part of its length, from its foot on, that nobody sees
-out mat4 lit;    // light on it, bundled; beside it the relative change of pigment to its sides
-out vec4 stands; // where its foot is in the canopy, and how much of it is its length; organ, plus the part that is cut off; cover
-out vec4 joints; // sub-level, and slide to those of the next; coverage from which on it hides what is behind; kind, plus the part of the light that is lamps'; ring of strips, or teeth seen
+out vec4 foot;          // foot of its ribbon [m]; its length [m]
+out vec4 lean_across;   // bending vector, with the lean at rest; half its width axis at the root [m]
+out vec4 root_pigment;  // pigment at the root; row of the posture table
+out vec4 tip_pigment;   // pigment at the tip; fraction of its length, from the foot on, that is hidden
+out mat4 lit;           // bundled light on it, and the relative change of pigment to its sides
+out vec4 canopy_organ;  // height of its foot in the canopy, and its length, both relative to the canopy; organ + fraction cut off; cover
+out vec4 level_kind;    // sub-level + slide to the next; coverage from which on it hides what is behind; kind + fraction of light from lamps; ring of strips, or visibility of teeth
 
-const float MOST_CUT = 0.999;  // part of a blade that is cut off at most
-const float PARTED = 0.5;  // coverage from which on a blade hides what is behind it, near by
-const float NEARLY = 0.8;  // from which part of the distance on, up to which blades do so, that begins to change
-const float ALL_LAMPS = 0.99;  // what is told beside a kind where no light is the sun's
+const float MOST_CUT = 0.999;  // largest fraction of a blade that is cut off
+const float PARTED = 0.5;  // coverage from which on a blade near by hides what is behind it
+const float NEARLY = 0.8;  // fraction of `near` from which on that coverage rises to `NEVER`
+const float ALL_LAMPS = 0.99;  // fraction added to the kind where all light is from lamps
 const float NEVER = 2.0;  // coverage that no blade has
 
-// A blade that is drawn: it roots at a place of the world, and hears this message.
-struct Drawn {
+// A blade with its root in the world, and the message that it receives.
+struct BladeInput {
     Blade blade;
     vec2 message;
 };
 
 #ifdef STORED
-Drawn drawn(Standing patch_of_it, int number_on_it) {
-    Drawn one;
-    one.blade = blade_of(int(patch_of_it.row) * each + number_on_it);
-    vec4 told = received_by(blades_from + int(number));
-    one.blade.root = vec3(one.blade.root.xz + patch_of_it.cell * patch_side, told.z).xzy;
-    one.message = told.xy;
-    return one;
+BladeInput blade_input(Standing on_patch, int number_on_patch) {
+    BladeInput given;
+    given.blade = blade_of(int(on_patch.row) * each + number_on_patch);
+    vec4 received = received_by(blades_from + int(number));
+    given.blade.root = vec3(given.blade.root.xz + on_patch.cell * patch_side, received.z).xzy;
+    given.message = received.xy;
+    return given;
 }
 #else
-Drawn drawn() {
+BladeInput blade_input() {
 #ifdef ORGANS
     Blade blade = Blade(root_at, height, rest, facing, width, variant, kind, organ, stem, part, sways);
 #else
     Blade blade = Blade(root_at, height, rest, facing, width, variant, kind, 0.0);
 #endif
-    return Drawn(blade, message);
+    return BladeInput(blade, message);
 }
 #endif
 
-// Where it stands on a stem that leans so, from the foot of the stem.
-vec3 on_stem(Blade blade, vec2 leans) {
+// Place of its foot on a stem with this lean, relative to the foot of the stem [m].
+vec3 foot_on_stem(Blade blade, vec2 lean) {
 #ifdef ORGANS
     float first = float(form_of(blade.variant)) * posture_variants;
-    return blade.stem > 0.0 ? posture(first, leans, blade.part).place * blade.stem : vec3(0.0);
+    return blade.stem > 0.0 ? posture(first, lean, blade.part).place * blade.stem : vec3(0.0);
 #else
     return vec3(0.0);
 #endif
 }
 
-// How its stem stands in calm air.
-vec2 stem_of(Blade blade) {
+// Lean of its stem in calm air.
+vec2 stem_rest(Blade blade) {
 #ifdef ORGANS
     return blade.sways;
 #else
@@ -109,34 +109,34 @@ vec2 stem_of(Blade blade) {
 #endif
 }
 
-// A bending vector of something that leans so at rest: as much as it is bent, it leans no more.
-vec2 bent(vec2 moved, vec2 rest_of_it) {
-    return moved + rest_of_it * (1.0 - min(length(moved), 1.0));
+// Lean of something that the wind bends and that has a lean at rest: bending takes the place of the lean at rest.
+vec2 bent(vec2 blown, vec2 at_rest) {
+    return blown + at_rest * (1.0 - min(length(blown), 1.0));
 }
 
-// The part of a blade up to where it first stands as high as `top` in calm air, of its length.
+// Place along a blade, 0 to 1, where it first reaches the relative height `top` in calm air.
 float cut_at(Blade blade, float top) {
-    float before = 0.0;
+    float lower = 0.0;
     if (top < 1.0) for (float link = 1.0; link <= posture_links; link++) {
-        float here = posture(blade.variant, blade.rest, link / posture_links).place.y;
-        if (here > top)
-            return max((link - 1.0 + (top - before) / (here - before)) / posture_links, 0.0);
-        before = here;
+        float upper = posture(blade.variant, blade.rest, link / posture_links).place.y;
+        if (upper > top)
+            return max((link - 1.0 + (top - lower) / (upper - lower)) / posture_links, 0.0);
+        lower = upper;
     }
     return 1.0;
 }
 
-// Its pigments, and how they change to its sides.
-vec3 dye(Blade blade, vec2 across, bool has_section, bool is_round, vec2 slow) {
+// Set its pigments; return their relative change to its sides.
+vec3 set_pigments(Blade blade, vec2 across, bool has_section, bool is_round, vec2 slow) {
     int k = int(blade.kind);
-    vec2 twice = doubled_angle(blade.facing), grade = tones_of(int(blade.organ));
+    vec2 twice = doubled_angle(blade.facing), tones = tones_of(int(blade.organ));
     vec3 grain = azimuth_tint(k, twice), dry = dryness_tint(slow) * grain;
     vec2 eyed = vec2(0.0);
 #ifdef EYED
     eyed = vec2(eyed_at(int(blade.organ), 0.0), eyed_at(int(blade.organ), 1.0));
 #endif
-    low = vec4(pigment_at(k, grade.x, eyed.x) * dry, blade.variant);
-    high = vec4(pigment_at(k, grade.y, eyed.y) * dry, 0.0);
+    root_pigment = vec4(pigment_at(k, tones.x, eyed.x) * dry, blade.variant);
+    tip_pigment = vec4(pigment_at(k, tones.y, eyed.y) * dry, 0.0);
     if (has_section) {
         vec2 round_to = doubled_angle(toward_sun);
         float fold = twice.x * round_to.y - twice.y * round_to.x;
@@ -146,45 +146,45 @@ vec3 dye(Blade blade, vec2 across, bool has_section, bool is_round, vec2 slow) {
 }
 
 #ifdef MORPH
-// Where it is painted.
-void paint(Standing patch_of_it, int blade, int k, int form) {
-    int ring = int(patch_of_it.ring), model = int(patch_of_it.row) / 4, turn = int(patch_of_it.row) % 4;
-    int along = int(patch_of_it.along), own = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;
+// Set its painted place.
+void set_painted(Standing on_patch, int blade, int k, int form) {
+    int ring = int(on_patch.ring), model = int(on_patch.row) / 4, turn = int(on_patch.row) % 4;
+    int along = int(on_patch.along), own = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;
     int row = (model * 2 + own) * each + blade, slice = ring * models * 2 * each + row;
     int plane = int(texelFetch(slices, ivec2(slice % SLICES_ROW, slice / SLICES_ROW), 0).r);
     int strip = k * count + stack_place(plane, count, own, along, turn);
-    vec2 first = edge_foot(patch_of_it.cell, turn, own, plane, count, 0, columns, sizes[form].x);
-    vec2 second = edge_foot(patch_of_it.cell, turn, own, plane, count, 1, columns, sizes[form].x);
-    float receiver = patch_of_it.edges + float(strip * (columns + 1));
+    vec2 first = edge_foot(on_patch.cell, turn, own, plane, count, 0, columns, sizes[form].x);
+    vec2 second = edge_foot(on_patch.cell, turn, own, plane, count, 1, columns, sizes[form].x);
+    float receiver = on_patch.edges + float(strip * (columns + 1));
     base = vec4(first, second - first);
-    painted = vec4(receiver, float(row), sizes[form].y * patch_of_it.growth, patch_of_it.morph);
-    joints.yw = vec2(NEVER, patch_of_it.ring);
+    painted = vec4(receiver, float(row), sizes[form].y * on_patch.growth, on_patch.morph);
+    level_kind.yw = vec2(NEVER, on_patch.ring);
 }
 #endif
 
 void main() {
 #ifdef STORED
-    Standing patch_of_it = standing_of(int(number) / each);
-    Drawn one = drawn(patch_of_it, int(number) % each);
-    float hides = mix(PARTED, NEVER, smoothstep(NEARLY * near, near, distance(one.blade.root.xz, eye.xz)));
-    joints = vec4(patch_of_it.slide, hides, one.blade.kind, 0.0);
-    stands.w = patch_of_it.fade;
+    Standing on_patch = standing_of(int(number) / each);
+    BladeInput given = blade_input(on_patch, int(number) % each);
+    float hides = mix(PARTED, NEVER, smoothstep(NEARLY * near, near, distance(given.blade.root.xz, eye.xz)));
+    level_kind = vec4(on_patch.slide, hides, given.blade.kind, 0.0);
+    canopy_organ.w = on_patch.fade;
 #else
-    Drawn one = drawn();
-    joints = vec4(0.0, NEVER, one.blade.kind, 0.0);
-    stands.w = 1.0;
+    BladeInput given = blade_input();
+    level_kind = vec4(0.0, NEVER, given.blade.kind, 0.0);
+    canopy_organ.w = 1.0;
 #endif
-    Blade blade = one.blade;
+    Blade blade = given.blade;
     int k = int(blade.kind);
-    vec2 blown = bending(k, one.message);
-    vec3 up = on_stem(blade, bent(blown, stem_of(blade)));
+    vec2 blown = bending(k, given.message);
+    vec3 up = foot_on_stem(blade, bent(blown, stem_rest(blade)));
     foot = vec4(blade.root + up, blade.height);
 
-    bool is_itself = is_blade(int(blade.organ));
-    bool has_section = is_itself && kinds[k].apart > 0.0, is_round = is_itself && kinds[k].narrowed < 0.0;
+    bool is_plain = is_blade(int(blade.organ));
+    bool has_section = is_plain && kinds[k].apart > 0.0, is_round = is_plain && kinds[k].narrowed < 0.0;
     vec2 across = is_round ? normalize(blade.root.xz - eye.xz + LEAST_LENGTH) : blade.facing;
     across = vec2(-across.y, across.x);
-    lie_of = vec4(bent(blown * give_of(int(blade.organ)), blade.rest), 0.5 * blade.width * across);
+    lean_across = vec4(bent(blown * give_of(int(blade.organ)), blade.rest), 0.5 * blade.width * across);
 
     Lie lies = lie_at(blade.root.xz);
     ByKind grows = density_at(blade.root.xz);
@@ -192,31 +192,31 @@ void main() {
     if (any_lamps()) {
         float suns;
         light = add_lamps(light, blade.root, Reflector(k, blown, lies.normal, 1.0), suns);
-        joints.z += ALL_LAMPS * (1.0 - suns);
+        level_kind.z += ALL_LAMPS * (1.0 - suns);
     }
     light = hazed(light, blade.root);
-    vec3 tilt = dye(blade, across, has_section, is_round, lies.slow);
+    vec3 side_change = set_pigments(blade, across, has_section, is_round, lies.slow);
     float canopy_height = OF(crown, k) * lodged(blown);
-    stands.xyz = vec3(up.y / canopy_height, blade.height / canopy_height, blade.organ);
+    canopy_organ.xyz = vec3(up.y / canopy_height, blade.height / canopy_height, blade.organ);
     if (anything_is_cut()) {
         float top = cut_height_at(blade.root.xz);
         light = light_when_cut(top, light, k, leaf_areas(grows));
-        top -= on_stem(blade, stem_of(blade)).y;
-        stands.z += min(1.0 - cut_at(blade, top / blade.height), MOST_CUT);
+        top -= foot_on_stem(blade, stem_rest(blade)).y;
+        canopy_organ.z += min(1.0 - cut_at(blade, top / blade.height), MOST_CUT);
     }
-    lit = pack_light(light, tilt);
+    lit = pack_light(light, side_change);
 #if defined(ORGANS) && defined(STORED)
     if (is_at_tip(int(blade.organ)))
-        stands.w *= uncovered(kinds[k].head, foot.xyz - eye);
+        canopy_organ.w *= overlap_factor(kinds[k].head, foot.xyz - eye);
 #endif
 #ifdef HIDING
-    high.w = clamp((hidden_height(blade.root, OF(crown, k), lodged(blown)) - up.y) / blade.height, 0.0, 1.0);
+    tip_pigment.w = clamp((hidden_height(blade.root, OF(crown, k), lodged(blown)) - up.y) / blade.height, 0.0, 1.0);
 #endif
 #ifdef TOOTHED
-    joints.w = outline_seen(int(blade.organ), blade.height, blade.width, foot.xyz);
+    level_kind.w = outline_seen(int(blade.organ), blade.height, blade.width, foot.xyz);
 #endif
 #ifdef MORPH
-    paint(patch_of_it, int(number) % each, k, form_of(blade.variant));
+    set_painted(on_patch, int(number) % each, k, form_of(blade.variant));
 #endif
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 }

@@ -1,7 +1,7 @@
-centroid in vec3 color;  // of several samples a pixel, one beyond a ribbon's edge would have any colour
+centroid in vec3 color;  // with several samples a pixel, a sample beyond a ribbon's edge would extrapolate it
 flat in float shown;
 #ifdef FOLDS
-centroid in vec3 keel;  // how much brighter the face to the right of a fold is than both
+centroid in vec3 keel;  // radiance of a fold's right face above the mean of both
 #endif
 #ifdef TOOTHED
 #include "systems/show/blades/toothed.glsl"
@@ -12,33 +12,33 @@ centroid in vec3 keel;  // how much brighter the face to the right of a fold is 
 flat in int number;
 #endif
 #ifdef PARTED
-uniform int part;     // 1: where it hides what is behind it; 2: the rest
-flat in float hides;  // coverage from which on it does
+uniform int part;     // 1: pixels that hide what is behind them; 2: the others
+flat in float hides;  // coverage from which on a pixel hides what is behind it
 #endif
 #ifdef SOFT
-const float THINNEST = 0.01;  // half a ribbon's width that counts at least [pixel]
-const float FAINT = 0.004;  // coverage that is left out: in bytes, it would but be rounded up
-noperspective in float aside;
-noperspective in float half_width;
+const float THINNEST = 0.01;  // least half width of a ribbon that counts [pixel]
+const float FAINT = 0.004;  // coverage that is left out: in bytes, it would only be rounded up
+noperspective in float aside;  // distance from the middle line, positive to the right [pixel]
+noperspective in float half_width;  // of the ribbon [pixel]
 #ifdef ORGANS
-noperspective in float onward;
-flat in float half_length;
+noperspective in float onward;  // distance from the ribbon's middle along it [pixel]
+flat in float half_length;  // of the ribbon [pixel]
 #endif
 #endif
 
 #ifndef DEEP
 #include "systems/show/blades/veins.glsl"
 
-flat in vec2 veined;  // how much is seen of its rib; and of its veins
+flat in vec2 veined;  // visibility of its rib, and of its veins
 #ifndef SOFT
-in vec2 across;  // from left to right, times how wide it is there; and that
+in vec2 across;  // place across it, -1 to 1, times its width; its width
 #endif
 #endif
 
 out vec4 pixel;
 
-// How much wider a ribbon is drawn than it is, for its edges to be soft.
-float drawn_wider() {
+// Drawn width of a ribbon relative to its own: soft edges reach half a pixel beyond it.
+float widening() {
 #ifdef SOFT
     return 1.0 + 0.5 / max(half_width, THINNEST);
 #else
@@ -48,26 +48,26 @@ float drawn_wider() {
 
 void main() {
 #ifdef TOOTHED
-    vec2 place = among_ligules(drawn_wider()), finely = fwidth(place);
+    vec2 place = place_in_ligules(widening()), pixel_size = fwidth(place);
 #endif
 #if !defined(SOFT) && !defined(DEEP)
-    float beside = across.x / across.y, half_wide = 1.0 / fwidth(beside);
+    float place_across = across.x / across.y, half_wide = 1.0 / fwidth(place_across);
 #endif
 #ifdef SOFT
-    float wide = half_width, left = 1.0;
-    vec3 seen = color;
+    float wide = half_width, outside_slits = 1.0;
+    vec3 radiance = color;
 #ifndef DEEP
-    seen *= across_veins(veined, aside / max(half_width, THINNEST), half_width);
+    radiance *= vein_brightness(veined, aside / max(half_width, THINNEST), half_width);
 #endif
 #ifdef TOOTHED
     if (tooth.z != 0.0) {
-        Outline outline = outline_at(aside, place, finely);
-        wide *= outline.wide;
-        seen *= outline.bright;
-        left = outline.covers;
+        Outline outline = outline_at(aside, place, pixel_size);
+        wide *= outline.width;
+        radiance *= outline.brightness;
+        outside_slits = outline.coverage;
     }
 #endif
-    float covered = shown * left * clamp(wide + 0.5 - abs(aside), 0.0, min(1.0, 2.0 * wide));
+    float covered = shown * outside_slits * clamp(wide + 0.5 - abs(aside), 0.0, min(1.0, 2.0 * wide));
 #ifdef ORGANS
     covered *= clamp(half_length + 0.5 - abs(onward), 0.0, min(1.0, 2.0 * half_length));
 #endif
@@ -83,24 +83,24 @@ void main() {
 #ifdef DEEP
     pixel = vec4(0.0);
 #elif defined(FOLDS)
-    // Each face of a fold is evenly lit: the ramp from side to side, as corners have it, becomes a step.
-    pixel = vec4((seen + keel * (clamp(2.0 * aside, -1.0, 1.0) - aside / (half_width + 0.5))) * covered, covered);
+    // Each face of a fold is evenly lit: the ramp between the corners becomes a step.
+    pixel = vec4((radiance + keel * (clamp(2.0 * aside, -1.0, 1.0) - aside / (half_width + 0.5))) * covered, covered);
 #else
-    pixel = vec4(seen * covered, covered);
+    pixel = vec4(radiance * covered, covered);
 #endif
 #else
-    vec3 seen = color;
+    vec3 radiance = color;
 #ifndef DEEP
-    seen *= across_veins(veined, beside, half_wide);
+    radiance *= vein_brightness(veined, place_across, half_wide);
 #endif
 #ifdef TOOTHED
     if (tooth.z != 0.0) {
-        Outline outline = outline_at(tooth.y, place, finely);
-        if (outline.covers < 0.5 || abs(tooth.y) > outline.wide && tooth.z > 0.0)
+        Outline outline = outline_at(tooth.y, place, pixel_size);
+        if (outline.coverage < 0.5 || abs(tooth.y) > outline.width && tooth.z > 0.0)
             discard;
-        seen *= outline.bright;
+        radiance *= outline.brightness;
     }
 #endif
-    pixel = vec4(seen * shown, shown);
+    pixel = vec4(radiance * shown, shown);
 #endif
 }

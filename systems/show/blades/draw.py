@@ -13,7 +13,17 @@ from ...frame.block import FrameBlock, filled, joined, room_for
 from .organs import organ_defines
 from .pool import BLADE
 
-RIBBON = np.dtype([*((name, "4f4") for name in ("foot", "lie_of", "low", "high", "stands", "joints")), ("lit", "16f4")])
+RIBBON = np.dtype(
+    [
+        ("foot", "4f4"),
+        ("lean_across", "4f4"),
+        ("root_pigment", "4f4"),
+        ("tip_pigment", "4f4"),
+        ("canopy_organ", "4f4"),
+        ("level_kind", "4f4"),
+        ("lit", "16f4"),
+    ]
+)
 """Record that the pass over blades writes of each: the varyings of `blade.vert`."""
 
 PAINTED = np.dtype([*RIBBON.descr, ("base", "4f4"), ("painted", "4f4")])

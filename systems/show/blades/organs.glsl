@@ -1,4 +1,4 @@
-// What organs of plants are like, where a scene has plants other than grass; without, all are blades themselves.
+// The table of organs (systems/grow/organs.py), for scenes with plants other than grass; without them, all are blades.
 #ifdef ORGANS
 bool is_blade(int organ) {
     return organ == BLADE_ITSELF;
@@ -16,7 +16,7 @@ const vec2 tones[ORGANS] = TONES;
 const float gives[ORGANS] = GIVES;
 const float widths[ORGANS * KNOTS] = WIDTHS;
 
-// How much of the tip's pigment it has at its own ends.
+// Tones of an organ at its root and at its tip.
 vec2 tones_of(int organ) {
     return tones[organ];
 }
@@ -24,28 +24,28 @@ vec2 tones_of(int organ) {
 #ifdef EYED
 const vec2 dyed[ORGANS] = DYED;
 
-// How far it has the colour of its head's eye at part `t` of its length.
+// Fraction of the eye's colour of an organ at place `t` along it.
 float eyed_at(int organ, float t) {
     vec2 ends = dyed[organ];
     return clamp((ends.y - t) / (ends.y - ends.x), 0.0, 1.0);
 }
 
-// Whether it has that colour within alone: from outside, nothing of it is seen.
+// Whether an organ has the eye's colour on its inner side only.
 bool is_blotched(int organ) {
     return dyed[organ].x > 0.0 && dyed[organ].y < 1.0;
 }
 #endif
 
-// How far it gives way to wind, of how far a blade does.
+// Bending of an organ by the wind, relative to a blade's.
 float give_of(int organ) {
     return gives[organ];
 }
 
-// How wide it is at part `t` of its length, of its own width.
+// Relative width of an organ at place `t` along it.
 float width_of(int organ, float t) {
-    float at = t * float(KNOTS - 1);
-    int low = min(int(at), KNOTS - 2), row = organ * KNOTS + low;
-    return mix(widths[row], widths[row + 1], at - float(low));
+    float knot = t * float(KNOTS - 1);
+    int low = min(int(knot), KNOTS - 2), row = organ * KNOTS + low;
+    return mix(widths[row], widths[row + 1], knot - float(low));
 }
 #else
 bool is_blade(int organ) {
@@ -59,7 +59,6 @@ bool is_leaf(int organ) {
 vec2 tones_of(int organ) {
     return vec2(0.0, 1.0);
 }
-
 
 float give_of(int organ) {
     return 1.0;

@@ -1,4 +1,4 @@
-// Every blade is a receiver.
+// The pass over receivers of blades: each blade is one, at its root.
 #include "systems/receive/receivers.glsl"
 #include "systems/show/blades/store.py"
 
@@ -10,7 +10,7 @@ void main() {
         received_texel = vec4(0.0);
         return;
     }
-    Standing stands = standing_of(number / each);
-    Blade blade = blade_of(int(stands.row) * each + number % each);
-    received_texel = receiver_texel(blade.root.xz + stands.cell * patch_side, int(blade.kind), number);
+    Standing on_patch = standing_of(number / each);
+    Blade blade = blade_of(int(on_patch.row) * each + number % each);
+    received_texel = receiver_texel(blade.root.xz + on_patch.cell * patch_side, int(blade.kind), number);
 }

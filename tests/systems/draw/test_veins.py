@@ -14,7 +14,7 @@ ASK = """#include "lib/frame.glsl"
 #include "systems/show/blades/veins.glsl"
 in vec4 row;  // how much of its rib and of its veins is seen; place across; half its width [pixel]
 out float told;
-void main() { told = across_veins(row.xy, row.z, row.w); }"""
+void main() { told = vein_brightness(row.xy, row.z, row.w); }"""
 
 
 def across(probe: Probe, wide: float, *, rib: float = 1.0, veins: float = 1.0) -> NDArray[np.float32]:
