@@ -1,36 +1,36 @@
-// One instance is one body. With BORDER it is drawn as a border one pixel wide along its outline, which fades outwards.
+// One instance per body. With BORDER, only a border one pixel wide along the silhouette, which fades outwards.
 #include "lib/light.glsl"
 
-in vec3 place;   // in the body's own axes: x right, y up, -z ahead
+in vec3 place;   // in the body's local axes: x right, y up, -z ahead
 in vec3 normal;
 in float part;
-in vec3 middle;  // of the body in the world; and its axes there
+in vec3 middle;  // the body's position and axes in the world
 in vec3 right;
 in vec3 up;
 in vec3 back;
 #ifdef BORDER
-in vec3 other;   // end of the edge
-in vec3 side;    // normals of its two triangles
+in vec3 other;   // other end of the edge
+in vec3 side;    // normals of the edge's two triangles
 in vec3 beyond;
 in float outside;
 #endif
 
 const float NEAREST = 0.15;  // distance from the eye below which a body has no border [m]
 
-out vec3 own;
-out vec3 seen_at;
-out vec3 facing;
-flat out float made_of;
+out vec3 local;
+out vec3 world_place;
+out vec3 world_normal;
+flat out float material;
 out float cover;
 
 void main() {
     mat3 axes = mat3(right, up, back);
-    own = place;
-    seen_at = middle + axes * place;
-    facing = axes * normal;
-    made_of = part;
+    local = place;
+    world_place = middle + axes * place;
+    world_normal = axes * normal;
+    material = part;
     cover = 1.0;
-    gl_Position = clip * vec4(seen_at, 1.0);
+    gl_Position = clip * vec4(world_place, 1.0);
 #ifdef BORDER
     vec3 ray = transpose(axes) * (eye - middle) - place;
     vec4 far = clip * vec4(middle + axes * other, 1.0);

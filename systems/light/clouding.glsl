@@ -1,46 +1,46 @@
-// Clouds along a line of sight, on the way from the height of their bases to that of the highest tops: from 0 to 1.
+// Clouds along a line of sight through the layer, from the height of the bases (0) to that of the highest tops (1).
 #include "lib/clouds.glsl"
 #include "systems/light/billows.py"
 #include "systems/light/cloudscape.py"
 #include "systems/light/heaps.py"
 
-uniform sampler2D heaps;    // how dense clouds are, and how that rises along x and z
-uniform sampler3D billows;  // how high their billows are, and how that rises along the axes of their block
+uniform sampler2D heaps;    // cloud map: density, and its slopes along x and z
+uniform sampler3D billows;  // noise of billows, and its gradient along the axes of the block
 
-// From places among clouds, in sides of their square, to those in the block: turned, so that rows of it lie nowhere level, and a whole
-// number of blocks to a side, so that it meets itself where the square repeats.
+// From positions in sides of the cloud map's square to those in the block of billows. It is rotated, so that no rows of the block are
+// level, and a whole number of blocks fits a side, so that it tiles with the square.
 const mat3 BLOCK = mat3(8.0, 1.0, -4.0, -4.0, 4.0, -7.0, 1.0, 8.0, 4.0);
 
 struct Way {
-    vec2 at;      // where it meets the height of the bases, in sides of the clouds' square
-    vec2 each;    // how far it goes aside, in the same
-    float level;  // of the block's mip-maps
-    float longer;  // how long it is, of one straight up
+    vec2 start;         // position at the height of the bases, in sides of the cloud map's square
+    vec2 span;          // horizontal distance up to the height of the highest tops, in the same unit
+    float mip_level;    // of the billows
+    float length_ratio; // length of the way, relative to one straight up
 };
 
 Way way_toward(vec3 direction) {
-    float near = max(direction.y, 0.0) + CLOUDS_BENT, far = CLOUDS_AT / CLOUDS_SIDE / near;
-    float texel = BILLOWS_SIDE / (BILLOWS_TEXELS * CLOUDS_AT) * near * pixels_per_metre();  // how wide it is seen [pixels]
-    vec2 each = min(CLOUD_STEP * far, CLOUD_FARTHEST) * direction.xz;
-    float longer = length(vec3(each * CLOUDS_SIDE / CLOUD_RISE, 1.0));
-    return Way(clouds_uv_over(eye.xz) + far * direction.xz, each, max(-log2(texel), 0.0), longer);
+    float sine = max(direction.y, 0.0) + CLOUD_BEND, far = CLOUD_BASE_HEIGHT / CLOUDS_SIDE / sine;
+    float texel = BILLOWS_SIDE / (BILLOWS_TEXELS * CLOUD_BASE_HEIGHT) * sine * pixels_per_metre();  // its width in the picture [pixels]
+    vec2 span = min(CLOUD_TALLEST_RATIO * far, CLOUD_FARTHEST_ASIDE) * direction.xz;
+    float length_ratio = length(vec3(span * CLOUDS_SIDE / CLOUD_TALLEST, 1.0));
+    return Way(clouds_uv_over(eye.xz) + far * direction.xz, span, max(-log2(texel), 0.0), length_ratio);
 }
 
-struct Place {
-    float along;  // where it is on the way
-    float deep;   // how much denser clouds are there than at their edge: less than 0 outside
-    float side;   // how much of billows shows there: less at bases
-    float heap;   // how much higher they are there than in the mean
-    vec3 map;
-    vec4 billow;
+struct CloudPoint {
+    float along;          // position on the way, 0 to 1
+    float excess;         // excess density, negative outside clouds
+    float side_strength;  // strength of the billows, lower at bases
+    float billow_height;  // height of the billow above the mean, times that strength
+    vec3 map;             // texel of the cloud map
+    vec4 billow;          // texel of the billows
 };
 
-Place place_on(Way way, float along) {
-    vec2 at = way.at + way.each * along;
-    vec3 map = textureLod(heaps, at, 0.0).rgb;
-    vec4 billow = textureLod(billows, BLOCK * vec3(at.x, along * (CLOUD_RISE / CLOUDS_SIDE), at.y), way.level);
-    float side = min(CLOUD_BASE + CLOUD_SIDE * along, 1.0), heap = side * (billow.x - 0.5);
-    float deep = map.x - cloud_edge - CLOUD_ROUND * along * along + CLOUD_BILLOWED * heap;
-    deep *= deep > 0.0 ? min(CLOUD_BASE_DENSE + CLOUD_BASE_HIGH * along, 1.0) : 1.0;
-    return Place(along, deep, side, heap, map, billow);
+CloudPoint cloud_at(Way way, float along) {
+    vec2 uv = way.start + way.span * along;
+    vec3 map = textureLod(heaps, uv, 0.0).rgb;
+    vec4 billow = textureLod(billows, BLOCK * vec3(uv.x, along * (CLOUD_TALLEST / CLOUDS_SIDE), uv.y), way.mip_level);
+    float side_strength = min(CLOUD_BASE_BILLOWS + CLOUD_SIDE_BILLOWS * along, 1.0), billow_height = side_strength * (billow.x - 0.5);
+    float excess = map.x - cloud_edge - CLOUD_DOME * along * along + CLOUD_BILLOWED * billow_height;
+    excess *= excess > 0.0 ? min(CLOUD_BASE_DEPTH + CLOUD_BASE_DEPTH_RISE * along, 1.0) : 1.0;
+    return CloudPoint(along, excess, side_strength, billow_height, map, billow);
 }

@@ -1,69 +1,71 @@
-// What is seen of clouds: how much they hide, and so much of what they send of the sun's light, and of light in full shade; and how
-// much they hide of the sun, which no air before them makes up for.
+// Clouds in the picture: their opacity; the sunlight and the light in full shade that they send, both times opacity; and their opacity
+// before the sun, which the air's veil does not lower.
 #include "systems/light/clouding.glsl"
 
 in vec3 ray;
-flat in vec4 sun_over;
-flat in vec4 sun_into;
+flat in vec4 map_toward_sun;
+flat in vec4 billows_toward_sun;
 out vec4 pixel;
 
-const float FORWARDS = 12.0;  // the power that tells how much edges of clouds are brighter ahead of the sun
+const float SILVER_POWER = 12.0;  // narrowness of the silver lining around the sun
 
-// What a line of sight meets of clouds: what comes through them; and of droplets that stop it, how much the sun lights them, and how
-// bright they are in full shade.
-struct Met {
-    float through;
-    float lit;
+// What a line of sight has accumulated: transmittance; and of the opaque rest, the parts lit by the sun and in full shade.
+struct March {
+    float transmitted;
+    float sunlit;
     float shaded;
 };
 
-// How much of the sun's light comes to a place in a cloud, which is so much denser at its base than at its edge.
-float sunny_at(Place place, float under) {
-    float shades = under + CLOUD_UNDER * (1.0 - place.side) + dot(vec4(place.map.yz, place.along, 1.0), sun_over);
-    shades += place.side * dot(vec4(place.billow.yzw, 1.0), sun_into) - CLOUD_OPEN * place.heap;
-    return CLOUD_WITHIN + (1.0 - CLOUD_WITHIN) / (1.0 + exp(CLOUD_DEEPER * shades));
+// Fraction of sunlight that reaches a point in a cloud; `base_excess` is the excess density at the base below it.
+float sunlight_at(CloudPoint point, float base_excess) {
+    float shading = base_excess + CLOUD_BASE_SHADING * (1.0 - point.side_strength) + dot(vec4(point.map.yz, point.along, 1.0), map_toward_sun);
+    shading += point.side_strength * dot(vec4(point.billow.yzw, 1.0), billows_toward_sun) - CLOUD_CREASE_SHADING * point.billow_height;
+    return CLOUD_MULTIPLE + (1.0 - CLOUD_MULTIPLE) / (1.0 + exp(CLOUD_SHADING * shading));
 }
 
-// Go on to a place: on the way so long, straight up or as long, clouds get evenly denser or thinner than they were before.
-void go_on(Place place, float before, float way, inout Met met) {
-    float sum = max(before, 0.0) + max(place.deep, 0.0);
+// Add a step of the march up to a point: `way` is its length relative to the whole way straight up; the excess density changes linearly
+// from `before`.
+void accumulate(CloudPoint point, float before, float way, inout March march) {
+    float sum = max(before, 0.0) + max(point.excess, 0.0);
     if (sum <= 0.0)
         return;
-    float mean = 0.5 * sum * sum / (abs(before) + abs(place.deep));  // of what is within: less than half the sum where an edge is crossed
-    float under = max(place.map.x - cloud_edge - CLOUD_ROUND * place.along * place.along, 0.0);
-    float through = met.through * transmittance(CLOUD_THICK * way * mean), stopped = met.through - through;
-    met.lit += stopped * sunny_at(place, under);
-    met.shaded += stopped * (CLOUD_PALE + CLOUD_HIGHER * place.along - CLOUD_DARK * under + CLOUD_HEAPED * place.heap);
-    met.through = through;
+    float mean = 0.5 * sum * sum / (abs(before) + abs(point.excess));  // of the part inside: less than half the sum across an edge
+    float base_excess = max(point.map.x - cloud_edge - CLOUD_DOME * point.along * point.along, 0.0);
+    float transmitted = march.transmitted * transmittance(CLOUD_MARCH_DEPTH * way * mean), stopped = march.transmitted - transmitted;
+    march.sunlit += stopped * sunlight_at(point, base_excess);
+    float height_light = CLOUD_SHADED_EDGE + CLOUD_SHADED_TOP * point.along;
+    march.shaded += stopped * (height_light - CLOUD_DARKENING * base_excess + CLOUD_BILLOW_LIGHT * point.billow_height);
+    march.transmitted = transmitted;
 }
 
-// How far a line of sight steps on: outside of clouds as far as it cannot miss one by what it lacks.
-float step_from(float deep) {
-    return CLOUD_STEPS.x + (deep > 0.0 ? min(CLOUD_INTO * deep, CLOUD_STEPS.z) : min(-CLOUD_SAFE * deep, CLOUD_STEPS.y));
+// Length of the next step, relative to the whole way: outside clouds, short enough not to miss one.
+float step_length(float excess) {
+    float inside = min(CLOUD_STEP_INSIDE * excess, CLOUD_STEP_LENGTHS.z), outside = min(-CLOUD_STEP_OUTSIDE * excess, CLOUD_STEP_LENGTHS.y);
+    return CLOUD_STEP_LENGTHS.x + (excess > 0.0 ? inside : outside);
 }
 
-Met met_along(Way way) {
-    Met met = Met(1.0, 0.0, 0.0);
-    Place place = place_on(way, 0.0);
-    for (int turn = 0; turn < CLOUD_TURNS && place.along < 1.0 && met.through > CLOUD_LEAST; turn++) {
-        float before = place.deep, step = step_from(before);
-        place = place_on(way, place.along + step);
-        go_on(place, before, step * way.longer, met);
+March march_along(Way way) {
+    March march = March(1.0, 0.0, 0.0);
+    CloudPoint point = cloud_at(way, 0.0);
+    for (int turn = 0; turn < CLOUD_MOST_STEPS && point.along < 1.0 && march.transmitted > CLOUD_OPAQUE; turn++) {
+        float before = point.excess, step = step_length(before);
+        point = cloud_at(way, point.along + step);
+        accumulate(point, before, step * way.length_ratio, march);
     }
-    return met;
+    return march;
 }
 
 void main() {
     vec3 toward = normalize(ray);
     pixel = vec4(0.0);
-    if (toward.y < CLOUDS_FADE.x)
+    if (toward.y < CLOUD_FADE.x)
         return;
-    Met met = met_along(way_toward(toward));
-    if (met.through >= 1.0)
+    March march = march_along(way_toward(toward));
+    if (march.transmitted >= 1.0)
         return;
-    float through = max(met.through - CLOUD_LEAST, 0.0) / (1.0 - CLOUD_LEAST), hides = 1.0 - through;
-    vec3 seen = hides * vec3(1.0, vec2(CLOUD_SUNLIT * met.lit, met.shaded) / (1.0 - met.through));
-    seen.y += CLOUD_SILVER * pow(max(0.5 + 0.5 * dot(toward, sun), 0.0), FORWARDS) * pow(through, CLOUD_STRAYS) * hides;
-    float sides = clamp(1.0 + cloud_edge / CLOUD_OVERCAST, 0.0, 1.0);  // an overcast has none
-    pixel = smoothstep(CLOUDS_FADE.x, CLOUDS_FADE.y, toward.y) * vec4((1.0 - CLOUD_AIR * sides) * seen, hides);
+    float transmitted = max(march.transmitted - CLOUD_OPAQUE, 0.0) / (1.0 - CLOUD_OPAQUE), opacity = 1.0 - transmitted;
+    vec3 seen = opacity * vec3(1.0, vec2(CLOUD_SUNLIT * march.sunlit, march.shaded) / (1.0 - march.transmitted));
+    seen.y += CLOUD_SILVER * pow(max(0.5 + 0.5 * dot(toward, sun), 0.0), SILVER_POWER) * pow(transmitted, CLOUD_SILVER_DEPTH) * opacity;
+    float gaps = clamp(1.0 + cloud_edge / CLOUD_OVERCAST, 0.0, 1.0);  // 0 for an overcast, which the air does not veil
+    pixel = smoothstep(CLOUD_FADE.x, CLOUD_FADE.y, toward.y) * vec4((1.0 - CLOUD_AIR_VEIL * gaps) * seen, opacity);
 }

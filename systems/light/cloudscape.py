@@ -32,7 +32,7 @@ the highest tops. Outside, a step grows by `STEP_OUTSIDE` per unit of missing de
 inside, by `STEP_INSIDE` per unit of excess density. So step lengths change gradually, and no edges show. The shortest
 step is some 2 m; the longest is shorter than heaps are wide."""
 
-DEPTH = 500.0
+MARCH_DEPTH = 500.0
 """Optical depth of the whole way, straight up, per unit of excess density: domes then hide as much overhead as the
 columns that shadows use. Seen with their sides, clouds hide 0.03 more of the sky."""
 
@@ -43,14 +43,14 @@ OPAQUE = 0.02
 """Transmittance that counts as 0."""
 
 GLSL = {
-    "CLOUD_TURNS": MOST_STEPS,
-    "CLOUD_STEPS": STEP_LENGTHS,
-    "CLOUD_SAFE": STEP_OUTSIDE,
-    "CLOUD_INTO": STEP_INSIDE,
-    "CLOUD_THICK": DEPTH,
-    "CLOUD_BASE_DENSE": BASE_DEPTH,
-    "CLOUD_BASE_HIGH": BASE_DEPTH_RISE,
-    "CLOUD_LEAST": OPAQUE,
+    "CLOUD_MOST_STEPS": MOST_STEPS,
+    "CLOUD_STEP_LENGTHS": STEP_LENGTHS,
+    "CLOUD_STEP_OUTSIDE": STEP_OUTSIDE,
+    "CLOUD_STEP_INSIDE": STEP_INSIDE,
+    "CLOUD_MARCH_DEPTH": MARCH_DEPTH,
+    "CLOUD_BASE_DEPTH": BASE_DEPTH,
+    "CLOUD_BASE_DEPTH_RISE": BASE_DEPTH_RISE,
+    "CLOUD_OPAQUE": OPAQUE,
 }
 
 Size = tuple[int, int]

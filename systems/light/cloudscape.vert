@@ -1,23 +1,23 @@
-// Clouds over the whole picture, and how the sun stands to them.
+// Clouds over the whole picture, and linear forms for their self-shadowing.
 #include "systems/light/clouding.glsl"
 
 out vec3 ray;
 
-// How much denser they are a way off towards the sun, by what is known of a place: how the map rises there, its height, and 1;
-// how the billows rise there, and 1.
-flat out vec4 sun_over;
-flat out vec4 sun_into;
+// Change of density a step towards the sun, as linear forms of what is known at a point: of the map's slopes, the height and 1; and of
+// the billows' gradient and 1.
+flat out vec4 map_toward_sun;
+flat out vec4 billows_toward_sun;
 
-const float OVER = 4.0;  // sides of a triangle that a viewport of 2 by 2 lies in
+const float OVER = 4.0;  // legs of a triangle that covers the viewport of 2 by 2
 
 void main() {
     vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)) * OVER - 1.0;
     ray = ray_ahead + corner.x * ray_across + corner.y * ray_up;
-    vec2 over = CLOUD_ASIDE * HEAPS_STEEPEST / CLOUDS_SIDE * sun.xz;
-    float up = CLOUD_ASIDE / CLOUD_RISE * sun.y;
-    sun_over = vec4(2.0 * over, -CLOUD_ROUND * up * vec2(2.0, up));
-    sun_over.w -= over.x + over.y;
-    vec3 into = CLOUD_BILLOWED * BILLOWS_STEEPEST * CLOUD_NEAR / CLOUDS_SIDE * (BLOCK * sun);
-    sun_into = vec4(2.0 * into, -(into.x + into.y + into.z));
+    vec2 slope = CLOUD_MAP_ASIDE * HEAPS_STEEPEST / CLOUDS_SIDE * sun.xz;
+    float up = CLOUD_MAP_ASIDE / CLOUD_TALLEST * sun.y;
+    map_toward_sun = vec4(2.0 * slope, -CLOUD_DOME * up * vec2(2.0, up));
+    map_toward_sun.w -= slope.x + slope.y;
+    vec3 gradient = CLOUD_BILLOWED * BILLOWS_STEEPEST * CLOUD_BILLOWS_ASIDE / CLOUDS_SIDE * (BLOCK * sun);
+    billows_toward_sun = vec4(2.0 * gradient, -(gradient.x + gradient.y + gradient.z));
     gl_Position = vec4(corner, 0.0, 1.0);
 }

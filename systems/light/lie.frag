@@ -1,15 +1,14 @@
-// How a place lies to the sun: with STILL the terrain's normal (x, z) and two slow noises; without, how high the terrain
-// stands before the sun, as the tangent of the angle that it is seen at. With MIRRORED that is told for what the sun is in the
-// terrain's own place, and in its mirror images along x, z and both.
+// With SLOPES, the slope map: the terrain's normal (x, z) and two slow noises. Without, the horizon map: tangent of the horizon's elevation
+// towards the sun. With MIRRORED, its four channels are for the terrain and its mirror images along x, z and both.
 #include "lib/terrain.glsl"
 #include "systems/light/lie.py"
 
 in vec2 at;
-out vec4 told;
+out vec4 texel;
 
-uniform vec2 corner;  // where the map begins, x, z [m]
+uniform vec2 corner;  // the map's corner (x, z) [m]
 
-#ifdef STILL
+#ifdef SLOPES
 uniform sampler2D slow;
 
 void main() {
@@ -17,16 +16,16 @@ void main() {
     vec2 rise = vec2(height_at(place + step.xy) - height_at(place - step.xy),
                      height_at(place + step.yx) - height_at(place - step.yx)) / (2.0 * terrain_cell);
     vec3 normal = normalize(vec3(-rise.x, 1.0, -rise.y));
-    told = vec4(normal.xz, 2.0 * textureLod(slow, at, 0.0).rg - 1.0);
+    texel = vec4(normal.xz, 2.0 * textureLod(slow, at, 0.0).rg - 1.0);
 }
 #else
-uniform float highest;  // ground of the terrain [m]
+uniform float highest;  // height of the terrain's highest ground [m]
 
-const float ABOVE = 0.05;  // how high over the ground the sun is looked for [m]
-const float LEVEL = -0.05;  // what stands before the sun over level ground: below any sun
+const float ABOVE = 0.05;  // height above the ground from which the horizon is seen [m]
+const float LEVEL = -0.05;  // horizon of level ground: below any sun
 
-float before_sun(vec2 place, vec2 toward) {
-    float foot = height_at(place) + ABOVE, away = FIRST * terrain_cell, most = LEVEL;
+float horizon_toward(vec2 place, vec2 toward) {
+    float eye_height = height_at(place) + ABOVE, away = FIRST * terrain_cell, horizon = LEVEL;
     for (int step = 0; step < STEPS; step++) {
         vec2 there = place + toward * away;
 #ifdef MIRRORED
@@ -35,22 +34,22 @@ float before_sun(vec2 place, vec2 toward) {
         vec2 inside = abs(there - terrain_origin - 0.5 * terrain_size);
         bool ends = any(greaterThan(inside, 0.5 * terrain_size));
 #endif
-        if (highest - foot < most * away || ends)
+        if (highest - eye_height < horizon * away || ends)
             break;
-        most = max(most, (height_at(there) - foot) / away);
+        horizon = max(horizon, (height_at(there) - eye_height) / away);
         away *= LONGER;
     }
-    return most;
+    return horizon;
 }
 
 void main() {
     vec2 place = corner + at * terrain_size;
 #ifdef MIRRORED
-    const vec2 TURNED = vec2(-1.0, 1.0);
-    told.rg = vec2(before_sun(place, toward_sun), before_sun(place, toward_sun * TURNED.xy));
-    told.ba = vec2(before_sun(place, toward_sun * TURNED.yx), before_sun(place, toward_sun * TURNED.xx));
+    const vec2 MIRROR = vec2(-1.0, 1.0);
+    texel.rg = vec2(horizon_toward(place, toward_sun), horizon_toward(place, toward_sun * MIRROR.xy));
+    texel.ba = vec2(horizon_toward(place, toward_sun * MIRROR.yx), horizon_toward(place, toward_sun * MIRROR.xx));
 #else
-    told = vec4(before_sun(place, toward_sun));
+    texel = vec4(horizon_toward(place, toward_sun));
 #endif
 }
 #endif

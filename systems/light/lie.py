@@ -100,7 +100,7 @@ class LieMap:
     def _make_programs(self, *, mirrored: bool) -> None:
         """Make the programs that draw both maps."""
         self._is_mirrored, self._samples_a_frame = mirrored, SAMPLES_A_FRAME // (IMAGES if mirrored else 1)
-        self._slope_program, self._horizon_program = self._program("STILL"), self._program()
+        self._slope_program, self._horizon_program = self._program("SLOPES"), self._program()
         self._vertex_arrays = [self.ctx.vertex_array(each, []) for each in (self._slope_program, self._horizon_program)]
 
     def _program(self, *switches: str) -> moderngl.Program:

@@ -1,20 +1,20 @@
-// The sky over the whole picture, in rows of squares: between their corners its colour hardly bends.
+// The sky over the whole picture, on a grid of squares: between their corners its colour is almost linear.
 #include "lib/clouds.glsl"
 #include "lib/light.glsl"
 
-uniform sampler2D sky;  // by azimuth from the sun, from 0 to pi, and by the root of the elevation's sine
+uniform sampler2D sky;  // sky map: by azimuth from the sun, 0 to pi, and by the root of the elevation's sine
 
 out vec3 ray;
 out vec3 light;
-out vec2 at;  // from 0 to 1 across and up the picture
+out vec2 uv;  // from 0 to 1 across and up the picture
 
-// How much of the sun clouds hide low down in the haze, where none is seen.
-out float low;
+// Mean opacity of clouds before a low sun, in the haze where none is seen.
+out float mean_opacity;
 
 const float PI = 3.14159;
-const vec3 ARC = vec3(1.5707, -0.2121, 0.0742);  // the arc cosine over the root of 1 - c, by powers of c (Hastings, 1955)
+const vec3 ARC = vec3(1.5707, -0.2121, 0.0742);  // arc cosine over the root of 1 - c, as a polynomial in c (Hastings, 1955)
 
-// An angle in [0, pi] by its cosine, within 0.004 of itself; acos is dearer.
+// Arc cosine in [0, pi], with a relative error of 0.004; acos() is slower.
 float angle_of(float cosine) {
     float c = abs(cosine), near = sqrt(1.0 - c) * (ARC.x + c * (ARC.y + c * ARC.z));
     return cosine < 0.0 ? PI - near : near;
@@ -28,7 +28,7 @@ void main() {
     float c = dot(toward.xz, toward_sun) * inversesqrt(dot(toward.xz, toward.xz) + LEAST_LENGTH);
     vec2 size = vec2(textureSize(sky, 0)), place = vec2(angle_of(clamp(c, -1.0, 1.0)) / PI, sqrt(max(toward.y, 0.0)));
     light = textureLod(sky, (place * (size - 1.0) + 0.5) / size, 0.0).rgb;
-    at = 0.5 * corner + 0.5;
-    low = (1.0 - clamp(cloud_edge, 0.0, 1.0)) * (1.0 - smoothstep(CLOUDS_FADE.x, CLOUDS_FADE.y, toward.y));
+    uv = 0.5 * corner + 0.5;
+    mean_opacity = (1.0 - clamp(cloud_edge, 0.0, 1.0)) * (1.0 - smoothstep(CLOUD_FADE.x, CLOUD_FADE.y, toward.y));
     gl_Position = vec4(corner, depth_ends.y, 1.0);
 }

@@ -6,7 +6,7 @@
 
 // Offset on the clouds' map in a direction [sides of the map]; the layer comes down to the horizon, as on a globe.
 vec2 clouds_uv_toward(vec3 direction) {
-    return direction.xz * (CLOUDS_AT / CLOUDS_SIDE / (max(direction.y, 0.0) + CLOUDS_BENT));
+    return direction.xz * (CLOUD_BASE_HEIGHT / CLOUDS_SIDE / (max(direction.y, 0.0) + CLOUD_BEND));
 }
 
 // Texture coordinates of the clouds above a place of the ground.
@@ -17,5 +17,5 @@ vec2 clouds_uv_over(vec2 place) {
 // Visibility of the sun behind clouds.
 float clouds_visibility(vec3 place) {
     float dense = textureLod(repeating, clouds_uv_over(place.xz) + clouds_uv_toward(sun), 0.0).r, deep = max(dense - cloud_edge, 0.0);
-    return mix(CLOUD_SENDS * clamp(cloud_edge, 0.0, 1.0), 1.0, transmittance(CLOUD_COLUMN * deep));
+    return mix(CLOUD_LONE * clamp(cloud_edge, 0.0, 1.0), 1.0, transmittance(CLOUD_DEPTH * deep));
 }
