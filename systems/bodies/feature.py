@@ -71,15 +71,15 @@ class BodiesPart(Part):
 
     def making(self) -> Iterator[None]:
         """Make the painter, if it is due, a program at a time."""
-        made = list[moderngl.Program]()
+        programs = list[moderngl.Program]()
         try:
-            for each in self._programs() if self._is_due else ():
-                made.append(each)
+            for program in self._programs() if self._is_due else ():
+                programs.append(program)
                 yield
-            if made and self.painter is None:
-                self.painter, made = BodyPainter(self._ctx, made), []
+            if programs and self.painter is None:
+                self.painter, programs = BodyPainter(self._ctx, programs), []
         finally:
-            release_all(*made)
+            release_all(*programs)
 
     @property
     def _is_due(self) -> bool:

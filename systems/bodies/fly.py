@@ -159,10 +159,10 @@ def flying(world: World, top_at: Heights, quarantine: Quarantine, /, *, time: fl
 
     The latter follow the wind, along its path or with its entity's pose, over the top of the grass.
     """
-    own = dict(world.all(Body))
-    bodies = list(own.values())
+    of_entities = dict(world.all(Body))
+    bodies = list(of_entities.values())
     for entity, source in world.all(WindSource):
-        if entity not in own:
+        if entity not in of_entities:
             with suppress(QuarantinedError):
                 if hover_of(source, quarantine) is None:
                     continue

@@ -1,1 +1,1 @@
-"""Lamps: what shines beside sun and sky."""
+"""Lamps and shades: grids over the ground that list them for shaders."""

@@ -80,8 +80,8 @@ def visible_lamps(texels: Floats, sides: Doubles, eye: tuple[float, float, float
     `sides` are the planes of the frustum. Of more lamps, those brightest at the eye are kept.
     """
     reach = texels[:, 0, 3] ** -0.5
-    found = texels[outside_planes(texels[:, 0, :3].astype(np.float64), sides) <= reach]
-    return found[_lowest_ranks(-found[:, 1, :3].sum(axis=1) / np.maximum(_squared_distances(found, eye), 1.0))]
+    reaching = texels[outside_planes(texels[:, 0, :3].astype(np.float64), sides) <= reach]
+    return reaching[_lowest_ranks(-reaching[:, 1, :3].sum(axis=1) / np.maximum(_squared_distances(reaching, eye), 1.0))]
 
 
 def _squared_distances(texels: Floats, eye: tuple[float, float, float]) -> Floats:
@@ -173,9 +173,9 @@ class LampPart(TexturePart):
         if self._shade_texels[0] != shades:
             self._shade_texels = shades, shade_texels(shades)
         viewer = outlook.viewer
-        found = visible_shades(self._shade_texels[1], record["sun"][0], lowest, viewer.sides, viewer.eye)
-        if found is not None:
-            record["shades_grid"] = self._write(*found, ROWS)
+        visible = visible_shades(self._shade_texels[1], record["sun"][0], lowest, viewer.sides, viewer.eye)
+        if visible is not None:
+            record["shades_grid"] = self._write(*visible, ROWS)
 
     def _write(self, texels: Floats, grid: Grid, top: int) -> tuple[float, ...]:
         """Upload lamps or shades from a row on, if they have changed; return their grid as the frame block holds it."""

@@ -47,10 +47,12 @@ class Lamps(Feature):
 
     def _games(self) -> list[Lit]:
         """Return the lamps of a game's entities."""
-        found = self._world.all(Lamp)
-        placed = [(entity, _placed(entity, self._world.find(entity, Pose))) for entity, _ in found]
-        stand = self._world.standing(placed, "the lamp")
-        return [(lamp, pose) for (_, lamp), (_, pose), there in zip(found, placed, stand, strict=True) if there]
+        lamps = self._world.all(Lamp)
+        placed = [(entity, _placed(entity, self._world.find(entity, Pose))) for entity, _ in lamps]
+        present = self._world.standing(placed, "the lamp")
+        return [
+            (lamp, pose) for (_, lamp), (_, pose), is_present in zip(lamps, placed, present, strict=True) if is_present
+        ]
 
     def _scenes(self, declared: Sequence[LampOnPath], time: float) -> list[Lit]:
         """Return the scene's lamps at a time [s], at their heights above the ground."""

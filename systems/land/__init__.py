@@ -1,1 +1,1 @@
-"""The land as shaders know it: heights, densities, postures, and what kinds of grass are like."""
+"""The land in shaders: textures of heights, densities and postures, and values of kinds of grass."""

@@ -77,8 +77,8 @@ class Heights:
         if self._next_texture is None:
             self._next_texture = self._new_texture(None)
         rows, columns = terrain.heights.shape
-        each = rows if whole else max(UPLOAD_BYTES // (4 * columns), 1)
-        part = Part(self._rows_sent, 0, min(each, rows - self._rows_sent), columns)
+        count = rows if whole else max(UPLOAD_BYTES // (4 * columns), 1)
+        part = Part(self._rows_sent, 0, min(count, rows - self._rows_sent), columns)
         self._next_texture.write(_heights_of(terrain, part), viewport=_box(part))
         self._rows_sent += part.rows
         if self._rows_sent == rows:

@@ -1,1 +1,1 @@
-"""Light: the sun and the sky, what they send to the grass, and what lies between them and the ground."""
+"""Light: sun, sky, air and clouds, the terrain's shadows, and materials of grass and ground."""

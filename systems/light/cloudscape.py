@@ -106,16 +106,16 @@ class Cloudscape:
 
     def _picture(self, size: Size) -> tuple[moderngl.Framebuffer, moderngl.Texture]:
         """Return the framebuffer and texture of a size; release the least recently used beyond the limit."""
-        found = self._pictures.pop(size, None)
-        if found is None:
+        picture = self._pictures.pop(size, None)
+        if picture is None:
             texture = self.ctx.texture(size, 4, dtype="f2")
             texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
             texture.repeat_x = texture.repeat_y = False
-            found = self.ctx.framebuffer([texture]), texture
-        self._pictures[size] = found
+            picture = self.ctx.framebuffer([texture]), texture
+        self._pictures[size] = picture
         if len(self._pictures) > MOST_SIZES:
             release_all(*self._pictures.pop(next(iter(self._pictures))))
-        return found
+        return picture
 
     def release(self) -> None:
         """Release all GL objects."""

@@ -28,18 +28,18 @@ _FIT: Doubles = np.linalg.pinv(np.stack([np.ones(AROUND), _X, _Z, _X * _X, _X * 
 
 def colours_around(haze: Haze, /) -> Doubles:
     """Return a haze's colours in all sampled directions, shape (`AROUND`, 3); raise ValueError for a bad colour."""
-    due = "haze has a colour, (red, green, blue) of 0 and more or one such as '#a0b0c0'"
+    rule = "haze has a colour, (red, green, blue) of 0 and more or one such as '#a0b0c0'"
     if isinstance(haze, str):
         colour = str(hex_of(haze))
         if not is_colour(colour):
-            raise ValueError(f"{due}, not {shortened(haze)}")
+            raise ValueError(f"{rule}, not {shortened(haze)}")
         return np.tile(srgb(colour), (AROUND, 1))
-    asked = haze(np.stack([_X, np.zeros(AROUND), _Z], axis=1)) if callable(haze) else haze
-    found = as_floats(asked, due)
-    if found.shape not in {(3,), (AROUND, 3)} or found.min() < 0.0:
+    given = haze(np.stack([_X, np.zeros(AROUND), _Z], axis=1)) if callable(haze) else haze
+    colours = as_floats(given, rule)
+    if colours.shape not in {(3,), (AROUND, 3)} or colours.min() < 0.0:
         of = f" for each of {AROUND} directions" if callable(haze) else ""
-        raise ValueError(f"{due}{of}, not {shortened(found.tolist())}")
-    return np.broadcast_to(found.astype(np.float64), (AROUND, 3))
+        raise ValueError(f"{rule}{of}, not {shortened(colours.tolist())}")
+    return np.broadcast_to(colours.astype(np.float64), (AROUND, 3))
 
 
 def fitted(radiance: Doubles, /) -> Doubles:

@@ -106,8 +106,8 @@ class LieMap:
     def _program(self, *switches: str) -> moderngl.Program:
         """Return a program with these defines and MIRRORED, if it is: the frame block's defines may be outdated."""
         switches = (*switches, "MIRRORED") if self._is_mirrored else switches
-        made = program(self.ctx, FILLED, SHADER, defines=dict.fromkeys(switches, 1))
-        return wired(made, self._block, {**self._units, "slow": self._unit})
+        compiled = program(self.ctx, FILLED, SHADER, defines=dict.fromkeys(switches, 1))
+        return wired(compiled, self._block, {**self._units, "slow": self._unit})
 
     def lay(self, terrain: Terrain, /, *, seed: int) -> None:
         """Begin a map of a terrain and a seed; it is drawn with the next frame."""
@@ -137,8 +137,8 @@ class LieMap:
         if next_ is not None and next_.map_ is not None and next_.slope_rows == self._rows and not next_.map_.rows_due:
             self._map.release()
             self._map, self._seen_changes, self._next = next_.map_, next_.changes, None
-        due = self._map.origin if self._next is None else self._next.origin
-        if not self._is_same_corner(origin, due):
+        newest_origin = self._map.origin if self._next is None else self._next.origin
+        if not self._is_same_corner(origin, newest_origin):
             self._begin_next(origin, leaps=leaps)
         return self._map.origin
 
@@ -173,9 +173,9 @@ class LieMap:
         """Draw this frame's rows, for the horizontal direction (x, z) to the sun; return the number of draw calls."""
         map_, rows = self._map, max(self._samples_a_frame // self._columns, 1)
         assert map_ is not None
-        due = rows
+        horizon_rows = rows
         if toward_sun != self._toward_sun:
-            due = self._rows if self._toward_sun is None else rows
+            horizon_rows = self._rows if self._toward_sun is None else rows
             self._toward_sun, map_.rows_due = toward_sun, self._rows
             if self._next is not None and self._next.map_ is not None:
                 self._next.map_.rows_due = self._rows
@@ -186,7 +186,7 @@ class LieMap:
         map_.target.use()
         calls += self._draw_changed(map_, toward_sun) if changed else 0
         self.use()
-        return calls + self._draw_horizon_rows(map_, min(due, map_.rows_due))
+        return calls + self._draw_horizon_rows(map_, min(horizon_rows, map_.rows_due))
 
     def _draw_next(self, rows: int) -> int:
         """Draw some rows of the next window's map; return the number of draw calls."""

@@ -171,17 +171,17 @@ class Shining:
 
     def _advance(self) -> None:
         """Compute another piece of the next clear sky, and advance the transition by a frame."""
-        due = _stand(self._asked_now)
-        if self._sky_pieces is None and due != self._after:
-            self._begin_sky(due)
+        stand = _stand(self._asked_now)
+        if self._sky_pieces is None and stand != self._after:
+            self._begin_sky(stand)
         if self._passed < PIECES:
             self._passed, self._daylight = self._passed + 1, None
         if self._sky_pieces is not None:
             self._compute_piece()
 
-    def _begin_sky(self, due: Stand) -> None:
+    def _begin_sky(self, stand: Stand) -> None:
         """Begin to compute the clear sky of a stand."""
-        self._next_stand, self._sky_pieces, self._pieces_done = due, clear_air_in_pieces(*due[1:]), 0
+        self._next_stand, self._sky_pieces, self._pieces_done = stand, clear_air_in_pieces(*stand[1:]), 0
 
     def _compute_piece(self) -> None:
         """Compute another piece; after the last, begin the transition."""

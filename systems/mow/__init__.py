@@ -1,1 +1,1 @@
-"""Mowing: how high a game lets grass stand, place by place."""
+"""Mowing: grass that a game cuts, sows and clears."""

@@ -178,21 +178,21 @@ def _changed(change: Change, distances: Floats, before: Values) -> Values:
 
 def _reached_parts(plots: Plots, area: Area, pose: Pose, beyond: float) -> list[tuple[Part, Segments]]:
     """Return the parts of plots that an area may reach, each with the segments of a road that reach it."""
-    here = np.array([pose.x, pose.z], np.float32)
+    position = np.array([pose.x, pose.z], np.float32)
     if isinstance(area, Footprint):
         round_one = ((-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0))
         reach = area.radius + area.length / 2.0
         corners = area.corners or tuple((reach * x, reach * z) for x, z in round_one)
-        places = pose.outside(np.array(corners, np.float32)) + here
+        places = pose.outside(np.array(corners, np.float32)) + position
         return [(part, None) for part in plots.parts(places.min(axis=0) - beyond, places.max(axis=0) + beyond)]
-    found, reach = dict[Part, set[int]](), area.width / 2.0 + beyond
-    places = pose.outside(np.array(area.line, np.float32)) + here
+    numbers_by_part, reach = dict[Part, set[int]](), area.width / 2.0 + beyond
+    places = pose.outside(np.array(area.line, np.float32)) + position
     for number, (first, last) in enumerate(pairwise(places)):
         for part in plots.parts(np.minimum(first, last) - reach, np.maximum(first, last) + reach):
             row, column = part.row // CELLS * CELLS, part.column // CELLS * CELLS
-            found.setdefault(Part(row, column, CELLS, CELLS), set()).add(number)
+            numbers_by_part.setdefault(Part(row, column, CELLS, CELLS), set()).add(number)
     kept = list[tuple[Part, Segments]]()
-    for part, numbers in found.items():
+    for part, numbers in numbers_by_part.items():
         middle, half = np.add(ends_of(part)[0], SIDE / 2.0)[None], SIDE / np.sqrt(2.0)
         near = [n for n in sorted(numbers) if _line_distances(places[n : n + 2], middle)[0] <= reach + half]
         if near:

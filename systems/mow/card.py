@@ -223,15 +223,15 @@ class PlotsPart(TexturePart):
         """Encode heights relative to the tallest grass as two bytes, clipped at 1: means of uncut cells are 1."""
         part = np.minimum(pages / np.float32(self._tallest), np.float32(1.0))
         whole = np.rint(part * 65535.0).astype(np.uint32)[:, None]
-        made = []
+        levels = []
         for level in range(_LEVELS):
             texels = np.zeros((*whole.shape, 4), np.uint8)
             texels[..., 0], texels[..., 1] = whole >> 8, whole & 255
-            made.append(texels)
+            levels.append(texels)
             if level < _LEVELS - 1:
                 whole = whole[..., ::2, :] + whole[..., 1::2, :]
                 whole = (whole[..., ::2] + whole[..., 1::2] + 2) >> 2
-        return made
+        return levels
 
 
 def _encoded_densities(pages: Bytes) -> list[Bytes]:

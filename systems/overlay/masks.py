@@ -55,23 +55,23 @@ def masked(
     winds: Sequence[Blowing], quarantine: Quarantine, /, *, time: float, around: tuple[float, float], far: float
 ) -> list[Masked]:
     """Return the masks of winds within `far` [m] of a place (x, z), the weakest claim first."""
-    found = []
+    masks = []
     for wind in reversed(winds):
         try:
-            one = _masked(wind, quarantine, time, np.array([around], np.float32), far)
+            mask = _masked(wind, quarantine, time, np.array([around], np.float32), far)
         except QuarantinedError:
             continue
-        if one is not None:
-            found.append(one)
-    return found
+        if mask is not None:
+            masks.append(mask)
+    return masks
 
 
 def _masked(wind: Blowing, quarantine: Quarantine, time: float, around: Floats, far: float) -> Masked | None:
     """Return one wind's mask, None if it lies farther away; raise QuarantinedError where the wind fails."""
     pose, none = wind.pose, np.zeros((0, 3, 2), np.float32)
-    made = partial(Masked, wind.primitive.kind, wind_color(wind.primitive), wind.strength)
+    make = partial(Masked, wind.primitive.kind, wind_color(wind.primitive), wind.strength)
     if wind.extent is None:
-        return made(everywhere=True, corners=none, weight=none[..., 0], edge=none, core=none)
+        return make(everywhere=True, corners=none, weight=none[..., 0], edge=none, core=none)
 
     def ask(place: Floats) -> Floats:
         mask = partial(wind.primitive.mask, place, time=time)
@@ -82,12 +82,12 @@ def _masked(wind: Blowing, quarantine: Quarantine, time: float, around: Floats, 
     if grid is None:
         return None
 
-    def placed(own: Floats) -> Floats:
-        world = pose.outside(own.reshape(-1, 2)) + np.array([pose.x, pose.z], np.float32)
-        return world.reshape(own.shape).astype(np.float32)
+    def placed(local: Floats) -> Floats:
+        world = pose.outside(local.reshape(-1, 2)) + np.array([pose.x, pose.z], np.float32)
+        return world.reshape(local.shape).astype(np.float32)
 
     outer, inner = contour(grid, EDGE_WEIGHT), contour(grid, FULL_WEIGHT)
-    return made(
+    return make(
         everywhere=False,
         corners=placed(outer.corners), weight=outer.weight, edge=placed(outer.edge), core=placed(inner.edge),
     )  # fmt: skip

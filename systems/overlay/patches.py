@@ -40,11 +40,11 @@ def patch_colors(outlook: Outlook, site: Site, /) -> Floats:
 
     Shades are interpolated while the patch changes from one ring to another.
     """
-    patches, here = outlook.patches, shown_level(outlook, site)
-    color = np.zeros((len(here), 3), np.float32)
+    patches, shown = outlook.patches, shown_level(outlook, site)
+    color = np.zeros((len(shown), 3), np.float32)
     for level, representation in enumerate(site.representations):
         shades = ring_shades(representation.color, representation.rings())
-        rows = np.flatnonzero((here == level) | (here < 0))
+        rows = np.flatnonzero((shown == level) | (shown < 0))
         unseen, progress = ~patches.visible[rows], patches.sublevel_progress[level, rows, None]
         # An unseen patch keeps the sub-level in which it was last seen, if any; it is coloured by the one that is due.
         due = representation.sublevels(outlook, rows, np.full(len(rows), -1, np.int8), slack=0)
@@ -105,8 +105,8 @@ def weight_marks(outlook: Outlook, site: Site, /) -> Marks:
     """
     patches, share = outlook.patches, patch_weights(outlook, site)
     rows = np.flatnonzero(patches.shown & is_mixed(outlook, site))
-    here = share[:, rows] > 1.0 - SETTLED
-    finer, coarser = here.argmax(axis=0), len(here) - 1 - here[::-1].argmax(axis=0)
+    is_present = share[:, rows] > 1.0 - SETTLED
+    finer, coarser = is_present.argmax(axis=0), len(is_present) - 1 - is_present[::-1].argmax(axis=0)
     part = np.sqrt(share[finer, rows] / share[:, rows].sum(axis=0))
     shades = np.concatenate([ring_shades(each.color) for each in site.representations])
     changing = rows[patches.progress[rows] < 1.0]

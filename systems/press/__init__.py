@@ -1,1 +1,1 @@
-"""Pressing: what people and animals do to the grass that they go through."""
+"""Pressing: grass that people and animals tread."""

@@ -24,9 +24,9 @@ _CAPSULE_SPACING = 1.4
 @lru_cache(maxsize=256)
 def discs_of(presser: Presser, /) -> Doubles:
     """Return the discs of a footprint in its own frame: middles (x, z) and radii [m], shape (n, 3)."""
-    found = _in_polygon(presser.corners) if presser.corners else _in_capsule(presser.radius, presser.length)
-    found.flags.writeable = False
-    return found
+    discs = _in_polygon(presser.corners) if presser.corners else _in_capsule(presser.radius, presser.length)
+    discs.flags.writeable = False
+    return discs
 
 
 def _in_capsule(radius: float, length: float) -> Doubles:

@@ -146,12 +146,12 @@ def touched_squares(stretches: Stretches) -> tuple[Ints, NDArray[np.uint16]]:
     low = np.floor((np.minimum(stretches[:, FIRST], stretches[:, LAST]) - reach) / SQUARE).astype(np.int32)
     high = np.floor((np.maximum(stretches[:, FIRST], stretches[:, LAST]) + reach) / SQUARE).astype(np.int32)
     wide, deep = (high - low + 1).T
-    each = wide * deep
-    number = np.repeat(np.arange(len(stretches), dtype=np.int32), each)
-    begins = np.cumsum(each, dtype=np.int32) - each
-    own, across = np.arange(len(number), dtype=np.int32) - begins[number], wide[number]
-    row = own // across
-    x, z = low[:, 0][number] + own - row * across, low[:, 1][number] + row
+    squares_each = wide * deep
+    number = np.repeat(np.arange(len(stretches), dtype=np.int32), squares_each)
+    begins = np.cumsum(squares_each, dtype=np.int32) - squares_each
+    square_in_stretch, across = np.arange(len(number), dtype=np.int32) - begins[number], wide[number]
+    row = square_in_stretch // across
+    x, z = low[:, 0][number] + square_in_stretch - row * across, low[:, 1][number] + row
     return number, ((z & (SIDE - 1)) * SIDE + (x & (SIDE - 1))).astype(np.uint16)
 
 
@@ -270,26 +270,26 @@ class Memory:
         if now != self.since:
             self._settle(now)
         self._conversion_for(now + 1.0).convert_to((time - now) / READY_BY)
-        found = np.concatenate([part for trail in self.trails for part in (trail.over(), trail.open)])
-        fresh = Listing.of(found).marks(since=self.since) if len(found) else NOTHING
+        fresh_stretches = np.concatenate([part for trail in self.trails for part in (trail.over(), trail.open)])
+        fresh = Listing.of(fresh_stretches).marks(since=self.since) if len(fresh_stretches) else NOTHING
         return Trodden(self._settled, fresh, self.since, time)
 
     def _conversion_for(self, since: float) -> Conversion:
         """Return the conversion for a second, as far as it has come, or a new one."""
-        found = self._conversion
-        if found is None or found.since != since or found.lasts != self.lasts:
-            self._conversion = found = Conversion(self._kept, self._settled, since, self.lasts)
-        return found
+        conversion = self._conversion
+        if conversion is None or conversion.since != since or conversion.lasts != self.lasts:
+            self._conversion = conversion = Conversion(self._kept, self._settled, since, self.lasts)
+        return conversion
 
     def _settle(self, since: float) -> None:
         """Settle the closed stretches that ended before a full second, minus `SETTLE_AFTER` [s]."""
         self.since = since
-        found = []
+        settling = []
         for trail in self.trails:
-            over = trail.over()
-            then = over[:, LEFT] <= since - SETTLE_AFTER
-            trail.closed = [over[~then]]
-            found.append(over[then])
-        telling = self._conversion_for(since)
-        self._settled = telling.settle(np.concatenate(found))
-        self._kept, self._conversion = telling.kept, None
+            closed = trail.over()
+            is_settling = closed[:, LEFT] <= since - SETTLE_AFTER
+            trail.closed = [closed[~is_settling]]
+            settling.append(closed[is_settling])
+        conversion = self._conversion_for(since)
+        self._settled = conversion.settle(np.concatenate(settling))
+        self._kept, self._conversion = conversion.kept, None

@@ -94,14 +94,14 @@ class Walk:
 
     def _discs_at(self, pose: Doubles) -> Discs:
         """Return the discs of the pressers at these poses (n, 3)."""
-        yaw, own = pose[self._presser_of_disc, 2], self._discs
+        yaw, local = pose[self._presser_of_disc, 2], self._discs
         sine, cosine = np.sin(yaw), np.cos(yaw)
-        x = pose[self._presser_of_disc, 0] + cosine * own[:, 0] - sine * own[:, 1]
-        z = pose[self._presser_of_disc, 1] + sine * own[:, 0] + cosine * own[:, 1]
-        return Discs(np.stack([x, z], axis=1), np.stack([sine, -cosine], axis=1), own[:, 2], self._strength)
+        x = pose[self._presser_of_disc, 0] + cosine * local[:, 0] - sine * local[:, 1]
+        z = pose[self._presser_of_disc, 1] + sine * local[:, 0] + cosine * local[:, 1]
+        return Discs(np.stack([x, z], axis=1), np.stack([sine, -cosine], axis=1), local[:, 2], self._strength)
 
 
 def staying(before: Sequence[EntityPresser], now: Sequence[EntityPresser], /) -> list[EntityPresser]:
     """Return the entries of `before` that are in `now`, in their order."""
-    there = set(now)
-    return [key for key in before if key in there]
+    present = set(now)
+    return [key for key in before if key in present]
