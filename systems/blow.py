@@ -61,7 +61,7 @@ class Blow:
             time = outlook.viewer.time
             winds, heard = list(self.now(time)), 0
             for receiving in hearing(outlook):
-                receiving.letters.blow(partial(self._messages, receiving, time))
+                receiving.messages.blow(partial(self._messages, receiving, time))
                 if not receiving.still:
                     heard += len(receiving.slots) * receiving.per_slot
             outlook.note(Blown(winds, time, heard))

@@ -84,6 +84,6 @@ def _heard(prairie: Prairie, receiving: Receiving, patches: PatchTable) -> tuple
     """Return place, message, kind and representation of a pool's receivers that are shown and planted."""
     pool, slots = receiving.pool, receiving.slots
     grows = pool.grows(slots, patches.cell[receiving.rows])
-    place, message = pool.places(slots).reshape(-1, 2)[grows], receiving.letters.messages(slots).reshape(-1, 2)[grows]
+    place, message = pool.places(slots).reshape(-1, 2)[grows], receiving.messages.current(slots).reshape(-1, 2)[grows]
     kind = np.array(list(prairie.scene.grass))[pool.kind(slots)[grows]]
     return place, message, kind, np.full(len(kind), receiving.representation)

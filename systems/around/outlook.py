@@ -161,7 +161,7 @@ class Outlook:
         """End the frame: messages that a game has written are dropped."""
         for kept in self.kept.values():
             for receiving in kept.receiving:
-                receiving.letters.settle()
+                receiving.messages.settle()
 
     def look(self, view: View, /, *, time: float, leap: float) -> None:
         """Take the view and time [s] of a new frame; a viewer that moves farther than `leap` [m] has jumped."""

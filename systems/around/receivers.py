@@ -44,7 +44,7 @@ Tell = Callable[[Rows], Floats]
 
 
 @dataclass(slots=True, eq=False)
-class Letter:
+class SlotMessages:
     """Messages to one slot's receivers that a game has asked for, each array of shape (n, 2)."""
 
     message: Floats
@@ -57,8 +57,8 @@ class Letter:
     """Copy of `message` after the last update; where they differ, the game has written since."""
 
     @classmethod
-    def of(cls, heard: Floats) -> "Letter":
-        """Return a letter that holds the wind's messages, with nothing written."""
+    def of(cls, heard: Floats) -> "SlotMessages":
+        """Return one that holds the wind's messages, with nothing written."""
         return cls(heard.copy(), heard, heard.copy())
 
     @property
@@ -67,7 +67,7 @@ class Letter:
         return bool((self.message != self.heard).any())
 
 
-class Correspondence:
+class PoolMessages:
     """Messages to a pool's receivers that a game has asked for, and has perhaps overwritten.
 
     All other messages are computed on the graphics card alone, so a game that asks for none pays for none.
@@ -76,7 +76,8 @@ class Correspondence:
     def __init__(self, pool: Pool) -> None:
         self._pool = pool
         self._tell: Tell | None = None
-        self._letters: dict[int, Letter] = {}
+        self._by_slot: dict[int, SlotMessages] = {}
+        """Messages of the slots that a game has asked for."""
         self._prefetched: dict[int, Floats] = {}
         self._has_warned = False
         self.shown: Rows = np.zeros(0, np.int64)
@@ -84,17 +85,17 @@ class Correspondence:
 
     def ask(self, slot: int, /) -> Floats:
         """Return the messages to a slot's receivers, shape (n, 2); from now on what is written into them counts."""
-        if slot not in self._letters:
-            self._letters[slot] = Letter.of(self._fetched(slot))
-        return self._letters[slot].message
+        if slot not in self._by_slot:
+            self._by_slot[slot] = SlotMessages.of(self._fetched(slot))
+        return self._by_slot[slot].message
 
     def _fetched(self, slot: int) -> Floats:
         """Return the wind's messages to a slot's receivers.
 
         The second slot asked for fetches all that are shown, as a game that asks for two will ask for more.
         """
-        asked = self._letters and slot not in self._prefetched and slot in self.shown
-        slots = self.shown if asked else np.array([slot])
+        fetch_all = self._by_slot and slot not in self._prefetched and slot in self.shown
+        slots = self.shown if fetch_all else np.array([slot])
         if slot not in self._prefetched:
             self._prefetched |= zip(slots.tolist(), np.split(self.heard(slots), len(slots)), strict=True)
         return self._prefetched.pop(slot)
@@ -102,7 +103,7 @@ class Correspondence:
     @property
     def busy(self) -> bool:
         """Whether any slot was asked for."""
-        return bool(self._letters)
+        return bool(self._by_slot)
 
     def heard(self, slots: Rows, /) -> Floats:
         """Return the wind's messages to the receivers of slots, shape (n, 2)."""
@@ -110,21 +111,21 @@ class Correspondence:
             return np.zeros((len(slots) * prod(self._pool.shape), 2), np.float32)
         return self._tell(slots)
 
-    def messages(self, slots: Rows, /) -> Floats:
+    def current(self, slots: Rows, /) -> Floats:
         """Return the messages to the receivers of slots (m,), of the wind or as a game wrote them, shape (m, n, 2)."""
         found = self.heard(slots).reshape(len(slots), prod(self._pool.shape), 2)
-        for row, slot in enumerate(slots.tolist() if self._letters else ()):
-            if slot in self._letters:
-                found[row] = self._letters[slot].message
+        for row, slot in enumerate(slots.tolist() if self._by_slot else ()):
+            if slot in self._by_slot:
+                found[row] = self._by_slot[slot].message
         return found
 
     def forget(self, slot: int, /) -> None:
-        """Drop the letter of a slot that holds another patch now."""
-        self._letters.pop(slot, None)
+        """Drop the messages of a slot that holds another patch now."""
+        self._by_slot.pop(slot, None)
 
     def forget_all(self) -> None:
-        """Drop all letters and the wind, because the pool has other receivers now."""
-        self._letters.clear()
+        """Drop the messages of all slots, and the wind, because the pool has other receivers now."""
+        self._by_slot.clear()
         self._prefetched.clear()
         self._tell = None
 
@@ -132,26 +133,26 @@ class Correspondence:
         """Replace the wind's messages by those of `tell`, but keep what a game has written since the last time."""
         self._tell = tell
         self._prefetched.clear()
-        if not self._letters:
+        if not self._by_slot:
             return
-        slots = np.array(list(self._letters))
-        for letter, heard in zip(self._letters.values(), np.split(tell(slots), len(slots)), strict=True):
-            changed = (letter.message != letter.last).any(axis=1)
-            letter.heard = heard
-            letter.message[:] = np.where(changed[:, None], self._valid(letter.message), heard)
-            letter.last[:] = letter.message
+        slots = np.array(list(self._by_slot))
+        for entry, heard in zip(self._by_slot.values(), np.split(tell(slots), len(slots)), strict=True):
+            changed = (entry.message != entry.last).any(axis=1)
+            entry.heard = heard
+            entry.message[:] = np.where(changed[:, None], self._valid(entry.message), heard)
+            entry.last[:] = entry.message
 
     def written(self) -> Iterator[tuple[int, Floats]]:
         """Yield each slot with messages that differ from the wind's, and these messages (n, 2), made valid."""
-        for slot, letter in self._letters.items():
-            if letter.written:
-                letter.message[:] = self._valid(letter.message)
-                yield slot, letter.message
+        for slot, entry in self._by_slot.items():
+            if entry.written:
+                entry.message[:] = self._valid(entry.message)
+                yield slot, entry.message
 
     def settle(self) -> None:
         """Restore the wind's messages after the frame is drawn: what a game writes holds for one frame."""
-        for letter in self._letters.values():
-            letter.message[:] = letter.last[:] = letter.heard
+        for entry in self._by_slot.values():
+            entry.message[:] = entry.last[:] = entry.heard
 
     def _valid(self, message: Floats) -> Floats:
         """Return messages with non-finite numbers set to 0, which is warned of once, and lengths clamped to 1."""
@@ -182,7 +183,7 @@ class Receiving:
         """Whether these receivers are without the small oscillations."""
         self.per_slot = prod(pool.shape)
         """Number of receivers in a slot."""
-        self.letters = Correspondence(pool)
+        self.messages = PoolMessages(pool)
         self.rows: Rows = np.zeros(0, np.int64)
         """Rows of the patch table whose receivers feel the wind in this frame, shape (m,)."""
         self.slots: Rows = np.zeros(0, np.int64)
@@ -198,7 +199,7 @@ class Receiving:
 
     def show(self, rows: Rows, slots: Rows, /) -> None:
         """Let the receivers of these patches feel the wind in this frame."""
-        self.rows, self.slots, self.letters.shown = rows, slots, slots
+        self.rows, self.slots, self.messages.shown = rows, slots, slots
 
     @property
     def addressed(self) -> tuple[Rows, Rows]:
@@ -226,7 +227,7 @@ class Receiving:
         emptied = changed[self._entity[changed] != 0]
         to_delete = self._entity[emptied].tolist()
         for slot in emptied.tolist():
-            self.letters.forget(slot)
+            self.messages.forget(slot)
         self._owner[changed] = self._entity[changed] = 0
         fresh = changed[owner[changed] != 0][: self.BATCH]
         self._owner[fresh] = owner[fresh]
@@ -239,7 +240,7 @@ class Receiving:
 
     def component(self, slot: int, /, *, viewer: str, patch: int) -> Receivers:
         """Return the component of the receivers of a slot."""
-        return Receivers(self.letters, self.pool, slot, patch=patch, representation=self.representation, viewer=viewer)
+        return Receivers(self.messages, self.pool, slot, patch=patch, representation=self.representation, viewer=viewer)
 
     def lose(self) -> None:
         """Handle that all entities of the world have been deleted."""
@@ -258,4 +259,4 @@ class Receiving:
     def _delete(self, world: World, slot: int) -> None:
         world.delete(int(self._entity[slot]))
         self._entity[slot] = 0
-        self.letters.forget(slot)
+        self.messages.forget(slot)

@@ -38,7 +38,7 @@ def messages_of_shown(outlook: Outlook, /) -> tuple[Floats, Floats]:
                 continue
             grows = receiving.pool.grows(receiving.slots, outlook.patches.cell[receiving.rows])
             place.append(receiving.pool.places(receiving.slots).reshape(-1, 2)[grows])
-            message.append(receiving.letters.messages(receiving.slots).reshape(-1, 2)[grows])
+            message.append(receiving.messages.current(receiving.slots).reshape(-1, 2)[grows])
     return np.concatenate(place), np.concatenate(message)
 
 

@@ -91,12 +91,12 @@ def write_messages(received: Received, outlook: Outlook, first: Mapping[str, Seq
     """Upload the messages that a game has written for receivers in the picture, in place of those of the wind."""
     for name, kept in outlook.kept.items():
         for receiving, start in zip(kept.receiving, first[name], strict=True):
-            if receiving.letters.busy and not receiving.still:
+            if receiving.messages.busy and not receiving.still:
                 _write(received, receiving, start, ground)
 
 
 def _write(received: Received, receiving: Receiving, start: int, ground: Ground) -> None:
-    for slot, message in receiving.letters.written():
+    for slot, message in receiving.messages.written():
         for index in np.flatnonzero(receiving.slots == slot).tolist():
             received.write(start + index * receiving.per_slot, _texels(receiving.pool, slot, message, ground))
 

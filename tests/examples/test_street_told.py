@@ -30,7 +30,7 @@ def test_d5_receivers_are_told_the_same_on_the_graphics_card_with_and_without_a_
             prairie.advance(7.0)
             made.shot(prairie)
             for receiving, texels in on_card(prairie):
-                heard = receiving.letters.heard(receiving.slots)
+                heard = receiving.messages.heard(receiving.slots)
                 np.testing.assert_allclose(texels[..., :2].reshape(-1, 2), heard, atol=1e-3, rtol=0.0)
                 longest.append(np.linalg.norm(heard, axis=1).max(initial=0.0))
         assert not prairie.winds.quarantine.reasons

@@ -115,7 +115,7 @@ def test_f3_each_organ_is_drawn_where_numpy_has_it_and_with_its_own_pigment(stag
     patches, shown = outlook.patches, outlook.shows(BladesShown).standing
     rows = patches.cell[shown.rows], patches.model[shown.rows], patches.turn[shown.rows]
     standing, _ = standing_blades(near.stock, *rows, garden.site.ground)
-    heard = outlook.kept["blades"].receiving[0].letters.heard(shown.slots).reshape(*standing.shape, 2)
+    heard = outlook.kept["blades"].receiving[0].messages.heard(shown.slots).reshape(*standing.shape, 2)
     numbers, first = np.frombuffer(painter.shelves.now.numbers.buffer.read(), np.uint32), painter.morph.stream.count
     kinds = list(garden.scene.grass.values())
     met = set()

@@ -80,7 +80,7 @@ def told_alike(prairie: Prairie, on_card: OnCard) -> dict[str, float]:
     for receiving, texels in on_card(prairie):
         slots, told = receiving.slots, texels.reshape(-1, 4)
         place, kind = receiving.pool.places(slots).reshape(-1, 2), receiving.pool.kind(slots)
-        heard = receiving.letters.heard(slots)
+        heard = receiving.messages.heard(slots)
         np.testing.assert_allclose(told[:, :2], heard, atol=CLOSE, rtol=0.0)
         np.testing.assert_allclose(told[:, 2], height_at(ground.terrain, place), atol=CLOSE, rtol=0.0)
         dense = density_at(ground.density, place)[kind, np.arange(len(kind))]
@@ -88,7 +88,7 @@ def told_alike(prairie: Prairie, on_card: OnCard) -> dict[str, float]:
         name, index = receiving.representation, np.linalg.norm(heard, axis=1).max(initial=0.0)
         longest[name] = max(longest.get(name, 0.0), float(index))
     (carpet,), air = prairie.viewers["main"].kept["carpet"].receiving, on_carpet(prairie)
-    heard = carpet.letters.heard(carpet.slots)
+    heard = carpet.messages.heard(carpet.slots)
     np.testing.assert_allclose(air[carpet.slots], heard, atol=CLOSE, rtol=0.0)
     return {**longest, "carpet": float(np.linalg.norm(heard, axis=1).max())}
 
@@ -264,7 +264,7 @@ def test_w1_each_blade_is_drawn_where_it_stands_with_its_own_message(
     patches, shown = outlook.patches, outlook.shows(BladesShown).standing
     rows = patches.cell[shown.rows], patches.model[shown.rows], patches.turn[shown.rows]
     standing, _ = standing_blades(near.stock, *rows, mapped.site.ground)
-    heard = on_card(mapped)[0][0].letters.heard(shown.slots).reshape(*standing.shape, 2)
+    heard = on_card(mapped)[0][0].messages.heard(shown.slots).reshape(*standing.shape, 2)
     numbers, first = np.frombuffer(painter.shelves.now.numbers.buffer.read(), np.uint32), painter.morph.stream.count
     for ribbons in painter.groups:
         count = ribbons.stream.count

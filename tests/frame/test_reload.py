@@ -101,7 +101,7 @@ def receivers(on_card: Callable[[Prairie], Any]) -> Told:
         for receiving, texels in on_card(prairie):
             slots = receiving.slots
             told.update(slots.tobytes() + receiving.pool.places(slots).tobytes() + texels.tobytes())
-            told.update(receiving.letters.heard(slots).tobytes())
+            told.update(receiving.messages.heard(slots).tobytes())
         told.update(patches.representation.tobytes() + patches.progress.tobytes())
         assert prairie.painter is not None
         told.update(carpet_painter(prairie.painter).air.texture.read())

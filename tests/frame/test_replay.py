@@ -41,7 +41,7 @@ told = hashlib.blake2b(digest_size=8)
 outlook, painter = prairie.viewers["main"], prairie.painter
 for receiving in (*outlook.kept["blades"].receiving, *outlook.kept["strips"].receiving):
     slots = receiving.slots
-    told.update(slots.tobytes() + receiving.pool.places(slots).tobytes() + receiving.letters.heard(slots).tobytes())
+    told.update(slots.tobytes() + receiving.pool.places(slots).tobytes() + receiving.messages.heard(slots).tobytes())
 counts = [count for each in painter.painters.values() for count in each.receivers(outlook)]
 texels = np.frombuffer(painter.received.texture.read(), np.float32).reshape(-1, 4)
 for first, count in zip(painter.received.allocate(counts), counts[:-1], strict=False):
@@ -94,7 +94,7 @@ def test_n5_the_wind_does_not_depend_on_the_steps_that_time_took(
             stage.shot(prairie, aim)
         told = hashlib.blake2b(digest_size=8)
         for receiving, texels in on_card(prairie):
-            told.update(texels.tobytes() + receiving.letters.heard(receiving.slots).tobytes())
+            told.update(texels.tobytes() + receiving.messages.heard(receiving.slots).tobytes())
         stories.append(told.hexdigest())
     assert len(set(stories)) == 1
 
@@ -116,7 +116,7 @@ def test_n4_what_the_wind_is_asked_is_what_the_grass_feels(
     for receiving, texels in on_card(prairie):
         slots = receiving.slots
         asked = prairie.wind_at(receiving.pool.places(slots).reshape(-1, 2))
-        np.testing.assert_array_equal(receiving.letters.messages(slots).reshape(-1, 2), asked)
+        np.testing.assert_array_equal(receiving.messages.current(slots).reshape(-1, 2), asked)
         np.testing.assert_allclose(texels[..., :2].reshape(-1, 2), asked, atol=1e-3)
         assert np.linalg.norm(asked, axis=1).max() > 0.1
         felt += len(asked)

@@ -47,7 +47,7 @@ def received():
     for receiving in (*outlook.kept["blades"].receiving, *outlook.kept["strips"].receiving):
         slots, each = receiving.slots, int(np.prod(receiving.pool.shape))
         place = receiving.pool.places(slots).reshape(-1, each, 2)
-        heard = receiving.letters.heard(slots).reshape(-1, each, 2)
+        heard = receiving.messages.heard(slots).reshape(-1, each, 2)
         start = next(first)
         card = texels[start : start + len(slots) * each].reshape(-1, each, 4)
         for where, *what in zip(place, heard, card):
@@ -55,7 +55,7 @@ def received():
     (carpet,), patches = outlook.kept["carpet"].receiving, outlook.patches
     rows = (patches.alive & patches.visible).nonzero()[0]
     air = np.frombuffer(carpet_painter(painter).air.texture.read(), np.float32).reshape(-1, 2)
-    for row, heard in zip(rows, carpet.letters.heard(rows)):
+    for row, heard in zip(rows, carpet.messages.heard(rows)):
         told["carpet", *patches.cell[row].tolist()] = heard.tobytes(), air[row].tobytes()
     return told
 

@@ -98,7 +98,7 @@ def test_wind_tells_which_winds_act_and_what_receivers_hear_that_a_game_asks_for
     systems = systems_on(SITE, [outlook], world)
     systems.run(last=Phase.SEE)
     systems.step("plant")
-    asked = [receiving.letters.ask(int(receiving.slots[0])) for receiving in hearing(outlook)]
+    asked = [receiving.messages.ask(int(receiving.slots[0])) for receiving in hearing(outlook)]
     source = WindSource(Breeze(), "breeze")
     now = blowing([source], Quarantine(), time=0.25, seed=1)
     Blow([outlook], lambda time: now if time == 0.25 else [], eastwards, SITE.growths).run()
@@ -106,7 +106,7 @@ def test_wind_tells_which_winds_act_and_what_receivers_hear_that_a_game_asks_for
     assert (list(blown.winds), blown.time) == (now, 0.25)
     for message, receiving in zip(asked, hearing(outlook), strict=True):
         assert (message == (0.75, 0.0)).all()
-        assert (receiving.letters.heard(receiving.slots) == (0.75, 0.0)).all()
+        assert (receiving.messages.heard(receiving.slots) == (0.75, 0.0)).all()
     assert blown.heard > 1000
 
 

@@ -160,7 +160,7 @@ def test_w1_every_receiver_that_is_seen_hears_the_wind(site: Site, look: Look, w
     count = 0
     for (pool, shown), hears in zip(pooled(outlook), receiving(outlook), strict=True):
         np.testing.assert_array_equal(hears.slots, shown.slots)
-        place, message = pool.places(shown.slots).reshape(-1, 2), hears.letters.heard(shown.slots)
+        place, message = pool.places(shown.slots).reshape(-1, 2), hears.messages.heard(shown.slots)
         alone = lone_receivers(place, grass_of(site.growths, pool.kind(shown.slots)))
         np.testing.assert_array_equal(message, hear(alone, time=0.0))
         assert np.linalg.norm(message, axis=1).mean() > 0.3
@@ -183,7 +183,7 @@ def test_w1_receivers_hear_the_instant_that_the_viewer_sees(site: Site, look: Lo
     assert outlook.noted(Blown, Blown()).time == 7.5
     assert asked == [], "numpy is asked by those alone who want to know"
     for hears in receiving(outlook):
-        assert (hears.letters.heard(hears.slots) == 0.25).all()
+        assert (hears.messages.heard(hears.slots) == 0.25).all()
     assert asked == [7.5] * 3
 
 
@@ -195,9 +195,9 @@ def test_w1_the_same_place_gets_the_same_message_in_blades_and_strips(site: Site
     blade: BladePool = outlook.keeps(BladesKept).pool
     at_blade, at_edge = near.slots[:1], far.slots[:1]
     blade.x[at_blade, :6], blade.z[at_blade, :6] = edge.places(at_edge)[0, 0].reshape(-1, 2)[:6].T
-    edges = to_edges.letters.heard(at_edge)[:6]
+    edges = to_edges.messages.heard(at_edge)[:6]
     assert np.linalg.norm(edges, axis=1).min() > 0.1
-    np.testing.assert_array_equal(to_blades.letters.heard(at_blade)[:6], edges)
+    np.testing.assert_array_equal(to_blades.messages.heard(at_blade)[:6], edges)
 
 
 def test_t2_patches_out_of_sight_do_not_hear(site: Site, look: Look, wind: Wind) -> None:

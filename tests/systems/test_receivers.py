@@ -73,8 +73,8 @@ class Game:
 def pictured(receiving: Receiving) -> Floats:
     """What a pool's receivers are drawn with, (slots, receivers of each, 2): what a game wrote lies over the wind's."""
     shows = np.zeros((receiving.pool.slots, int(np.prod(receiving.pool.shape)), 2), np.float32)
-    shows[receiving.slots] = receiving.letters.heard(receiving.slots).reshape(len(receiving.slots), -1, 2)
-    for slot, message in receiving.letters.written():
+    shows[receiving.slots] = receiving.messages.heard(receiving.slots).reshape(len(receiving.slots), -1, 2)
+    for slot, message in receiving.messages.written():
         shows[slot] = message
     return shows
 
@@ -301,10 +301,10 @@ def test_slots_that_nobody_asks_for_cost_nothing(world: World, game: Game) -> No
     game.frame()
     for _, receivers in world.all(Receivers):
         assert len(receivers.place) == len(receivers.kind)
-    all_letters = [receiving.letters for kept in outlook.kept.values() for receiving in kept.receiving]
-    assert not any(letters.busy for letters in all_letters)
+    all_messages = [receiving.messages for kept in outlook.kept.values() for receiving in kept.receiving]
+    assert not any(messages.busy for messages in all_messages)
     of(world, "blades")[0][1].message[0] = (0.5, 0.5)
-    assert [letters.busy for letters in all_letters] == [True, False, False, False]
+    assert [messages.busy for messages in all_messages] == [True, False, False, False]
 
 
 def test_d2_who_only_reads_messages_changes_no_picture(
@@ -322,9 +322,9 @@ def test_d2_who_only_reads_messages_changes_no_picture(
             assert np.isfinite(receivers.message).all()
     game.frame()
     kept = look(site, 1.0, 1.0, hear=hear).kept.values()
-    letters = [receiving.letters for each in kept for receiving in each.receiving]
-    assert all(each.busy for each in letters)
-    assert not any(list(each.written()) for each in letters)
+    messages = [receiving.messages for each in kept for receiving in each.receiving]
+    assert all(each.busy for each in messages)
+    assert not any(list(each.written()) for each in messages)
     longest = np.linalg.norm(taken[0]["blades"][0], axis=-1).max()
     assert longest > 0.999
     for name in taken[0]:
@@ -359,14 +359,14 @@ def test_what_was_written_for_a_patch_goes_with_it(world: World, looking: Lookin
     for _, receivers in world.all(Receivers):
         receivers.message[:] = (0.0, -0.5)
     outlook = looking(36.0, 1.0, hear=calm)
-    told = [(each.letters, each.rows, each.slots) for kept in outlook.kept.values() for each in kept.receiving]
+    told = [(each.messages, each.rows, each.slots) for kept in outlook.kept.values() for each in kept.receiving]
     fresh = np.array([tuple(cell) not in first for cell in outlook.patches.cell.tolist()])
-    for letters, rows, slots in told:
+    for messages, rows, slots in told:
         assert fresh[rows].any()
-        assert not letters.messages(slots[fresh[rows]]).any()
+        assert not messages.current(slots[fresh[rows]]).any()
     outlook.settle()
     looking(1.0, 1.0, hear=calm)
-    assert not any(letters.messages(slots).any() for letters, _, slots in told)
+    assert not any(messages.current(slots).any() for messages, _, slots in told)
 
 
 def test_an_entity_lives_as_long_as_its_patch_is_shown(world: World, looking: Looking) -> None:

@@ -110,9 +110,9 @@ def test_each_viewer_has_patches_and_pools_of_its_own(laid: Laid) -> None:
     for name in NAMES:
         for mine, theirs in zip(one.kept[name].receiving, other.kept[name].receiving, strict=True):
             assert mine.pool is not theirs.pool
-            mine.letters.ask(0)[:] = (0.0, 0.5)
-            assert mine.letters.busy
-            assert not theirs.letters.busy
+            mine.messages.ask(0)[:] = (0.0, 0.5)
+            assert mine.messages.busy
+            assert not theirs.messages.busy
 
 
 def test_the_finest_level_is_the_most_segments_of_any_ring(laid: Laid) -> None:

@@ -234,7 +234,7 @@ def test_a_site_and_its_viewers_are_enough_for_the_systems_to_run_without_a_prai
         systems.run(last=Phase.BLOW)
         assert here.patches.visible.any()
         (carpet,) = here.kept["carpet"].receiving
-        assert not carpet.letters.messages(carpet.slots).any(), "there is no wind"
+        assert not carpet.messages.current(carpet.slots).any(), "there is no wind"
         centre = here.viewer.centre.copy()
         assert (centre != there.viewer.centre).any()
         look(here, site, looking(0.0, 2.0, -20.0), time=0.5)

@@ -117,7 +117,7 @@ class BladesKept(Kept):
         self.pool.kinds, self.pool.present, self.pool.x, self.pool.z = pool.kinds, pool.present, pool.x, pool.z
         self.pool.ground, self.pool.stamp, self.pool.sown = pool.ground, pool.stamp, pool.sown
         self.ahead = None
-        self.receiving[0].letters.forget_all()
+        self.receiving[0].messages.forget_all()
 
     def slot_states(self) -> NDArray[np.int64]:
         """Return each slot's cell and sowing counts, shape (slots, 4): they change whenever its blades do."""

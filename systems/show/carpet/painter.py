@@ -145,7 +145,7 @@ class CarpetPainter(RepresentationPainter):
             return 0
         centre, first, kept = self._heard
         calls = self.air.hear(centre, first)
-        for row, message in kept.receiving[0].letters.written():
+        for row, message in kept.receiving[0].messages.written():
             self.air.write(row, message[0])
         return calls + self.air.average()
 

@@ -58,5 +58,5 @@ class CarpetKept(Kept):
 
     def leave(self, rows: NDArray[np.int32], /) -> None:
         """Forget the messages that were set for some rows of the patch table."""
-        for row in rows.tolist() if self.receiving[0].letters.busy else ():
-            self.receiving[0].letters.forget(row)
+        for row in rows.tolist() if self.receiving[0].messages.busy else ():
+            self.receiving[0].messages.forget(row)

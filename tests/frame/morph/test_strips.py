@@ -86,7 +86,7 @@ def test_w1_a_strip_stands_between_two_edges_on_the_ground_each_bent_as_numpy_sa
         np.testing.assert_array_equal(picture, (patches.model[ring.rows] * 2 + own)[patch])
         stack = np.where(falls(own, along, turn)[patch], count - 1 - plane, plane)
         places = receiving.pool.places(ring.slots)
-        heard = receiving.letters.heard(ring.slots).reshape(places.shape)
+        heard = receiving.messages.heard(ring.slots).reshape(places.shape)
         height = np.array([strips.height for strips in stock.strips[0]])[kind] * scene.appears.growth[ring.rows][patch]
         spacing, eye = quality.patch / count, np.array(scene.outlook.viewer.eye)
         ends = [places[patch, kind, stack, column + side] for side in (0, 1)]

@@ -100,7 +100,7 @@ def test_n8_arrows_are_what_receivers_have_been_told_whoever_has_told_them(laid:
     rings: list[Standing | StripsOfRing] = [outlook.shows(BladesShown).standing, *outlook.shows(StripsShown).rings]
     for receiving, angle in zip(kept["strips"].receiving, angles[1:], strict=True):
         for slot in receiving.slots.tolist():
-            receiving.letters.ask(slot)[:] = bent(angle)
+            receiving.messages.ask(slot)[:] = bent(angle)
     place, message = messages_of_shown(outlook)
     assert len(place) > 1000
     reach = site.ground.patch * 0.5 + site.representations[1].margin() + 1e-3

@@ -124,7 +124,7 @@ def test_w5_a_wind_across_a_border_of_representations_bends_both_sides_alike(
     slots = slots_at_the_border(flat)
     blown(world, flat, winds, mixing)
     blades, strips = (
-        receiving.letters.heard(np.array([slot])) for receiving, slot in zip(pooled(flat[1])[:2], slots, strict=True)
+        receiving.messages.heard(np.array([slot])) for receiving, slot in zip(pooled(flat[1])[:2], slots, strict=True)
     )
     for number, rows in pairs:
         blade, edge = blades[rows], strips.reshape(len(pairs), -1, 2)[number]
@@ -143,11 +143,11 @@ def test_n4_what_is_asked_of_the_wind_is_what_receivers_of_that_kind_hold(
     world: World, flat: Seen, winds: list[WindPrimitive], mixing: Mixing
 ) -> None:
     site, outlook = flat
-    asked = [(receiving, receiving.letters.ask(int(receiving.slots[0]))) for receiving in pooled(outlook)]
+    asked = [(receiving, receiving.messages.ask(int(receiving.slots[0]))) for receiving in pooled(outlook)]
     made = blown(world, flat, winds, mixing)
     for receiving, first in asked:
         pool, slots = receiving.pool, receiving.slots
-        kind, place, message = pool.kind(slots), pool.places(slots).reshape(-1, 2), receiving.letters.heard(slots)
+        kind, place, message = pool.kind(slots), pool.places(slots).reshape(-1, 2), receiving.messages.heard(slots)
         for number in range(len(site.growths)):
             felt = made.messages_at(place[kind == number], time=2.6, kind=number)
             np.testing.assert_array_equal(felt.view(np.uint32), message[kind == number].view(np.uint32))
@@ -178,7 +178,7 @@ def test_n4_a_carpet_hears_what_is_asked_for_in_its_patchs_middle_less_the_small
     world.delete(moving)
     made.add(gust.model_copy(update={"swing": 0.0}), "gust")
     middle = ((outlook.patches.cell[rows] + 0.5) * SIDE).astype(np.float32)
-    heard = outlook.kept["carpet"].receiving[0].letters.heard(rows)
+    heard = outlook.kept["carpet"].receiving[0].messages.heard(rows)
     np.testing.assert_array_equal(heard, made.messages_at(middle, time=5.0))
     west = middle[:, 0] < 0.0
     for kind, side in ((0, west), (1, ~west)):
