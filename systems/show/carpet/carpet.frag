@@ -64,18 +64,18 @@ uniform int part;  // pixels to draw: 0, all; 1, those with a coverage of at lea
 #include "systems/show/carpet/met.glsl"
 #endif
 
-ByKind grown;  // density of each kind at the place
+ByKind densities_here;  // density of each kind at the place
 
 #if KINDS > 4 || defined(EDGED)
 // The understorey is of the kinds that grow there, up to where they end.
 void evaluate_soil() {
     Lie lies = lie_at(place.xz);
-    lush = understorey_pigment(lies, grown);
+    lush = understorey_pigment(lies, densities_here);
 #ifndef EDGED
     if (!anything_is_cut() && !has_casters())
         return;
 #endif
-    Soil soil = soil_lit(place, lies, grown, 1.0 - haze_opacity(place));
+    Soil soil = soil_lit(place, lies, densities_here, 1.0 - haze_opacity(place));
 #ifdef EDGED
     soil_seen = soil.seen;
 #endif
@@ -95,7 +95,7 @@ void evaluate(float slope) {
     slow_noise = slow_noise_at(leaf_place(place, slope, tall, leaf_area), slope, tall);
     vec2 message = message_at(place.xz);
     stands = lodged(message);
-    sway = sway_of(leaf_areas(grown), message);
+    sway = sway_of(leaf_areas(densities_here), message);
 #endif
 }
 
@@ -105,7 +105,7 @@ Canopy canopy_here(Sight sight) {
 #ifdef EDGED
     canopy.light.leaves = vec2(0.0);
     for (int kind = 0; kind < KINDS; kind++)
-        canopy.light.leaves += OF(met, kind) / max(total(met), TINY) * leaf_area_split(grown, kind);
+        canopy.light.leaves += OF(met, kind) / max(total(met), TINY) * leaf_area_split(densities_here, kind);
 #endif
 #ifdef TRODDEN
     if (trodden_at(place.xz))
@@ -115,7 +115,7 @@ Canopy canopy_here(Sight sight) {
 }
 
 // Display colour of the carpet, grass over the ground `below`, and the spike_factor of its plants. `cover` is the coverage of its grass.
-vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
+vec4 carpet_seen(Sight sight, float cut_height, vec3 below, out float cover) {
     vec2 shown_at = image_place(place.xz, sight.heading, lowered, sight.slope);
     Patch grass_patch = patch_at(shown_at, sway, stands);
     Canopy canopy = canopy_here(sight);
@@ -128,15 +128,15 @@ vec4 carpet_seen(Sight sight, float left, vec3 below, out float cover) {
     float deep = deepest(sight.slope, curvature, tall * stands), stubble = 1.0;
     ByKind area = all_kinds(0.0);
     if (anything_is_cut()) {
-        area = leaf_areas(grown);
-        stubble -= transmittance(weighted_sum(area, leaf_area_left(left)) / max(sight.slope, LOWEST));
+        area = leaf_areas(densities_here);
+        stubble -= transmittance(weighted_sum(area, leaf_area_left(cut_height)) / max(sight.slope, LOWEST));
     }
 #ifndef HEADS
     canopy.bent.yz *= height_factor(sight.on_level, leaf_area);
 #endif
     float shallow = depth_factor(deep, sight.on_level, sight.share, curvature, stands, leaf_area);
     vec4 sent = any_lamps() ? lamps_seen(sight) : vec4(0.0);
-    View view = View(canopy.light, canopy.bent, among, shallow, left, stubble, area, sent, dryness_tint(slow_noise));
+    View view = View(canopy.light, canopy.bent, among, shallow, cut_height, stubble, area, sent, dryness_tint(slow_noise));
 #if KINDS > 4 || defined(EDGED)
     elevation = elevation_index(sight.on_level, leaf_area);
 #endif
@@ -185,19 +185,19 @@ float find_grass() {
     if (skirt > 0.0 && at <= 0.0)  // grass is as high on both sides: the tile before draws it
         at = -1.0;
     place = moved_along(mesh_place, max(at, 0.0));
-    grown = density_at(place.xz);
-    float left = cut_height_here(place.xz);
-    tall = carpet_height(grown, left);
-    leaf_area = weighted_sum(grown, leaf_areas(leaf_area_left(left)));
-    return at < 0.0 ? 0.0 : hidden_behind(way, at, aside, leaf_areas(grown), left);
+    densities_here = density_at(place.xz);
+    float cut_height = cut_height_here(place.xz);
+    tall = carpet_height(densities_here, cut_height);
+    leaf_area = weighted_sum(densities_here, leaf_areas(leaf_area_left(cut_height)));
+    return at < 0.0 ? 0.0 : hidden_behind(way, at, aside, leaf_areas(densities_here), cut_height);
 }
 
 // Set the weights of the images of kinds.
-void evaluate_kinds(float slope, float left) {
+void evaluate_kinds(float slope, float cut_height) {
     ByKind ripe;
     float on_level = max(level_slope(max(slope, 0.0), curvature, mesh_share, tall, stands), FLATTEST);
-    met = kinds_met(grown, on_level, left, height_past_strips(1.0 - strips_before, mesh_share), ripe);
-    met = image_weights(met, grown, on_level);
+    met = kinds_met(densities_here, on_level, cut_height, height_past_strips(1.0 - strips_before, mesh_share), ripe);
+    met = image_weights(met, densities_here, on_level);
 #ifdef HEADS
     riper = ripe;
 #endif
@@ -206,9 +206,10 @@ void evaluate_kinds(float slope, float left) {
 
 // Set the pixel's colour, and return whether it shows anything. `hidden` is a factor of its coverage. `dx` and `dy` lead to the next
 // pixels across and up (x, z) [m], `soil_dx` and `soil_dy` do so on the ground between.
-bool draw_pixel(float slope, float ahead, float left, float share, float hidden, vec2 dx, vec2 dy, vec3 ground, vec2 soil_dx, vec2 soil_dy) {
-    vec3 pigment = litter_pigment(ground.xz, soil_dx, soil_dy, transmittance(leaf_area / max(slope, LOWEST)), lush, left);
-    vec3 soil_light = soil_radiance(Soil(soil_seen, sunlit, skylit, soil_extinction, soil_through), ground, left);
+bool draw_pixel(float slope, float ahead, float cut_height, float share, float hidden, vec2 dx, vec2 dy, vec3 ground, vec2 soil_dx,
+                vec2 soil_dy) {
+    vec3 pigment = ground_pigment(ground.xz, soil_dx, soil_dy, transmittance(leaf_area / max(slope, LOWEST)), lush, cut_height);
+    vec3 soil_light = soil_radiance(Soil(soil_seen, sunlit, skylit, soil_extinction, soil_through), ground, cut_height);
     vec3 color = tone_mapped(soil_light * pigment * pigment + lit[2].rgb);
     float cover = 0.0;
     if (over_hosts > 0.0)
@@ -227,7 +228,7 @@ bool draw_pixel(float slope, float ahead, float left, float share, float hidden,
         slope = rim_path < NO_RIM ? slope : slope_below(slope, curvature, pixel_height(place));
         float on_level = level_slope(slope, curvature, share, tall, stands);
         Sight sight = Sight(heading_to(place.xz), slope, on_level, smoothstep(ABOVE.x, ABOVE.y, slope), share, dx, dy);
-        vec4 seen = carpet_seen(sight, left, color, cover);
+        vec4 seen = carpet_seen(sight, cut_height, color, cover);
         color = seen.rgb;
         if (met_there.x < ENOUGH)
             covered = mix(1.0, outline_cover(met_there * spikes_over_edge(seen.a)), hides);
@@ -243,18 +244,18 @@ void main() {
 #ifndef EDGED
     vec2 dx = dFdx(place.xz), dy = dFdy(place.xz);
     if (KINDS > 4 || anything_is_cut())
-        grown = density_at(place.xz);
+        densities_here = density_at(place.xz);
 #if KINDS > 4
     rise = gradient_at(place.xz);
 #endif
-    float slope = viewing_slope(rise, place), left = cut_height_seen(place.xz), share = share_here();
+    float slope = viewing_slope(rise, place), cut_height = cut_height_seen(place.xz), share = share_here();
     float ahead = carpet_rise_ahead(place.xz, tall);
     evaluate(slope);
     vec3 ground = sight_at_height(0.0, slope);
-    bool shown = draw_pixel(slope, ahead, left, share, 1.0, dx, dy, ground, dFdx(ground.xz), dFdy(ground.xz));
+    bool shown = draw_pixel(slope, ahead, cut_height, share, 1.0, dx, dy, ground, dFdx(ground.xz), dFdy(ground.xz));
 #else
     vec2 dx = dFdx(mesh_place.xz), dy = dFdy(mesh_place.xz);
-    float hidden = find_grass(), left = cut_height_here(place.xz), share = share_here();
+    float hidden = find_grass(), cut_height = cut_height_here(place.xz), share = share_here();
     float slope = viewing_slope(rise, place);
     vec3 ground = sight_at_height(0.0, slope);
     vec2 soil_dx = dFdx(ground.xz), soil_dy = dFdy(ground.xz);
@@ -262,8 +263,8 @@ void main() {
     // Most pixels of these tiles meet no grass. They are discarded only at the end: after a discard, Mesa tests in each turn of a loop.
     if (hidden >= NOTHING && share > 0.0) {
         evaluate(slope);
-        evaluate_kinds(slope, left);
-        shown = draw_pixel(slope, 0.0, left, share, hidden, dx, dy, ground, soil_dx, soil_dy);
+        evaluate_kinds(slope, cut_height);
+        shown = draw_pixel(slope, 0.0, cut_height, share, hidden, dx, dy, ground, soil_dx, soil_dy);
     }
 #endif
     if (!shown || over_hosts > 0.0 && pixel.a < NOTHING || part != 0 && pixel.a < HALF == (part == 1))

@@ -130,14 +130,14 @@ ByKind filled_covers(ByKind covers) {
 #endif
 
 // Light the leaves that are met.
-void light_leaves(float slope, float on, ByKind grows, vec2 message) {
+void light_leaves(float slope, float on, ByKind densities, vec2 message) {
     vec3 there = leaf_place(place, slope, tall, leaf_area);
     vec2 messages[KINDS];
     for (int kind = 0; kind < KINDS; kind++)
         messages[kind] = message;
     Canopy canopy = canopy_lit(met, slope, on, there, lie_at(there.xz), messages);
 #ifndef HEADS  // among plants in flower, grass is as bright as in its images
-    canopy.bent.y *= tip_ratio(met, grows, on);
+    canopy.bent.y *= tip_ratio(met, densities, on);
 #endif
 #ifdef COARSE
     vec3 fresh = dryness_tint(slow_noise_at(there, slope, tall));
@@ -155,12 +155,12 @@ void light_leaves(float slope, float on, ByKind grows, vec2 message) {
 // Light the soil that is seen between, and what lies on it.
 void light_soil(vec3 ground, Laid laid) {
     Lie lies = lie_at(ground.xz);
-    ByKind grows = grown_at(ground.xz, laid);
-    Soil soil = soil_lit(ground, lies, grows, 1.0 - haze_opacity(place));
+    ByKind densities = grown_at(ground.xz, laid);
+    Soil soil = soil_lit(ground, lies, densities, 1.0 - haze_opacity(place));
 #ifdef COARSE
     vec2 usual = textureLod(repeating, vec2(0.5), COARSEST).gb;
-    vec3 pigment = litter_pigment(usual, understorey_pigment(lies, grows));
-    vec3 skylit = soil.skylit * transmittance(OPEN_SKY * total(leaf_areas(grows)));
+    vec3 pigment = litter_pigment(usual, understorey_pigment(lies, densities));
+    vec3 skylit = soil.skylit * transmittance(OPEN_SKY * total(leaf_areas(densities)));
     soil_seen = tone_mapped(soil.seen * pigment * pigment + lit[2].rgb) / max(usual.x, LEAST_TEXEL);
     soil_shaded = tone_mapped(skylit * pigment * pigment + lit[2].rgb) / max(usual.x, LEAST_TEXEL);
 #else
@@ -169,7 +169,7 @@ void light_soil(vec3 ground, Laid laid) {
     skylit = soil.skylit;
     soil_extinction = soil.extinction;
     soil_through = soil.through;
-    lush = understorey_pigment(lies, grows);
+    lush = understorey_pigment(lies, densities);
 #endif
 }
 #endif
@@ -199,8 +199,8 @@ void main() {
 #endif
     on_level = max(level_slope(max(slope, 0.0), curvature, mesh_share, tall, stands), FLATTEST);
     ByKind ripe;
-    met = kinds_met(laid.grows, on_level, laid.left, height_past_strips(1.0 - strips_before, mesh_share), ripe);
-    met = image_weights(met, laid.grows, on_level);
+    met = kinds_met(laid.densities, on_level, laid.cut_height, height_past_strips(1.0 - strips_before, mesh_share), ripe);
+    met = image_weights(met, laid.densities, on_level);
 #ifdef HEADS
     riper = ripe;
 #endif
@@ -210,7 +210,7 @@ void main() {
 #else
     sway = sway_of(met, laid.message);
 #endif
-    light_leaves(slope, on_level, laid.grows, laid.message);
+    light_leaves(slope, on_level, laid.densities, laid.message);
 #ifdef COARSE
     met = filled_covers(met);
 #endif

@@ -13,14 +13,14 @@ out float optical_depth;  // of the grass, in leaves, for light down to the grou
 
 void main() {
     place = on_ground(on_mesh());
-    ByKind grows = density_at(place.xz);
-    float left = anything_is_cut() ? cut_height_about(place.xz, tile.z) : tallest_grass;
+    ByKind densities = density_at(place.xz);
+    float cut_height = anything_is_cut() ? cut_height_about(place.xz, tile.z) : tallest_grass;
     float up = max(dot(lie_at(place.xz).normal, normalize(light - place)), 0.0), sum = 0.0;
-    ByKind area = leaf_areas(grows), stays = leaf_area_left(left);
+    ByKind area = leaf_areas(densities), stays = leaf_area_left(cut_height);
     grass_height = optical_depth = 0.0;
     for (int kind = 0; kind < KINDS; kind++) {
         float leaves = OF(area, kind) * OF(stays, kind);
-        grass_height += leaves * min(OF(crown, kind), left);
+        grass_height += leaves * min(OF(crown, kind), cut_height);
         optical_depth += leaves * sun_extinction(kind, up);
         sum += leaves;
     }

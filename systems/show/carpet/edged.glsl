@@ -17,11 +17,11 @@ const float NO_GRASS = 0.004;  // height of the carpet up to which there is no g
 const float ROUNDED = 1e-3;  // tolerance for rounding, as a fraction of the mesh's height
 
 // Height of the carpet over the ground for these densities and a cut height [m].
-float carpet_height(ByKind grows, float left) {
+float carpet_height(ByKind densities, float cut_height) {
     float high = 0.0;
     for (int group = 0; group < GROUPS; group++)
-        high += dot(grows[group], min(raised[group], left));
-    return high / max(total(grows), 1.0);
+        high += dot(densities[group], min(raised[group], cut_height));
+    return high / max(total(densities), 1.0);
 }
 
 // Height to which grass is cut at a place [m].
@@ -69,7 +69,8 @@ float depth_below_top(Way way, float at) {
 
 // Distance at which it enters grass [m], negative if it meets none; `aside` tells whether it enters from the side.
 float entry_distance(Way way, out bool aside) {
-    float most = min(distance_to_ground(way), FARTHEST_ENTERED), step = most / clamp(min(ceil(most / SHORTEST_STEP), way.pixels), 1.0, STEPS);
+    float most = min(distance_to_ground(way), FARTHEST_ENTERED);
+    float step = most / clamp(min(ceil(most / SHORTEST_STEP), way.pixels), 1.0, STEPS);
     float at = 0.0, below, number = 0.0, high = way.high;
     aside = false;
     while ((below = depth_below_top(way, at)) < 0.0) {
@@ -99,12 +100,13 @@ const float LEAVES_ENOUGH = 3.0;  // optical depth behind which nothing is seen
 
 // Opacity of the grass that a line of sight has entered: below 1 if it leaves the grass again before it is stopped. Then it has met the
 // uncut leaves above the height at which it leaves.
-float hidden_behind(Way way, float at, bool aside, ByKind area, float left) {
-    float slope = max(way.slope, FLATTEST), enters_at = height_over_ground(way, at), none = leaf_area_above(left, area);
+float hidden_behind(Way way, float at, bool aside, ByKind area, float cut_height) {
+    float slope = max(way.slope, FLATTEST), enters_at = height_over_ground(way, at), none = leaf_area_above(cut_height, area);
     float parts = clamp(way.pixels, FEWEST_PARTS, PARTS), step = enters_at / (slope * parts + TINY);
-    float before = aside ? leaf_area_above(min(enters_at, left), area) : none;
+    float before = aside ? leaf_area_above(min(enters_at, cut_height), area) : none;
     for (float part = 1.0; part <= parts; part += 1.0) {
-        float there = at + step * (part - 0.5), met = (leaf_area_above(min(height_over_ground(way, there), left), area) - before) / slope;
+        float there = at + step * (part - 0.5);
+        float met = (leaf_area_above(min(height_over_ground(way, there), cut_height), area) - before) / slope;
         if (met > LEAVES_ENOUGH)
             return 1.0;
         there += NEARLY_HALF * step;

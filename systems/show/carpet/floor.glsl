@@ -11,9 +11,9 @@ struct Soil {
 };
 
 // Light the soil; `clear` is the transmittance of the air before it.
-Soil soil_lit(vec3 place, Lie lies, ByKind grows, float clear) {
-    Surface surface = soil_surface(lies, grows);
-    float leaves = total(leaf_areas(grows));
+Soil soil_lit(vec3 place, Lie lies, ByKind densities, float clear) {
+    Surface surface = soil_surface(lies, densities);
+    float leaves = total(leaf_areas(densities));
     Light light = light_on_soil(place, lies, leaves);
     vec3 seen = shade(surface, light);
     light.leaves = vec2(0.0);

@@ -20,15 +20,15 @@ out vec4 pixel;
 void main() {
 #ifdef EDGED
     Lie lies = lie_at(place.xz);
-    ByKind grows = density_at(place.xz);
-    Soil soil = soil_lit(place, lies, grows, 1.0 - haze_opacity(place));
-    vec3 lush = understorey_pigment(lies, grows);
+    ByKind densities = density_at(place.xz);
+    Soil soil = soil_lit(place, lies, densities, 1.0 - haze_opacity(place));
+    vec3 lush = understorey_pigment(lies, densities);
 #else
     Soil soil = Soil(soil_seen, sunlit, skylit, soil_extinction, soil_through);
 #endif
-    float left = cut_height_seen(place.xz);
-    vec3 pigment = litter_pigment(place.xz, dFdx(place.xz), dFdy(place.xz), 1.0, lush, left);
-    vec3 ground = soil_radiance(soil, place, left);
+    float cut_height = cut_height_seen(place.xz);
+    vec3 pigment = ground_pigment(place.xz, dFdx(place.xz), dFdy(place.xz), 1.0, lush, cut_height);
+    vec3 ground = soil_radiance(soil, place, cut_height);
     pixel = vec4(tone_mapped(ground * pigment * pigment + haze), 1.0);
 #ifdef EDGED
     if (is_hole(place.xz))

@@ -23,14 +23,14 @@ void main() {
     haze = haze_radiance(place) * hidden;
 #ifndef EDGED
     Lie lies = lie_at(place.xz);
-    ByKind grows = density_at(place.xz);
-    Soil ground = soil_lit(place, lies, grows, 1.0 - hidden);
+    ByKind densities = density_at(place.xz);
+    Soil ground = soil_lit(place, lies, densities, 1.0 - hidden);
     soil_seen = ground.seen;
     sunlit = ground.sunlit;
     skylit = ground.skylit;
     soil_extinction = ground.extinction;
     soil_through = ground.through;
-    lush = understorey_pigment(lies, grows);
+    lush = understorey_pigment(lies, densities);
 #endif
     gl_Position = clip * vec4(place, 1.0);
     gl_Position.z += depth_offset(pushed) * gl_Position.w;

@@ -25,10 +25,10 @@ struct Met {
 
 // Add a layer with the optical depths `stop` of kinds and the fractions `heads` of that. The line of sight is `inside` for a fraction of
 // the layer; `part` is the factor of optical depths in images.
-void add_layer(inout Met met, ByKind stop, ByKind heads, ByKind grows, float inside, float part) {
-    float sum = weighted_sum(stop, grows), stopped = met.through * (1.0 - transmittance(inside * sum));
+void add_layer(inout Met met, ByKind stop, ByKind heads, ByKind densities, float inside, float part) {
+    float sum = weighted_sum(stop, densities), stopped = met.through * (1.0 - transmittance(inside * sum));
     for (int group = 0; group < GROUPS; group++) {
-        vec4 share = stopped * stop[group] * grows[group] / max(sum, THINNEST_LAYER);
+        vec4 share = stopped * stop[group] * densities[group] / max(sum, THINNEST_LAYER);
         vec4 alone = met.through_alone[group];
         alone *= 1.0 - vec4(transmittance(part * stop[group].xy), transmittance(part * stop[group].zw));
         met.all[group] += share;
@@ -40,14 +40,14 @@ void add_layer(inout Met met, ByKind stop, ByKind heads, ByKind grows, float ins
     met.through -= stopped;
 }
 
-// Share of each kind in what a line of sight meets. Layers grow thicker downwards from the top or from the cut height `left` [m], and
+// Share of each kind in what a line of sight meets. Layers grow thicker downwards from the top or from `cut_height` [m], and
 // begin at a fraction `below` of that. `riper` is the excess of a kind's heads over its image, in which it grows alone: at 1 all is
 // heads, at -1 none.
-ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind riper) {
+ByKind kinds_met(ByKind densities, float slope, float cut_height, float below, out ByKind riper) {
     float top = 0.0, from = 1.0;
     for (int kind = 0; kind < KINDS; kind++)
-        top = max(top, OF(grows, kind) > LEAST_MET ? OF(crown, kind) * HIGHEST : 0.0);
-    top = min(top, left);
+        top = max(top, OF(densities, kind) > LEAST_MET ? OF(crown, kind) * HIGHEST : 0.0);
+    top = min(top, cut_height);
     Met met = Met(all_kinds(0.0), all_kinds(0.0), all_kinds(0.0), all_kinds(0.0), all_kinds(1.0), 1.0);
     below /= mix(HIGHEST, 1.0, smoothstep(LONE.x, LONE.y, below));  // strips hide parts of the canopy, not of lone heads
     ByKind leaves = leaves_met(slope);
@@ -63,7 +63,7 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
             OF(stop, kind) = here.x * OF(leaves, kind);
             OF(heads, kind) = here.y / max(here.x, THINNEST_LAYER);
         }
-        add_layer(met, stop, heads, grows, clamp((below - to) / (from - to), 0.0, 1.0), min(slope / LOWEST, 1.0));
+        add_layer(met, stop, heads, densities, clamp((below - to) / (from - to), 0.0, 1.0), min(slope / LOWEST, 1.0));
         from = to;
     }
     for (int group = 0; group < GROUPS; group++) {

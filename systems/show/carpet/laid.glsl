@@ -21,8 +21,8 @@ uniform ByKind raised; // by kind: height of the carpet above the ground [m]
 struct Laid {
     float ground;          // height of the ground [m]
     float share;           // the carpet's share of the grass, in [0, 1]
-    ByKind grows;          // density of each kind
-    float left;            // height to which it is cut [m]
+    ByKind densities;      // density of each kind
+    float cut_height;      // height to which it is cut [m]
     float tall;            // height of the carpet [m]
     float tops;            // height of the tops that form the silhouette over a crest, as a fraction of `tall`
     float trodden_height;  // fraction of `tall` that is left where grass is trodden
@@ -44,8 +44,8 @@ float lowest_share(vec2 place) {
 }
 
 // Height of the grass under a message of the wind, as a fraction of that at rest.
-float height_in_wind(ByKind grows, vec2 message) {
-    ByKind area = leaf_areas(grows);
+float height_in_wind(ByKind densities, vec2 message) {
+    ByKind area = leaf_areas(densities);
     float high = 0.0;
     for (int kind = 0; kind < KINDS; kind++)
         high += OF(area, kind) * lodged(bending(kind, message));
@@ -82,9 +82,9 @@ vec2 neighbour(vec2 place, int number) {
 ByKind densest_about(vec2 place) {
     ByKind densest = all_kinds(0.0);
     for (int number = 0; number < NEIGHBOURS; number++) {
-        ByKind grows = density_at(neighbour(place, number));
-        if (total(grows) > total(densest))
-            densest = grows;
+        ByKind densities = density_at(neighbour(place, number));
+        if (total(densities) > total(densest))
+            densest = densities;
     }
     return total(densest) > SPARSEST ? densest : all_kinds(1.0 / float(KINDS));
 }
@@ -92,10 +92,10 @@ ByKind densest_about(vec2 place) {
 
 // Least fraction of the carpet's height that is left where grass is trodden around a vertex: so what a game lays there is not hidden.
 // Where all grass lies flat, only blades on top of one another are left of the height.
-float trodden_height_about(vec2 place, ByKind grows) {
+float trodden_height_about(vec2 place, ByKind densities) {
     float lowest = 1.0;
 #ifdef TRODDEN
-    ByKind area = leaf_areas(grows);
+    ByKind area = leaf_areas(densities);
     float all = max(total(area), TINY);
     for (int number = 0; number < ALL_NEIGHBOURS; number++) {
         vec2 at = neighbour(place, number);
@@ -115,12 +115,12 @@ float trodden_height_about(vec2 place, ByKind grows) {
 const float TALLEST = 4.0;  // exponent of the mean over kinds: a few tall plants are enough to hide what is behind a crest
 
 // Height of the tops of all kinds that are seen over a crest, as a fraction of the mean height.
-float tops_height(ByKind grows, float left) {
-    float sum = 0.0, mean = 0.0, all = max(total(grows), TINY);
+float tops_height(ByKind densities, float cut_height) {
+    float sum = 0.0, mean = 0.0, all = max(total(densities), TINY);
     for (int kind = 0; kind < KINDS; kind++) {
-        float high = min(OF(raised, kind), left);
-        mean += OF(grows, kind) * high;
-        sum += OF(grows, kind) * pow(high, TALLEST);
+        float high = min(OF(raised, kind), cut_height);
+        mean += OF(densities, kind) * high;
+        sum += OF(densities, kind) * pow(high, TALLEST);
     }
     return mean > TINY ? pow(sum / all, 1.0 / TALLEST) * all / mean : 1.0;
 }
@@ -128,22 +128,22 @@ float tops_height(ByKind grows, float left) {
 // Set the densities and heights of the grass at a vertex.
 void set_grass(inout Laid laid, vec2 place) {
 #ifdef EDGED
-    laid.grows = densest_about(place);
-    laid.left = UNCUT;
+    laid.densities = densest_about(place);
+    laid.cut_height = UNCUT;
     laid.tall = 0.0;
     for (int kind = 0; kind < KINDS; kind++)
         laid.tall = max(laid.tall, OF(raised, kind));
 #else
-    laid.grows = density_at(place);
-    laid.left = anything_is_cut() ? cut_height_about(place, grid_spacing) : UNCUT;
+    laid.densities = density_at(place);
+    laid.cut_height = anything_is_cut() ? cut_height_about(place, grid_spacing) : UNCUT;
     laid.tall = 0.0;
     for (int group = 0; group < GROUPS; group++)
-        laid.tall += dot(laid.grows[group], min(raised[group], laid.left));
-    laid.tall /= max(total(laid.grows), 1.0);
+        laid.tall += dot(laid.densities[group], min(raised[group], laid.cut_height));
+    laid.tall /= max(total(laid.densities), 1.0);
 #endif
-    laid.tops = tops_height(laid.grows, laid.left);
-    laid.trodden_height = trodden_height_about(place, laid.grows);
-    laid.leaf_area = weighted_sum(laid.grows, leaf_areas(leaf_area_left(laid.left)));
+    laid.tops = tops_height(laid.densities, laid.cut_height);
+    laid.trodden_height = trodden_height_about(place, laid.densities);
+    laid.leaf_area = weighted_sum(laid.densities, leaf_areas(leaf_area_left(laid.cut_height)));
 }
 
 #include "systems/show/carpet/rim.glsl"
@@ -159,7 +159,7 @@ Laid laid_on(inout vec3 place) {
     place.y += high;
     laid.curvature = curvature_at(place.xz, laid.ground, laid.rise, viewing_slope(laid.rise, place), laid.tall);
     laid.message = message_at(place.xz);
-    laid.stands = height_in_wind(laid.grows, laid.message);
+    laid.stands = height_in_wind(laid.densities, laid.message);
     float deep = deepest(max(viewing_slope(laid.rise, place), 0.0), laid.curvature, laid.tall * laid.stands);
     float lifts = carpet_lift(deep, laid.curvature, laid.stands);
     laid.crest_weight = crest_weight(deep, laid.curvature);
@@ -183,7 +183,7 @@ vec3 seen_behind(vec3 place, float ground, float slope) {
 // Densities at a place of the ground that is seen from a vertex of the mesh.
 ByKind grown_at(vec2 place, Laid laid) {
 #ifdef EDGED
-    return laid.grows;
+    return laid.densities;
 #else
     return density_at(place);
 #endif

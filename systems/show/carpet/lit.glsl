@@ -44,15 +44,15 @@ vec2 message_at(vec2 at) {
 
 // Mean over the kinds that are met of their light and bending, each bent by its own message.
 Canopy canopy_lit(ByKind met, float slope, float on_level, vec3 there, Lie lies, vec2 messages[KINDS]) {
-    ByKind grows = density_at(there.xz);
+    ByKind densities = density_at(there.xz);
     Canopy sum = Canopy(Light(vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, vec2(0.0)), vec3(0.0), vec2(0.0));
     vec3 ray = there - eye;
     ray /= max(length(ray.xz), TINY);
-    float all = 1.0 / max(total(met), TINY), area = max(total(leaf_areas(grows)), THINNEST);
+    float all = 1.0 / max(total(met), TINY), area = max(total(leaf_areas(densities)), THINNEST);
     for (int kind = 0; kind < KINDS; kind++) {
         vec2 bend = bending(kind, messages[kind]);
         float part = OF(met, kind) * all;
-        Light light = leaf_light(kind, bend, there, lies, grows);
+        Light light = leaf_light(kind, bend, there, lies, densities);
         vec3 turned = turned_pigment(kind, lean_direction(bend), ray);
         light.sun *= turned * turned;
         light.sky *= turned * turned;

@@ -15,15 +15,15 @@ ByKind leaves_met(float slope) {
 
 const int LAYERS = 4;
 
-// Share of each kind in what a line of sight meets. The grass is taken in layers, down from its top or from the cut height `left` [m],
+// Share of each kind in what a line of sight meets. The grass is taken in layers, down from its top or from `cut_height` [m],
 // beginning at a fraction `below` of that; leaf area falls off linearly with height.
-ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind riper) {
+ByKind kinds_met(ByKind densities, float slope, float cut_height, float below, out ByKind riper) {
     float top = 0.0;
     ByKind leaves = leaves_met(slope);
     riper = all_kinds(0.0);  // none has heads
     for (int kind = 0; kind < KINDS; kind++)
-        top = max(top, OF(grows, kind) > LEAST_MET ? OF(crown, kind) : 0.0);
-    top = min(top, left) * below;
+        top = max(top, OF(densities, kind) > LEAST_MET ? OF(crown, kind) : 0.0);
+    top = min(top, cut_height) * below;
     ByKind met = all_kinds(0.0);
     float through = 1.0, part = 1.0 / float(LAYERS);
     for (int layer = 0; layer < LAYERS; layer++) {
@@ -31,7 +31,7 @@ ByKind kinds_met(ByKind grows, float slope, float left, float below, out ByKind 
         ByKind stop = all_kinds(0.0);
         for (int kind = 0; kind < KINDS; kind++) {
             float canopy_height = OF(crown, kind);
-            OF(stop, kind) = OF(grows, kind) * OF(leaves, kind) * 2.0 * max(1.0 - height / canopy_height, 0.0) * top / canopy_height;
+            OF(stop, kind) = OF(densities, kind) * OF(leaves, kind) * 2.0 * max(1.0 - height / canopy_height, 0.0) * top / canopy_height;
         }
         float sum = total(stop);
         float stopped = through * (1.0 - transmittance(part * sum));
@@ -50,12 +50,12 @@ float image_opacity(int kind, ByKind leaves) {
 
 // Weights of the images of kinds, by what is met of each. Images have the opacity of a kind that grows densely and alone. Half of its
 // leaves have more than half of its opacity, and the leaves of two kinds have more than those of either.
-ByKind image_weights(ByKind met, ByKind grows, float slope) {
+ByKind image_weights(ByKind met, ByKind densities, float slope) {
     float all = max(total(met), THINNEST_LAYER), alone = 0.0;
     ByKind leaves = leaves_met(slope);
     for (int kind = 0; kind < KINDS; kind++)
         alone += OF(met, kind) / all * image_opacity(kind, leaves);
-    float hides = (1.0 - transmittance(weighted_sum(leaves, grows))) / max(alone, TINY);
+    float hides = (1.0 - transmittance(weighted_sum(leaves, densities))) / max(alone, TINY);
     for (int group = 0; group < GROUPS; group++)
         met[group] = met[group] / all * hides;
     return met;
@@ -69,8 +69,8 @@ float height_past_strips(float met_carpet, float share) {
 
 // Factor of the mean place along blades that is met, averaged over kinds, relative to images, in which each kind grows densely and
 // alone. Thin grass, or grass that stands out of a lower kind, is met farther down; as blades differ in length, less so along each.
-float tip_ratio(ByKind met, ByKind grows, float slope) {
-    ByKind area = leaf_areas(grows);
+float tip_ratio(ByKind met, ByKind densities, float slope) {
+    ByKind area = leaf_areas(densities);
     float tips = 0.0;
     slope = max(slope, LOWEST);
     for (int kind = 0; kind < KINDS; kind++) {

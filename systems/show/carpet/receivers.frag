@@ -13,9 +13,9 @@ void main() {
     // Cells wrap round: each texel is a cell of the window.
     ivec2 cell = low + (at - low + PERIODS * around.z) % around.z;
     vec2 place = (vec2(cell) + 0.5) * patch_side;
-    ByKind grows = density_at(place);
+    ByKind densities = density_at(place);
     int kind = 0;
     for (int other = 1; other < KINDS; other++)
-        kind = OF(grows, other) > OF(grows, kind) ? other : kind;
+        kind = OF(densities, other) > OF(densities, kind) ? other : kind;
     message = hear(place, kind, true, around.w + at.y * around.z + at.x);
 }

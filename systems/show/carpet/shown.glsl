@@ -14,14 +14,14 @@ const float STUBBLE = 1.5;  // unevenness of stubble, relative to that of the gr
 // What a pixel has in common for the grass of all kinds.
 struct View {
     Light light;
-    vec3 bent;      // from bent_change: additional leaves, factors of place and height
-    vec2 among;     // from among_strips: factors of opacity and height
-    float shallow;  // from depth_factor
-    float left;     // height to which it is cut [m]
-    float stubble;  // opacity of what is left where it is cut
-    ByKind area;    // leaf area index of each kind, where anything is cut
-    vec4 lamps;     // from lamps_at
-    vec3 fresh;     // factor of the pigment for drier and fresher stretches
+    vec3 bent;         // from bent_change: additional leaves, factors of place and height
+    vec2 among;        // from among_strips: factors of opacity and height
+    float shallow;     // from depth_factor
+    float cut_height;  // height to which it is cut [m]
+    float stubble;     // opacity of what is left where it is cut
+    ByKind area;       // leaf area index of each kind, where anything is cut
+    vec4 lamps;        // from lamps_at
+    vec3 fresh;        // factor of the pigment for drier and fresher stretches
 };
 
 // Change the place and height of a texel among strips, over a crest and in the wind.
@@ -39,12 +39,12 @@ void shift_leaves(int kind, inout Texel texel, View view) {
 
 // Change a texel and its light where the kind is cut: as if the same grass were compressed.
 void apply_cut(int kind, inout Texel texel, inout Light light, View view, float usual_height) {
-    float part = min(view.left / max(OF(crown, kind), LOWEST_GRASS), 1.0);
+    float part = min(view.cut_height / max(OF(crown, kind), LOWEST_GRASS), 1.0);
     float uneven = 1.0 + STUBBLE * (texel.height / max(usual_height, LEAST_TEXEL) - 1.0);
     texel.covers = mix(min(view.stubble * uneven, 1.0), texel.covers, part);
     texel.place *= part;
     texel.height *= part;
-    light = light_when_cut(view.left, light, kind, view.area);
+    light = light_when_cut(view.cut_height, light, kind, view.area);
 }
 
 // The point of the line of sight through the pixel that is `height` [m] over the ground.
@@ -92,7 +92,7 @@ vec4 kind_seen(int kind, Patch grass_patch, Reading read, Sight sight, float gra
 #else
     texel.covers = bent;
 #endif
-    if (anything_is_cut() && is_mown(view.left))
+    if (anything_is_cut() && is_mown(view.cut_height))
         apply_cut(kind, texel, light, view, usual_height);
     vec3 face_tint = azimuth_tint(kind, doubled_angle(sight.heading) * texel.cos_double);
     vec3 pigment = pigment_at(kind, texel.place, texel.place * texel.eyed) * view.fresh * face_tint;

@@ -50,11 +50,11 @@ vec3 grass_seen(Laid laid, ByKind met, vec3 place, float sunk) {
     Lie lies = lie_at(place.xz);
     vec3 sum = vec3(0.0);
     for (int kind = 0; kind < KINDS; kind++) {
-        Light light = leaf_light(kind, vec2(0.0), place, lies, laid.grows);
+        Light light = leaf_light(kind, vec2(0.0), place, lies, laid.densities);
         float high = ON_TOP - SHADED * visible_depth(sunk, laid.leaf_area);
         if (anything_is_cut()) {
-            light = light_when_cut(laid.left, light, kind, leaf_areas(laid.grows));
-            high *= min(laid.left / max(OF(crown, kind), LOWEST_GRASS), 1.0);
+            light = light_when_cut(laid.cut_height, light, kind, leaf_areas(laid.densities));
+            high *= min(laid.cut_height / max(OF(crown, kind), LOWEST_GRASS), 1.0);
         }
         vec3 pigment = mix(pigment_at(kind, kinds[kind].bloom), pigment_at(kind, 0.0), 1.0 - high);
         sum += OF(met, kind) * shade(leaf_surface(pigment * dryness_tint(lies.slow), high), light);
@@ -79,21 +79,21 @@ void main() {
 #endif
     float on_level = max(level_slope(max(sight, 0.0), laid.curvature, laid.share, laid.tall, laid.stands), FLATTEST);
     float came = strips_met(place.xz, from_above, laid.share, laid.tall, laid.stands).x;
-    ByKind ripe, met = kinds_met(laid.grows, on_level, laid.left, height_past_strips(1.0 - came, laid.share), ripe);
-    float part = min(total(laid.grows), 1.0) / max(total(met), THINNEST_LAYER);
+    ByKind ripe, met = kinds_met(laid.densities, on_level, laid.cut_height, height_past_strips(1.0 - came, laid.share), ripe);
+    float part = min(total(laid.densities), 1.0) / max(total(met), THINNEST_LAYER);
     for (int group = 0; group < GROUPS; group++)
         met[group] *= part;
 
     vec3 ground = seen_behind(place, laid.ground, from_above);
     Lie lies = lie_at(ground.xz);
-    ByKind grows = grown_at(ground.xz, laid);
-    float leaves = weighted_sum(leaf_areas(grows), leaf_area_left(laid.left));
-    vec3 litter = litter_pigment(textureLod(repeating, vec2(0.5), COARSEST).gb, understorey_pigment(lies, grows));
+    ByKind densities = grown_at(ground.xz, laid);
+    float leaves = weighted_sum(leaf_areas(densities), leaf_area_left(laid.cut_height));
+    vec3 litter = litter_pigment(textureLod(repeating, vec2(0.5), COARSEST).gb, understorey_pigment(lies, densities));
 #ifndef PLAIN
     if (earth_side != 0.0)
         litter = earth_pigment(textureLod(earth, earth_uv(ground.xz), COARSEST));
 #endif
-    color = soil_radiance(ground, lies, grows, leaves) * litter * litter;
+    color = soil_radiance(ground, lies, densities, leaves) * litter * litter;
     // Where grass is sparse or missing, the layer shows the soil.
     color = mix(color, color * (1.0 - total(met)) + grass_seen(laid, met, place, sunk), laid.share);
     color = mix(color, haze_radiance(place), haze_opacity(place));
