@@ -52,17 +52,17 @@ def pictures(ctx: moderngl.Context, columns: int, rows: int, wide: int, tall: in
         ctx.enable_only(moderngl.NOTHING)
         texels = np.stack([np.frombuffer(each.read(), np.uint8).reshape(size[1], size[0], 4) for each in colors])
     finally:
-        before.use()  # what is bound when it is released is bound again later
+        before.use()  # a target bound when released would be bound again
         release_all(target, depth, *colors)
-    values = _halved(texels)  # what is not covered is 0 in both
+    values = _halved(texels)  # empty texels are 0 in both
     for _ in range(FINER.bit_length() - 2):
         values = _halved(values)
     return values
 
 
-def texture_of(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureArray:
+def texture_of(ctx: moderngl.Context, levels: list[Bytes], /) -> moderngl.TextureArray:
     """Return a texture of mip levels."""
-    texture = mipmapped(ctx, made)
+    texture = mipmapped(ctx, levels)
     texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
     texture.repeat_x = texture.repeat_y = False
     return texture
@@ -148,27 +148,27 @@ def coverage(texels: Bytes, wide: int, lines: int, /) -> Bytes:
     return np.asarray(cover.transpose(0, 2, 1, 3).reshape(ROWS * COLUMNS, lines, wide))
 
 
-def view_matrix(number: int, middle: float, half: float, slim: float, /) -> Doubles:
+def view_matrix(number: int, middle: float, half: float, aspect: float, /) -> Doubles:
     """Return the matrix (4, 4) that shows a tree from one of its sides, `half` high about the height `middle` [m].
 
-    The picture is `slim` times as high as wide.
+    The picture is `aspect` times as high as wide.
     """
     azimuth, up = 2.0 * np.pi * (number % COLUMNS) / COLUMNS, FIRST_ROW + EACH_ROW * (number // COLUMNS)
     to = np.array([np.cos(up) * np.sin(azimuth), np.sin(up), np.cos(up) * np.cos(azimuth)])
     across = np.array([np.cos(azimuth), 0.0, -np.sin(azimuth)])
     shown = np.eye(4)
     shown[:3, :3] = np.stack([across, np.cross(to, across), -to]) / half
-    shown[0, :3] *= slim
+    shown[0, :3] *= aspect
     shown[2, :3] /= DEPTH_RANGES[0]
     shown[:3, 3] = -shown[:3, :3] @ (0.0, middle, 0.0)
     return shown
 
 
-def card_matrix(reach: tuple[float, float, float], usual: float, /) -> Doubles:
+def card_matrix(reach: tuple[float, float, float], twig_length: float, /) -> Doubles:
     """Return the matrix (4, 4) that shows a twig on its card; `reach` is aside, back and on [its usual lengths]."""
     wide, back, on = reach
     shown = np.eye(4)
-    shown[0, 0] = 1.0 / (wide * usual)
-    shown[1, 1], shown[1, 3] = 2.0 / ((on - back) * usual), -1.0 - 2.0 * back / (on - back)
-    shown[2, 2] = -1.0 / (DEPTH_RANGES[1] * usual)
+    shown[0, 0] = 1.0 / (wide * twig_length)
+    shown[1, 1], shown[1, 3] = 2.0 / ((on - back) * twig_length), -1.0 - 2.0 * back / (on - back)
+    shown[2, 2] = -1.0 / (DEPTH_RANGES[1] * twig_length)
     return shown

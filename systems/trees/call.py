@@ -10,7 +10,7 @@ from .choice import Batch
 from .kind import Binding, GpuKind
 from .outline import Outline
 from .programs import SAMPLED, SOFT, Programs
-from .stream import BACKS, CARDS, FAR, IN_ROWS, LEAVES, NEAR, QUAD, WOOD, GpuModel, Numbers
+from .stream import BACKS, CARDS, FAR, IN_ROWS, LEAVES, NEAR, QUAD, WOOD, GpuModel, Uniforms
 from .wood import CLOSED, OPAQUE, SOLID
 
 
@@ -132,7 +132,7 @@ class Calls:
         )
 
 
-def draw(calls: Sequence[DrawCall], numbers: Numbers, /) -> int:
+def draw(calls: Sequence[DrawCall], numbers: Uniforms, /) -> int:
     """Make draw calls one after another, setting only what differs from the state before; return their number."""
     bound, programs = dict[int, object](), set[int]()
     for call in calls:
@@ -165,7 +165,7 @@ def uniforms_of(
     uniforms = pack(program, {"solid_from": (solid_from,)}) + (pack(program, {"behind": (0.0,)}) if casts else [])
     if corners:
         uniforms += pack_array(program, "corners", corners)
-    if outline is not None and outline.high:  # else its pictures show nothing so opaque, and nothing is drawn
+    if outline is not None and outline.high:  # else nothing in its pictures is so dense, and nothing is drawn
         uniforms += pack(program, {"high": outline.high}) + pack_array(program, "reaches", outline.reaches)
     return uniforms
 

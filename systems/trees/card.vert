@@ -9,13 +9,13 @@ in vec4 hung_at;      // outputs of hang.vert
 in uvec4 hung_axes;
 in uvec4 hung_light;
 
-uniform vec2 corners[CARD_CORNERS];  // of its outline: across from -1 to 1, and up from 0 to 1, more beyond the card
-uniform vec4 card;                   // as in twig.glsl
+uniform vec2 corners[CARD_CORNERS]; // of its outline: across from -1 to 1, and up from 0 to 1, more beyond the card
+uniform vec4 card;                  // as in twig.glsl
 
 out vec2 on;
-flat out float picture;   // index of the card's picture
-flat out vec4 relief;     // brightness linear in the normal, in the card's own axes, and constant
-flat out vec3 darkest;    // displayed colours of its darkest and brightest leaves
+flat out float picture; // index of the card's picture
+flat out vec4 relief;   // brightness linear in the normal, in the card's own axes, and constant
+flat out vec3 darkest;  // displayed colours of its darkest and brightest leaves
 flat out vec3 brightest;
 
 void main() {

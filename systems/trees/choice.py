@@ -26,7 +26,7 @@ NEAREST = 0.1
 ANY_HEIGHT = 1e6
 """Height in the picture that stands for full detail [pixels]."""
 
-Numbers = NDArray[np.intp]
+Indices = NDArray[np.intp]
 
 
 class Look(NamedTuple):
@@ -109,10 +109,10 @@ class Chosen(NamedTuple):
 class _Seen(NamedTuple):
     """The trees in a picture, model after model and the nearest first."""
 
-    number: Numbers
+    number: Indices
     """Index of each among all trees."""
 
-    model: Numbers
+    model: Indices
     instances: NDArray[np.void]
     """Records of `INSTANCE`."""
 
@@ -150,7 +150,7 @@ class Choice:
         """Half extents of each tree, up and aside, with the row that it stands for [m], shape (n,)."""
         self._spheres = _bounding_spheres(self._middle, np.hypot(self._high, self._aside))
 
-    def in_picture(self, sides: Doubles, /) -> Numbers:
+    def in_picture(self, sides: Doubles, /) -> Indices:
         """Return the indices of the trees within a frustum's sides."""
         middle, radius = self._spheres
         near = np.flatnonzero(np.repeat(outside_planes(middle, sides) <= radius, CLUSTER)[: len(self._model)])
@@ -176,7 +176,7 @@ class Choice:
         rows, twigs = seen.instances.take(tree), twig_instances(seen.instances.take(leafy), twig)
         return Chosen(batches, _split(batches, rows, twigs), self._placed.take(number[tree]))
 
-    def _seen(self, look: Look, number: Numbers, distance: Doubles) -> _Seen:
+    def _seen(self, look: Look, number: Indices, distance: Doubles) -> _Seen:
         """Return the level of detail of trees at distances (n,) [m]."""
         middle, scale, ring = self._middle.take(number, axis=0), self._scale[number], self._ring[number]
         if look.detail_eyes:
@@ -194,7 +194,7 @@ class Choice:
         pixel_radius = THINNEST * np.maximum(ahead, AWAY) / (look.focal * scale)
         return _Seen(number, self._model[number], instances, along, pixel_radius)
 
-    def _leafy(self, look: Look, seen: _Seen, distance: Doubles) -> tuple[Numbers, Numbers]:
+    def _leafy(self, look: Look, seen: _Seen, distance: Doubles) -> tuple[Indices, Indices]:
         """Return the twigs drawn leaf by leaf: each one's tree, as an index into `seen`, and its own number."""
         if look.leaves_from is not None:
             near = np.flatnonzero(seen.instances["far_fade"] < 1.0)
@@ -214,7 +214,7 @@ def _model_numbers(model: Model, variety: float) -> tuple[float, ...]:
     )  # fmt: skip
 
 
-def _stable_order(number: Numbers) -> Numbers:
+def _stable_order(number: Indices) -> Indices:
     """Return the order that sorts by model or stream and keeps the order within each."""
     return np.argsort(number.astype(np.int16), kind="stable")  # 16 bits are sorted by radix, much faster
 
@@ -237,7 +237,7 @@ def _bounding_spheres(middle: Doubles, reach: Doubles) -> tuple[Doubles, Doubles
     return 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1)
 
 
-def _by_stream(seen: _Seen, shell: Numbers, leafy: Numbers) -> tuple[Numbers, Numbers]:
+def _by_stream(seen: _Seen, shell: Indices, leafy: Indices) -> tuple[Indices, Indices]:
     """Sort trees into streams; return the stream of each entry and its tree, ordered by stream.
 
     Streams are numbered through all models. A tree has an entry in each stream that draws it; `leafy` are the trees of
@@ -258,7 +258,7 @@ def _by_stream(seen: _Seen, shell: Numbers, leafy: Numbers) -> tuple[Numbers, Nu
     return stream[order], tree[order]
 
 
-def _card_stream(seen: _Seen, near: Numbers, shell: Numbers) -> Numbers:
+def _card_stream(seen: _Seen, near: Indices, shell: Indices) -> Indices:
     """Return the index in `CARDS` of each near tree.
 
     Beyond the grass it follows from the share of twigs drawn, if enough trees have a small share; else from the shell.
@@ -272,14 +272,14 @@ def _card_stream(seen: _Seen, near: Numbers, shell: Numbers) -> Numbers:
     return np.where(beyond_grass, group, len(SHARES) + shell)
 
 
-def _wood_stream(seen: _Seen, near: Numbers, shell: Numbers) -> Numbers:
+def _wood_stream(seen: _Seen, near: Indices, shell: Indices) -> Indices:
     """Return the index in `WOODS` of each near tree: beyond the grass by `pixel_radius`, else by shell."""
     return np.where(
         shell[near] == 0, np.searchsorted(PIXEL_RADII, seen.pixel_radius[near]), len(PIXEL_RADII) + shell[near]
     )
 
 
-def _batches(stream: Numbers, tree: Numbers, seen: _Seen, distance: Doubles) -> list[Batch]:
+def _batches(stream: Indices, tree: Indices, seen: _Seen, distance: Doubles) -> list[Batch]:
     """Return a batch for each run of equal `stream`; `distance` is that of each tree's crown [m]."""
     first = np.flatnonzero(np.diff(stream, prepend=-1))
     instances, count = seen.instances, np.diff(first, append=len(stream))

@@ -59,10 +59,10 @@ def shade_of(area: float, radius: float, height: float, trunk: float, /) -> tupl
     return max(radius, SHADE_OF_HEIGHT * height), leaves, FOOT_MEETS * trunk
 
 
-def leaf_area(twigs: Twigs, leaf: Leaf, usual: float, /) -> Doubles:
-    """Return the leaf area of each twig, one side [m²], shape (n,); `usual` is the usual length of a twig [m]."""
+def leaf_area(twigs: Twigs, leaf: Leaf, twig_length: float, /) -> Doubles:
+    """Return the leaf area of each twig, one side [m²], shape (n,); `twig_length` is the usual one [m]."""
     own = leaf.count * leaf.length * leaf.width * leaf.area
-    return np.asarray(own * (twigs.length.astype(np.float64) / usual) ** 2)
+    return np.asarray(own * (twigs.length.astype(np.float64) / twig_length) ** 2)
 
 
 def shading(tree: Tree, area: Doubles, place: Doubles, /) -> Floats:

@@ -23,7 +23,7 @@ from .motion import PERIOD
 from .programs import HANG, HANG_LEAVES, HARD, SOFT, STAND, Programs
 from .shade import ShadeMap
 from .standing import PLACED, STOOD, Standing
-from .stream import CARDS, CAST, LEAVES, GpuModel, Numbers
+from .stream import CARDS, CAST, LEAVES, GpuModel, Uniforms
 from .twig import LEAF_PIXELS
 
 EVERY_LEAF = -2.0, -1.0
@@ -44,7 +44,7 @@ class TreePart(Part):
         self._programs: Programs | None = None
         self._shade: ShadeMap | None = None
         self._outlook: Outlook | None = None
-        self._uniforms: Numbers = {}
+        self._uniforms: Uniforms = {}
         self._leaves_from_chosen: float | None = None
         self._rehearsing = False
         self._inputs: object = None

@@ -7,8 +7,8 @@
 #include "systems/trees/noise.py"
 #include "systems/trees/coverage.glsl"
 
-uniform sampler2DArray tree_far;  // tone, wood, its radius, coverage
-uniform sampler2DArray tree_met;  // optical depths, by direction and in the mean, with larger texels
+uniform sampler2DArray tree_far;    // tone, wood, its radius, coverage
+uniform sampler2DArray tree_depths; // optical depths, by direction and in the mean, with larger texels
 #ifndef CAST
 uniform sampler2DArray tree_cards;  // in place of twigs' cards: tileable noise
 #endif
@@ -50,23 +50,24 @@ void mix_pictures(vec2 at, vec2 parts, out vec4 texel, out vec4 shading) {
     texel = shading = vec4(0.0);
     for (int row = first.y; row <= last.y; row++)
         for (int column = first.x; column <= last.x; column++) {
-            vec2 place = vec2(column == 0 ? tile_corners.x : tile_corners.z, row == 0 ? tile_corners.y : tile_corners.w) + at / vec2(COLUMNS, ROWS);
+            vec2 corner = vec2(column == 0 ? tile_corners.x : tile_corners.z, row == 0 ? tile_corners.y : tile_corners.w);
+            vec2 place = corner + at / vec2(COLUMNS, ROWS);
             float part = (column == 0 ? 1.0 - parts.x : parts.x) * (row == 0 ? 1.0 - parts.y : parts.y);
             vec4 shows = part * textureLod(tree_far, vec3(place, 0.0), motion.w);
             texel += shows;
-            shading += shows.a * textureLod(tree_met, vec3(place, 0.0), max(motion.w - COARSER_BY, 0.0));
+            shading += shows.a * textureLod(tree_depths, vec3(place, 0.0), max(motion.w - COARSER_BY, 0.0));
         }
 }
 
 // Position within a picture that reads nothing of its neighbours.
 vec2 inside_tile(vec2 at) {
-    vec2 edge = TILE_EDGE * texel_side * vec2(slim, 1.0);
+    vec2 edge = TILE_EDGE * texel_side * vec2(aspect, 1.0);
     return clamp(at, edge, 1.0 - edge);
 }
 
 // Coverage by the picture itself: beyond its edge texels are empty.
 float tile_cover(vec2 at) {
-    vec2 inside = clamp((0.5 - abs(at - 0.5)) / (texel_side * vec2(slim, 1.0)) + TILE_EDGE, 0.0, 1.0);
+    vec2 inside = clamp((0.5 - abs(at - 0.5)) / (texel_side * vec2(aspect, 1.0)) + TILE_EDGE, 0.0, 1.0);
     return inside.x * inside.y;
 }
 
@@ -93,8 +94,8 @@ vec2 own_picture() {
 #ifdef CAST
 void main() {
     vec4 texel, shading;
-    mix_pictures(inside_tile(0.5 + 0.5 * vec2(slim, 1.0) * on.xy), mix_shares, texel, shading);
-    texel *= float(max(slim * abs(on.x), abs(on.y)) < 1.0);
+    mix_pictures(inside_tile(0.5 + 0.5 * vec2(aspect, 1.0) * on.xy), mix_shares, texel, shading);
+    texel *= float(max(aspect * abs(on.x), abs(on.y)) < 1.0);
     float leaves = -log(1.0 - HIDES_MOST * texel.a) * mix(1.0, foot_shade.z, 1.0 - texel.g);
     vec2 inner = max(1.0 - dot(on.xy, on.xy) / vec2(cast_shade.x * cast_shade.x, foot_shade.x * foot_shade.x), 0.0);
     float above = dot(vec2(cast_shade.y, foot_shade.y), inner * inner);
@@ -106,7 +107,7 @@ vec2 undisplaced(vec2 at) {
     vec2 aside = motion.y * at.y * sin(limb_phases + SHIMMER_TURNS * at.yx);
     float high = clamp(on.z, 0.0, 1.0);
     aside.x += motion.z * (high - cantilever(high));
-    return at + vec2(slim, 1.0) * aside;
+    return at + vec2(aspect, 1.0) * aside;
 }
 
 const float PLAINER = 2.0;     // loss of bark's detail with each coarser level, which is read sharper than pixels are,

@@ -10,42 +10,42 @@
 #include "systems/trees/normals.glsl"
 #endif
 
-in float columns;   // number of trees in the row that it stands for
-in float opacity;   // by its ring
+in float columns; // number of trees in the row that it stands for
+in float opacity; // by its ring
 
 uniform float lines; // height of its model's pictures [texels]
 #ifdef CAST
-uniform vec4 tile;  // of the map: middle (across, up) [m], half the side [m], index
+uniform vec4 tile;        // of the map: middle (across, up) [m], half the side [m], index
 uniform vec3 grass_shade; // of its model: radius of its shade on grass [m]; optical depth times squared radius [m²]; depth at its foot
 
-flat out vec4 cast_shade;  // radius of its shade, of half its picture; optical depth in the middle; 1 in the map from above; position along the
-                           // sun's rays [m]
-flat out vec3 foot_shade;    // radius of its foot's shade; optical depth there; its foliage
+flat out vec4 cast_shade; // radius of its shade, of half its picture; optical depth in the middle; 1 in the map from above; position along the
+                          // sun's rays [m]
+flat out vec3 foot_shade; // radius of its foot's shade; optical depth there; its foliage
 #else
-uniform vec4 high;     // heights of its outline's corners, -1 to 1, from foot to top
-uniform vec4 reaches[2 * COLUMNS * ROWS];  // by picture: distances of the corners left and right, of half their height
+uniform vec4 high;                        // heights of its outline's corners, -1 to 1, from foot to top
+uniform vec4 reaches[2 * COLUMNS * ROWS]; // by picture: distances of the corners left and right, of half their height
 
-flat out vec4 sun_weights;   // weights of the pictures' optical depths for the sun, along its axes and in all
-flat out vec4 ray_weights; // and for the ray from the eye behind what is seen, with all its leaves
-out vec4 sun_radiance;       // radiance of its leaves under the sun; opacity
-out vec4 wood_gain;       // what its wood has more; radius that THICKEST stands for, on it [m]
-flat out vec4 sky_radiance;  // radiance of the sky; mean of its leaves' normals' y
+flat out vec4 sun_weights;  // weights of the pictures' optical depths for the sun, along its axes and in all
+flat out vec4 ray_weights;  // and for the ray from the eye behind what is seen, with all its leaves
+out vec4 sun_radiance;      // radiance of its leaves under the sun; opacity
+out vec4 wood_gain;         // what its wood has more; radius that THICKEST stands for, on it [m]
+flat out vec4 sky_radiance; // radiance of the sky; mean of its leaves' normals' y
 flat out vec3 below;
 flat out vec3 haze_colour;
-flat out vec3 old_pigment; // mean pigment of its old bark
-flat out vec2 picture_texels;   // size of its pictures, across and up [texels]
-flat out vec2 limb_phases;   // phases of its limbs' swing, along and across its picture [rad]
-flat out vec3 clump_progress;   // progress of clumps of leaves from the first picture to the second, both ways, and their spread
-flat out float grass_scale; // its height, of that of the grass about its foot
+flat out vec3 old_pigment;    // mean pigment of its old bark
+flat out vec2 picture_texels; // size of its pictures, across and up [texels]
+flat out vec2 limb_phases;    // phases of its limbs' swing, along and across its picture [rad]
+flat out vec3 clump_progress; // progress of clumps of leaves from the first picture to the second, both ways, and their spread
+flat out float grass_scale;   // its height, of that of the grass about its foot
 #endif
 
-out vec3 on;           // position on its picture, each way from 0 to 1, or across a row, with CAST of half its height; height over its foot, of
-                       // the tree's
-flat out vec4 tile_corners;   // corners of the mixed pictures in their texture, the first and the second
+out vec3 on;                // position on its picture, each way from 0 to 1, or across a row, with CAST of half its height; height over its foot,
+                            // of the tree's
+flat out vec4 tile_corners; // corners of the mixed pictures in their texture, the first and the second
 flat out vec2 mix_shares;   // share of the second
-flat out vec4 motion;    // its random number; amplitude of its limbs and displacement of its top, of its picture; mip level
+flat out vec4 motion;       // its random number; amplitude of its limbs and displacement of its top, of its picture; mip level
 flat out vec2 row_of_trees; // number of trees in a row; distance between them, of a picture
-flat out float texel_side; // size of the coarser texels that are read, of a picture
+flat out float texel_side;  // size of the coarser texels that are read, of a picture
 
 const vec2 MIXES = vec2(0.3, 0.7);  // parts of the angle from one picture to the next between which they are mixed
 const float ASKEW_ROWS = 2.0;  // range of the yaws of rows of trees: else all would be parallel [rad]
@@ -129,10 +129,10 @@ void write_flat() {
     float way = CLUMP_CHANGE + CLUMP_CHANGE * CHANGE_PER_LEVEL * motion.w;
     clump_progress = vec3((1.0 + way) * mix_shares, 1.0) / way;
     limb_phases = AROUND * (SHIMMER_HERTZ * moment + motion.x) + vec2(0.0, 1.0);
-    picture_texels = lines * vec2(1.0 / slim, 1.0);
+    picture_texels = lines * vec2(1.0 / aspect, 1.0);
     old_pigment = old_bark_mean();
     grass_scale = tall * scale / grass_about.x;
-    on.xy = 0.5 + 0.5 * vec2(columns > 1.0 ? 1.0 : slim, 1.0) * on.xy;
+    on.xy = 0.5 + 0.5 * vec2(columns > 1.0 ? 1.0 : aspect, 1.0) * on.xy;
 }
 
 // Write the light on it past other trees: more at the top of its crown.
@@ -162,14 +162,14 @@ void write_cast(vec3 middle_of, vec3 across, vec3 up, float half_tall) {
 #endif
 
 void main() {
-    vec3 middle_of = root + vec3(0.0, scale * ball.x, 0.0), to = eye - middle_of;
+    vec3 middle_of = root + vec3(0.0, scale * picture_span.x, 0.0), to = eye - middle_of;
 #ifdef CAST
     to = tile.w > 1.0 ? vec3(0.0, 1.0, 0.0) : sun;
 #endif
     to = normalize(to);
     ivec4 pictures = choose_pictures(to_model(to));
     vec3 across = normalize(abs(to.y) > OVERHEAD ? vec3(turn.x, 0.0, turn.y) : vec3(to.z, 0.0, -to.x)), up = cross(to, across);
-    float half_tall = scale * ball.y, texels = lines * pixel_size(middle_of) / (2.0 * half_tall);
+    float half_tall = scale * picture_span.y, texels = lines * pixel_size(middle_of) / (2.0 * half_tall);
     motion = vec4(phase, 0.0, 0.0, max(log2(max(texels, LEAST_PART)) + (columns > 1.0 ? 0.0 : LEVEL_BIAS), 0.0));
 #ifdef CAST
     motion.w += CAST_LEVEL_BIAS;
@@ -184,7 +184,7 @@ void main() {
     }
     float half_wide = columns > 1.0 ? 0.5 * columns * column * scale : half_tall;
     vec3 seen_at = middle_of + half_wide * on.x * across + half_tall * on.y * up;
-    row_of_trees = vec2(columns, 0.5 * slim * column / ball.y);
+    row_of_trees = vec2(columns, 0.5 * aspect * column / picture_span.y);
     texel_side = exp2(min(ceil(motion.w), float(LEVELS) - 1.0)) / lines;
 #ifdef CAST
     write_cast(middle_of, across, up, half_tall);

@@ -40,7 +40,7 @@ log = logging.getLogger("tallgrass")
 class Trees(Feature):
     """The entities of one world with a `Tree` and a `Pose`; makes those of the scene."""
 
-    own = ("tree_twigs", "tree_cards", "tree_far", "tree_met", "tree_air", "tree_mean")
+    own = ("tree_twigs", "tree_cards", "tree_far", "tree_depths", "tree_air", "tree_mean")
 
     def __init__(self, world: World, grown: Grown, *, live: bool) -> None:
         self._world, self._grown, self._live = world, grown, live
@@ -85,7 +85,7 @@ class Trees(Feature):
         """Make an entity of each tree of the scene, unless they are too many."""
         scene, terrain = self._grown.scene, self._grown.ground.terrain
         self._seedlings, self._terrain_version, self.wild = [], -1, None
-        self._rows, self._row_entities = self._rows[:0], []  # none of them is felled
+        self._rows, self._row_entities = self._rows[:0], []  # none counts as felled
         self._fading.forget()
         self._unknown.clear()
         fixed = list[Floats]()
@@ -118,9 +118,9 @@ class Trees(Feature):
         changes = self._grown.ground.terrain.changes.count
         with uncollected():
             seen = (trees := self._world.rows(Tree)), self._world.rows(Pose) if trees else []
-            are_others = seen != self._last_seen
-            self._last_seen = seen  # of equal lists the new ones: they are the same ones again in the next frame
-        if are_others or changes != self._terrain_version:
+            changed = seen != self._last_seen
+            self._last_seen = seen  # the new lists, though equal: the next ones hold the same objects
+        if changed or changes != self._terrain_version:
             self._terrain_version = changes
             self._update_rows(time)
         if self._fading.step(time):
@@ -132,7 +132,7 @@ class Trees(Feature):
             return
         self._generation = self._world.generation
         stood = {*self._row_entities} if self._terrain_version >= 0 else {*self.entities}
-        self._rows, self._row_entities = self._rows[:0], []  # none of them is felled
+        self._rows, self._row_entities = self._rows[:0], []  # none counts as felled
         for number in [number for number, entity in enumerate(self.entities) if entity in stood]:
             self._replant(number)
 
@@ -160,11 +160,11 @@ class Trees(Feature):
 
     def _fade_removed(self, there: set[int], time: float) -> None:
         """Begin to fade the shade of removed trees, but not of those removed as a viewer went away."""
-        left = self.wild.left if self.wild is not None else set[int]()
+        departed = self.wild.departed if self.wild is not None else set[int]()
         gone = [
-            number for number, entity in enumerate(self._row_entities) if entity not in there and entity not in left
+            number for number, entity in enumerate(self._row_entities) if entity not in there and entity not in departed
         ]
-        left.clear()
+        departed.clear()
         if gone:
             self._fading.fell(self._rows[gone], time=time)
 
@@ -235,8 +235,8 @@ class Trees(Feature):
 
         Trees that a game has changed stay if they are among the entities `kept`.
         """
-        self._rows, self._row_entities = self._rows[:0], []  # what a saved game has not is not felled now
-        self._terrain_version = -1  # look again, though the entities may be the same
+        self._rows, self._row_entities = self._rows[:0], []  # trees missing in a saved game do not fade
+        self._terrain_version = -1  # forces an update, though entities may be unchanged
         self._fading.forget()
         if self.wild is not None:
             self.wild.fell(wild, kept)

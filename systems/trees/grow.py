@@ -123,7 +123,7 @@ def _shoots(
     parent = np.repeat(np.arange(len(lengths)), counts)
     number = np.arange(len(parent)) - np.repeat(np.cumsum(counts) - counts, counts)
     at = np.clip(0.12 + 0.88 * (number + draw.uniform(0.2, 0.8, len(parent))) / counts[parent], 0.0, 1.0)
-    # Side shoots of a limb lie about level: they stand to its left and right in turn, more than above and below.
+    # Side shoots of a limb are about level: to its left and right in turn, rather than above and below.
     around = np.pi * (number % 2) + draw.normal(0.0, 0.75, len(parent))
     down = np.interp(at, (0.0, 1.0), shoots.down) * draw.normal(1.0, 0.18, len(parent))
     length = shoots.length * (1.0 - 0.55 * at) * draw.uniform(0.7, 1.15, len(parent))
@@ -136,7 +136,7 @@ def _shoots(
 def _twigs(shoots: Shoots, branches: Stems, draw: np.random.Generator) -> tuple[Twigs, Rows]:
     """Return the twigs, and the index of the branch that bears each."""
     stems = _shoots(shoots, branches, draw, points=3, relative=False)
-    # One more at the end of each branch goes on along it.
+    # One more twig continues each branch at its end.
     tip, last = branches.spine[:, -1], branches.spine[:, -1] - branches.spine[:, -2]
     foot = np.concatenate([stems.spine[:, 0], tip])
     way = np.concatenate([stems.spine[:, -1] - stems.spine[:, 0], last / np.linalg.norm(last, axis=1, keepdims=True)])
@@ -144,7 +144,7 @@ def _twigs(shoots: Shoots, branches: Stems, draw: np.random.Generator) -> tuple[
     length = np.concatenate([lengths, draw.uniform(0.8, 1.1, len(tip)) * shoots.length])
     bearer = np.concatenate([stems.parent, np.arange(len(tip))])
     chosen, larger = _sampled(len(foot), draw)
-    hangs = np.array([0.0, 2.0 * min(shoots.lift, 0.0), 0.0])  # what turns downwards hangs in the end
+    hangs = np.array([0.0, 2.0 * min(shoots.lift, 0.0), 0.0])  # shoots that turn downwards hang at their end
     along = _normalized(_normalized(way[chosen]) + hangs)
     face = _perpendicular(along, np.array([0.0, 1.0, 0.0]) + draw.normal(0.0, 0.45, along.shape))
     bearer = bearer[chosen]

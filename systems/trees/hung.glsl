@@ -70,8 +70,8 @@ struct HungLeaves {
     vec3 above;
     vec3 below;
     vec3 haze;
-    float rotation;  // rotation of leaves by the wind [rad]
-    int number;   // index of the twig
+    float rotation; // rotation of leaves by the wind [rad]
+    int number;     // index of the twig
 };
 
 void pack(HungLeaves values, out uvec4 axes, out uvec4 light, out uvec2 haze) {

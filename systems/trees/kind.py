@@ -44,7 +44,7 @@ from .outline import (
     solid_outline,
 )
 from .programs import Programs
-from .stream import LEAVES, PICTURED, QUAD, WOOD, GpuModel, Numbers
+from .stream import LEAVES, PICTURED, QUAD, WOOD, GpuModel, Uniforms
 from .twig import BEHIND, FINER_EACH, HANGING_OFF, SHOOTS_LONG, SHOOTS_OFF
 from .twig import PICTURES as OF_TWIGS
 from .wood import CLOSED, SOLID
@@ -86,10 +86,10 @@ class GpuKind:
         """Coverage of its card on each of its pictures, of that on the first."""
         self.bark = mipmapped(ctx, bark_noise())
         self.bark.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
-        leaf, usual = self.habit.leaf, self.habit.twigs.length
+        leaf, twig_length = self.habit.leaf, self.habit.twigs.length
         wide = ASIDE * leaf.length * (np.sin(leaf.angle) + TURNED)
-        wide += SHOOTS_LONG * usual * (SHOOTS_ASIDE if leaf.shoots > 1 else HANGING_ASIDE)
-        self.reach = wide / usual, -BACK * leaf.length / usual, 1.0 + ON * leaf.length / usual
+        wide += SHOOTS_LONG * twig_length * (SHOOTS_ASIDE if leaf.shoots > 1 else HANGING_ASIDE)
+        self.reach = wide / twig_length, -BACK * leaf.length / twig_length, 1.0 + ON * leaf.length / twig_length
         self._uniforms = self._kind_uniforms()
         self._vectors = {id(each): parameter.vectors({**self._uniforms, **each.numbers}) for each in self.models}
 
@@ -105,7 +105,7 @@ class GpuKind:
             keep_pictures(key, found)
         self._load_card(found[0])
         for model, seen, depths in zip(self.models, found[1::2], found[2::2], strict=True):
-            model.far, model.met = texture_of(self.ctx, seen), texture_of(self.ctx, depths)
+            model.far, model.depths = texture_of(self.ctx, seen), texture_of(self.ctx, depths)
             model.normals = tree_normals(model.model.twigs, self._normals, turn=self.habit.leaf.form == NEEDLES)
             cover = coverage(seen[0], model.model.wide, model.model.lines)
             model.outline = picture_outline(cover)
@@ -115,7 +115,7 @@ class GpuKind:
         """Make the card's texture, outlines and normals from its twig's pictures."""
         if self.card is None:
             shown = [each[::2, ..., 3].max(axis=0) for each in twig]
-            self.solid = solid_above(twig[1][0, ..., 3])  # about as large as such cards are at most
+            self.solid = solid_above(twig[1][0, ..., 3])  # the largest level of such cards on screen, about
             self.card = texture_of(self.ctx, [equalised(card_texels(each), FULL * self.solid) for each in twig])
             solid = covered_at(shown, FULL * self.solid)
             self.outline = corner_list(card_outline(shown[0] > FAINTEST))
@@ -149,7 +149,7 @@ class GpuKind:
         wood, cards = (programs.array(sort, model.bare, model, baked=True) for sort in (WOOD, PICTURED))
 
         def draw_tree(number: int) -> None:
-            matrix = view_matrix(number, model.model.middle, model.model.half, model.model.slim)
+            matrix = view_matrix(number, model.model.middle, model.model.half, model.model.aspect)
             for array, count in (
                 (wood, 3 * len(model.model.wood[0].triangles)),
                 (cards, QUAD * len(model.model.twigs)),
@@ -160,21 +160,21 @@ class GpuKind:
 
         return tree_levels(pictures(self.ctx, COLUMNS, ROWS, model.model.wide, model.model.lines, draw_tree))
 
-    def _kind_uniforms(self) -> Numbers:
+    def _kind_uniforms(self) -> Uniforms:
         """Return the uniforms of the kind, whichever of its models is drawn."""
         habit, declared = self.habit, self.declared
-        leaf, usual = habit.leaf, habit.twigs.length
+        leaf, twig_length = habit.leaf, habit.twigs.length
         dark, bright = habit.leaves if declared.leaf is None else (declared.leaf, declared.leaf)
         young, old = (tuple(pigment(declared.bark or each).tolist()) for each in habit.bark)
         darker, (begins, ends) = DARKER if declared.leaf is not None else 1.0, habit.ripens
         return {
-            "usual": (usual,), "card": (*self.reach, 0.0), "form": (leaf.form,), **_leaf_uniforms(leaf, usual),
-            "finer": (1.0,), "shoots_off": (SHOOTS_OFF,),
+            "twig_length": (twig_length,), "card": (*self.reach, 0.0), "form": (leaf.form,),
+            **_leaf_uniforms(leaf, twig_length), "finer": (1.0,), "shoots_off": (SHOOTS_OFF,),
             "dark": tuple((darker * pigment(dark)).tolist()), "bright": tuple(pigment(bright).tolist()),
             "young_bark": young, "bark": old, "ripens": (begins, 1.0 / (ends - begins)), "rough": (habit.rough,),
         }  # fmt: skip
 
-    def set_uniforms(self, program: moderngl.Program, model: GpuModel, *numbers: Numbers, noise: bool = False) -> None:
+    def set_uniforms(self, program: moderngl.Program, model: GpuModel, *numbers: Uniforms, noise: bool = False) -> None:
         """Set a program's uniforms of the kind, a model and others, and bind its textures."""
         set_packed(self.uniforms(program, model))
         set_used_uniforms(program, *numbers)
@@ -184,7 +184,7 @@ class GpuKind:
     def uniforms(self, program: moderngl.Program, model: GpuModel) -> PackedUniforms:
         """Return a program's uniforms of the kind and a model."""
         key = id(model)
-        if key not in program.extra:  # the model is kept with it: so no other one is taken for it
+        if key not in program.extra:  # the entry keeps the model alive, so its id is not reused
             uniforms = pack(program, self._uniforms, model.numbers)
             normals = model.normals if "tree_far" in set_used_uniforms(program) else self._normals
             uniforms += pack(program, {"picture_cover": self._picture_cover, "behind": (self._behind,)})
@@ -201,7 +201,7 @@ class GpuKind:
         textures = {
             "tree_twigs": model.twigs.texture,
             "tree_far": model.far,
-            "tree_met": model.met,
+            "tree_depths": model.depths,
             "tree_cards": cards,
         }
         asked = set_used_uniforms(program)
@@ -217,9 +217,9 @@ class GpuKind:
             self.card.release()
 
 
-def _leaf_uniforms(leaf: Leaf, usual: float) -> Numbers:
-    """Return the uniforms of a twig's leaves; `usual` is the usual length of a twig [m]."""
-    shape = leaf.length / usual, 0.5 * leaf.width / usual, leaf.angle
+def _leaf_uniforms(leaf: Leaf, twig_length: float) -> Uniforms:
+    """Return the uniforms of a twig's leaves; `twig_length` is the usual length of a twig [m]."""
+    shape = leaf.length / twig_length, 0.5 * leaf.width / twig_length, leaf.angle
     return {"leaf_count": (leaf.count,), "shoots": (leaf.shoots,), "leaf_shape": shape}
 
 

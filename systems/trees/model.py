@@ -62,7 +62,7 @@ class Model:
     """Area of all its leaves, one side [m²]."""
 
     @property
-    def slim(self) -> float:
+    def aspect(self) -> float:
         """Height of its pictures, of their width."""
         return self.lines / self.wide
 

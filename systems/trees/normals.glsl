@@ -7,11 +7,11 @@ uniform vec4 leaf_normals[NORMALS];  // as in normals.py
 
 // What is seen of such leaves.
 struct LeafMean {
-    vec3 radiance;     // mean radiance under the sun
-    float up;       // mean of the normals' y, towards the eye
-    float darkening;   // mean of the displayed colours, of that of the mean radiance: a dark and a bright leaf together look darker
-    float sun_gain;    // relative gain in brightness of leaves that face the sun, by how much they do
-    vec3 normal_mean;     // mean normal in its picture
+    vec3 radiance;    // mean radiance under the sun
+    float up;         // mean of the normals' y, towards the eye
+    float darkening;  // mean of the displayed colours, of that of the mean radiance: a dark and a bright leaf together look darker
+    float sun_gain;   // relative gain in brightness of leaves that face the sun, by how much they do
+    vec3 normal_mean; // mean normal in its picture
 };
 
 // Return that of a card or a tree with the axes `own`, under light from above and below.
@@ -23,7 +23,7 @@ LeafMean leaf_mean(mat3 own, vec3 ray, Light above, vec3 below) {
     vec2 mean = vec2(0.0), spread = vec2(0.0);
     for (int each = 0; each < NORMALS; each++) {
         vec3 normal = leaf_normals[each].xyz;
-        float to = dot(normal, to_eye), lit = dot(normal, to_sun), facing = leaf_normals[each].w * abs(to), part = leaf_normals[each].w * normal.z;
+        float to = dot(normal, to_eye), lit = dot(normal, to_sun), area = leaf_normals[each].w, facing = area * abs(to), part = area * normal.z;
         vec3 radiance = leaf_radiance(lit * sign(to), random_leaves);
         float up = (own * normal).y * sign(to);
         float bright = sqrt(brightness(albedo * (above.sun * radiance + mix(below, above.sky, 0.5 + 0.5 * up)) + above.haze));

@@ -105,9 +105,9 @@ def _reaches(covered: Mask) -> tuple[Doubles, Doubles]:
 
     Reaches are to the left and to the right of the middle, at least 0.
     """
-    (_, tall, wide), there = covered.shape, np.flatnonzero(covered.any(axis=(0, 2)))
+    (_, tall, wide), filled = covered.shape, np.flatnonzero(covered.any(axis=(0, 2)))
     edges = np.unique(
-        np.linspace(max(there[0] - CLOSE_MARGIN, 0), min(there[-1] + 1 + CLOSE_MARGIN, tall), ROWS).astype(np.intp)
+        np.linspace(max(filled[0] - CLOSE_MARGIN, 0), min(filled[-1] + 1 + CLOSE_MARGIN, tall), ROWS).astype(np.intp)
     )
     each = np.stack([covered[..., ::-1], covered], axis=1).reshape(-1, tall, wide)
     last = np.where(each.any(axis=2), wide - each[..., ::-1].argmax(axis=2) + CLOSE_MARGIN, 0)
@@ -181,8 +181,8 @@ def _support(covered: Mask, margin: int) -> tuple[Doubles, Doubles]:
     angle = 2.0 * np.pi * np.arange(SIDES) / SIDES
     to = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     rows = np.flatnonzero(covered.any(axis=1))
-    there = covered[rows]
-    left, right = there.argmax(axis=1), there.shape[1] - there[:, ::-1].argmax(axis=1)
+    filled = covered[rows]
+    left, right = filled.argmax(axis=1), filled.shape[1] - filled[:, ::-1].argmax(axis=1)
     ends = [np.stack([across, rows + up], axis=1) for across in (left, right) for up in (0, 1)]
     return to, (np.concatenate(ends) @ to.T).max(axis=0) + margin
 
@@ -191,7 +191,7 @@ def _quads(to: Doubles, reach: Doubles) -> Doubles:
     """Return the corners (n, 4, 2) of all quads whose sides face four of the directions at these extents."""
     sides = np.array(list(combinations(range(SIDES), len(BOX))))
     turn = np.diff(sides, axis=1, append=sides[:, :1] + SIDES)
-    sides = sides[(2 * turn < SIDES).all(axis=1)]  # others do not meet
+    sides = sides[(2 * turn < SIDES).all(axis=1)]  # other sides do not meet
     (one, other), (a, b) = ([each[some] for some in (sides, np.roll(sides, -1, axis=1))] for each in (to, reach))
     (ax, ay), (bx, by) = np.moveaxis(one, -1, 0), np.moveaxis(other, -1, 0)
     return np.asarray(np.stack([a * by - b * ay, b * ax - a * bx], axis=-1) / (ax * by - ay * bx)[..., None])

@@ -7,12 +7,12 @@ import numpy as np
 RECORD = np.dtype(
     [
         ("dark", "3f4"), ("tall", "f4"),  # pigments of leaves, dark and bright; height [m]
-        ("bright", "3f4"), ("slim", "f4"),  # height of its pictures, of their width
+        ("bright", "3f4"), ("aspect", "f4"),  # height of its pictures, of their width
         ("bark", "3f4"), ("rough", "f4"),  # pigment of old bark; depth of its furrows, or below 0 bands across
         ("young_bark", "3f4"), ("column", "f4"),  # distance between trees in a row [m]
         # Radius from which on a stem's bark ages [m], and 1 over the further radius until it is old [1/m].
         # Height of the middle of its pictures, and half their height [m].
-        ("ripens", "2f4"), ("ball", "2f4"),
+        ("ripens", "2f4"), ("picture_span", "2f4"),
     ]
 )  # fmt: skip
 """Parameters of a model and its kind."""

@@ -16,7 +16,7 @@ from .kind import GpuKind
 from .motion import CROWN_BENDS, TONES_APART, TRUNK_LEANS, TRUNK_SWINGS, tones, trunk_hertz
 from .programs import Programs
 from .standing import INSTANCE, Standing, far_instances
-from .stream import CAST, QUAD, Numbers
+from .stream import CAST, QUAD, Uniforms
 
 UNIT = BORROWED[0] - 1
 """Texture unit of the map, borrowed from the host and given back in the end."""
@@ -95,7 +95,7 @@ class ShadeMap:
         borrow(UNIT, self._texture.glo)
         self._sampler.use(UNIT)
 
-    def prepare(self, kinds: Sequence[GpuKind], programs: Programs, standing: Standing, numbers: Numbers, /) -> int:
+    def prepare(self, kinds: Sequence[GpuKind], programs: Programs, standing: Standing, numbers: Uniforms, /) -> int:
         """Draw the maps whose inputs have changed; return the number of draw calls."""
         due = [number for number, (inputs, _) in enumerate(self._wanted) if self._drawn[number] != inputs]
         if not due:

@@ -1,11 +1,11 @@
 // A tree: its message of the wind, the sun past all but trees, the haze in front, the grass about it, and its trunk's displacement.
 #include "systems/trees/tree.glsl"
 
-uniform sampler2D tree_air;   // messages of the patches around the viewer, wrapping round
-uniform sampler2D tree_mean;  // their mean
-uniform vec2 middle;          // of the viewer's patch [m]
-in float crown_at;            // height of its crown's middle over its root [m]
-in float hertz;               // frequency of its trunk [Hz]
+uniform sampler2D tree_air;  // messages of the patches around the viewer, wrapping round
+uniform sampler2D tree_mean; // their mean
+uniform vec2 middle;         // of the viewer's patch [m]
+in float crown_at;           // height of its crown's middle over its root [m]
+in float hertz;              // frequency of its trunk [Hz]
 
 out vec4 out_wind_response;  // inputs of tree.glsl
 out vec4 out_haze;
@@ -47,7 +47,8 @@ void main() {
     float leaves = total(area), high = 0.0;
     for (int group = 0; group < GROUPS; group++)
         high += dot(area[group], crown[group]);
-    out_grass = vec4(max(high / max(leaves, LEAST_PART), LOWEST_CROWN), leaves, sun_extinction(0, sun.y), sun_visibility(place, lie_at(root.xz).visibility));
+    float sun_seen = sun_visibility(place, lie_at(root.xz).visibility);
+    out_grass = vec4(max(high / max(leaves, LEAST_PART), LOWEST_CROWN), leaves, sun_extinction(0, sun.y), sun_seen);
     out_light_from_grass = reflected_light();
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 }

@@ -16,7 +16,7 @@ from .standing import HUNG, HUNG_LEAVES, INSTANCE, ROW_SPACING, STOOD, TWIG_INST
 from .twig import RANKS, ROW, TWIG
 from .wood import Parts, parts
 
-Numbers = Mapping[str, tuple[float, ...]]
+Uniforms = Mapping[str, tuple[float, ...]]
 """Uniforms of programs, by name."""
 
 NEAR, FAR, LEAVES, WOOD, CAST, PICTURED = "near", "far", "leaves", "wood", "cast", "pictured"
@@ -62,7 +62,7 @@ ROOM = 16
 
 def twigs_drawn(twigs: int, share: float, /) -> int:
     """Return the number of a tree's twigs that are drawn where a share of them is seen."""
-    dwindling = 0.5 / RANKS  # as `size_of` of twig.glsl has it
+    dwindling = 0.5 / RANKS  # as in `twig_size` of twig.glsl
     return min(int(twigs * (share + dwindling)) + 1, twigs)
 
 
@@ -72,9 +72,9 @@ class GpuModel:
     def __init__(self, ctx: moderngl.Context, model: Model) -> None:
         self.model = model
         ranges = ranges_of(model.vertices)
-        self.numbers: Numbers = {
+        self.numbers: Uniforms = {
             "tall": (model.height,), "twigs": (len(model.twigs),),
-            "ball": (model.middle, model.half), "slim": (model.slim,), "lines": (model.lines,),
+            "picture_span": (model.middle, model.half), "aspect": (model.aspect,), "lines": (model.lines,),
             "grass_shade": model.shade,
             "column": (ROW_SPACING * model.radius,), **ranges._asdict(),
         }  # fmt: skip
@@ -105,7 +105,7 @@ class GpuModel:
         """Index in `PIXEL_RADII` of a stream's wood."""
         self.far: moderngl.TextureArray | None = None
         """Pictures of the model from all around, and the optical depths before what they show."""
-        self.met: moderngl.TextureArray | None = None
+        self.depths: moderngl.TextureArray | None = None
         self.normals = Normals()
         """Normals of its leaves."""
         self.outline = self.solid_outline = NOWHERE
@@ -157,4 +157,4 @@ class GpuModel:
         """Give everything back."""
         release_all(self.twigs, self.vertices, self.triangles, self.bare)
         release_all(*self.streams.values(), *self.stood.values(), *self.hung.values())
-        release_all(*(each for each in (self.far, self.met) if each is not None))
+        release_all(*(each for each in (self.far, self.depths) if each is not None))

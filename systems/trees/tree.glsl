@@ -5,20 +5,20 @@
 #include "systems/trees/motion.py"
 #include "systems/trees/parameter.py"
 
-in vec3 root;     // place [m]
-in float scale;   // size, of its model's
-in vec2 turn;     // cosine and sine of its yaw
-in float phase;   // random number, 0 to 1
-in float tint;    // brightness, of its kind's
-in float twig_share;    // share of its twigs that are drawn, each larger so that together they hide as much
-in float far_fade;    // fade from these to its picture far off, 0 to 1
-in float foliage; // share of its leaves
+in vec3 root;        // place [m]
+in float scale;      // size, of its model's
+in vec2 turn;        // cosine and sine of its yaw
+in float phase;      // random number, 0 to 1
+in float tint;       // brightness, of its kind's
+in float twig_share; // share of its twigs that are drawn, each larger so that together they hide as much
+in float far_fade;   // fade from these to its picture far off, 0 to 1
+in float foliage;    // share of its leaves
 #ifdef STANDS
 // Outputs of stand.vert.
 in vec4 wind_response;    // message of the wind; displacement of the trunk's top, of its height
 in vec4 haze_in_front;    // radiance of the haze in front, and its opacity
-in vec4 grass_about; // of the grass about its foot: height [m], leaf area, optical depth of sunlight, of that straight down; and sun seen past all
-                   // but trees
+in vec4 grass_about;      // of the grass about its foot: height [m], leaf area, optical depth of sunlight, of that straight down; and sun seen
+                          // past all but trees
 in vec3 light_from_grass; // light reflected by the grass, as radiance of a white face that looks down
 vec2 message = wind_response.xy, trunk_sway = wind_response.zw;
 #else
@@ -38,14 +38,14 @@ const float LOWEST_ARC = 0.5;  // twice the least height, for the drop of what i
 
 // Swing of a lightly damped stem in gusty air, -1 to 1: a narrow band about its own frequency (Crandall and Mark, Random Vibration in
 // Mechanical Systems, 1963), here of two tones that beat. Frequencies are multiples of 1 / PERIOD, so that it repeats.
-float swing(float hertz, float own) {
+float swing(float hertz, float random) {
     vec2 tones = floor(hertz * TONES * PERIOD + 0.5) / PERIOD;
-    vec2 waves = sin(AROUND * (fract(tones * moment) + own * TONES_APART));
+    vec2 waves = sin(AROUND * (fract(tones * moment) + random * TONES_APART));
     return 0.5 * (waves.x + waves.y);
 }
 
-vec3 to_world(vec3 own) {
-    return vec3(turn.x * own.x - turn.y * own.z, own.y, turn.y * own.x + turn.x * own.z);
+vec3 to_world(vec3 place) {
+    return vec3(turn.x * place.x - turn.y * place.z, place.y, turn.y * place.x + turn.x * place.z);
 }
 
 vec3 to_model(vec3 world) {
@@ -53,22 +53,22 @@ vec3 to_model(vec3 world) {
 }
 
 // Displacement of a trunk of a length [m] at a part of it [m].
-vec2 trunk_offset(float high, float of) {
-    return trunk_sway * (of * cantilever(clamp(high, 0.0, OVER_TOP)));
+vec2 trunk_offset(float part, float length_of) {
+    return trunk_sway * (length_of * cantilever(clamp(part, 0.0, OVER_TOP)));
 }
 
 // Position of a point of its model, with the trunk bent, and its limb swung about its foot.
-vec3 swayed(vec3 own, vec3 pivot, float limb, float hertz, vec2 message) {
-    vec3 at = to_world(own);
-    vec2 bent = trunk_offset(own.y / tall, tall);
-    float out_by = distance(own, pivot), loose = out_by * out_by / (out_by + LIMB_STIFF);
+vec3 swayed(vec3 place, vec3 pivot, float limb, float hertz, vec2 message) {
+    vec3 at = to_world(place);
+    vec2 bent = trunk_offset(place.y / tall, tall);
+    float out_by = distance(place, pivot), loose = out_by * out_by / (out_by + LIMB_STIFF);
     vec3 to = vec3(message, 0.0).xzy;
     float first = swing(hertz, limb + phase), second = swing(hertz * LIMB_ASIDE.y, limb * LIMB_ASIDE.z + phase);
     vec3 limb_sways = to * (LIMB_LEANS + LIMB_SWINGS * first) + vec3(-to.z, 0.0, to.x) * (LIMB_ASIDE.x * LIMB_SWINGS * second);
     limb_sways.y += LIMB_SWINGS * length(message) * second;
     at += limb_sways * loose;
     at.xz += bent;
-    at.y -= dot(bent, bent) / max(2.0 * own.y, LOWEST_ARC);
+    at.y -= dot(bent, bent) / max(2.0 * place.y, LOWEST_ARC);
     return root + scale * at;
 }
 

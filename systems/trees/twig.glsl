@@ -4,12 +4,12 @@
 #include "systems/trees/habit.py"
 #include "systems/trees/twig.py"
 
-uniform int form;         // outline of its leaves
-uniform int twigs;        // number of its model's twigs
-uniform vec4 card;        // extent: left and right, back from its foot, and along [usual length of a twig]
-uniform vec3 picture_cover;       // coverage of each picture of its card, of the first one's
-uniform float usual;      // usual length of a twig [m]
-uniform vec3 leaf_shape;  // length, half the greatest width, angle from the twig [usual length of a twig; rad]
+uniform int form;           // outline of its leaves
+uniform int twigs;          // number of its model's twigs
+uniform vec4 card;          // extent: left and right, back from its foot, and along [usual length of a twig]
+uniform vec3 picture_cover; // coverage of each picture of its card, of the first one's
+uniform float twig_length;  // usual length of a twig [m]
+uniform vec3 leaf_shape;    // length, half the greatest width, angle from the twig [usual length of a twig; rad]
 #ifdef BAKED
 uniform mat4 baked;
 #else
@@ -54,9 +54,9 @@ vec3 card_normal(Twig twig) {
 
 #ifndef BAKED
 // Share of twigs at a place of its model that are drawn leaf by leaf, by the size of leaves.
-float leaf_share(vec3 own) {
-    float off = max(distance(eye, root + scale * to_world(own)), NEAREST_TWIG);
-    float pixels = scale * usual * leaf_shape.x * pixels_per_metre() / off;
+float leaf_share(vec3 place) {
+    float off = max(distance(eye, root + scale * to_world(place)), NEAREST_TWIG);
+    float pixels = scale * twig_length * leaf_shape.x * pixels_per_metre() / off;
     return clamp((pixels - leaf_pixels.x) / (leaf_pixels.y - leaf_pixels.x), 0.0, 1.0);
 }
 

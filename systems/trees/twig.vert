@@ -13,10 +13,10 @@ in uvec4 hung_light;
 in uvec2 hung_haze;
 #endif
 
-uniform int leaf_count;  // leaves of a twig
-uniform int shoots;      // of a twig: itself and its side shoots
+uniform int leaf_count;   // leaves of a twig
+uniform int shoots;       // of a twig: itself and its side shoots
 uniform float shoots_off; // angle of these from it [rad]
-uniform float finer;     // ratio of a twig's leaves and stems to those drawn
+uniform float finer;      // ratio of a twig's leaves and stems to those drawn
 
 out vec2 on;
 #ifdef BAKED
@@ -25,9 +25,9 @@ out vec4 inside;  // optical depths; or tone, 1 on a stem, and coverage
 flat out float tone;
 flat out float picture;  // index of the card's picture
 #else
-out float stem_cover;      // coverage of a stem; below 0 on a leaf
+out float stem_cover;        // coverage of a stem; below 0 on a leaf
 flat out vec3 leaf_colour;   // its displayed colour
-flat out vec3 midrib_colour;  // that of its midrib
+flat out vec3 midrib_colour; // that of its midrib
 #endif
 
 const float STEM = 0.006;  // half the width of a side shoot at its foot, of its twig's length
@@ -114,7 +114,7 @@ void main() {
     on = corner_of(gl_VertexID);
 #ifdef LEAVES
     vec3 values;
-    Twig twig = Twig(vec3(0.0), usual, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 1.0, vec3(0.0), 0.0, vec4(0.0));
+    Twig twig = Twig(vec3(0.0), twig_length, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 1.0, vec3(0.0), 0.0, vec4(0.0));
     shape = corner_on(0, number, on, 0.0, normal, values);
     inside = vec4(values, 0.0);
     float size = 1.0;
@@ -150,12 +150,14 @@ void main() {
     on = corner_of(gl_VertexID);
     vec3 shape = corner_on(hung.number, gl_VertexID / 4, on, half_pixel(), normal, values);
     vec3 own = shape.x * hung.aside + shape.y * hung.along + shape.z * face + shape.y * tip_offset(face, hung.aside, hung.rotation);
-    vec3 facing = normalize(normal.x * hung.aside + normal.y * hung.along + normal.z * face + normal_change(hung.along, hung.aside, hung.rotation));
+    vec3 at_rest = normal.x * hung.aside + normal.y * hung.along + normal.z * face;
+    vec3 facing = normalize(at_rest + normal_change(hung.along, hung.aside, hung.rotation));
     vec3 ray = normalize(hung_at.xyz - eye);
     vec3 sky = mix(hung.below, hung.above, 0.5 - 0.5 * facing.y * sign(dot(facing, ray)));
     Light light = Light(hung.sun * leaf_radiance(facing, ray), sky, hung.haze, 0.0, 0.0, vec2(0.0));
     stem_cover = values.y > 0.5 ? values.z : -1.0;
-    leaf_colour = tone_mapped(shade(Surface(pigment_of(values.x, 0.0, 0.0), 1.0, LEAF_SCATTERING), light));  // stems are green, as the darkest leaves
+    // Stems are green, as the darkest leaves.
+    leaf_colour = tone_mapped(shade(Surface(pigment_of(values.x, 0.0, 0.0), 1.0, LEAF_SCATTERING), light));
     midrib_colour = tone_mapped(shade(Surface(pigment_of(RIBBED * values.x, 0.0, 0.0), 1.0, LEAF_SCATTERING), light));
     gl_Position = hung_at.w > 0.0 ? clip_position(hung_at.xyz + hung_at.w * own) : vec4(0.0, 0.0, 2.0, 1.0);
 }

@@ -35,15 +35,15 @@ class Wild:
     def __init__(self, world: World, forest: Forest, names: list[str], *, live: bool) -> None:
         self._world, self._forest, self._names = world, forest, names
         self._live = live
-        self._executor = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")  # without a thread, until it is asked
+        self._executor = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")  # starts its thread at first use
         self._growing: dict[str, Future[None]] = {}
-        self._eyes: dict[str, tuple[int, int]] = {}
+        self._viewer_squares: dict[str, tuple[int, int]] = {}
         """Square that each viewer is on."""
         self._planted: dict[Square, list[tuple[int, Seedling]]] = {}
         """Entities and seedlings of each square near a viewer; the entity is -1 where the tree is gone."""
         self._changed: dict[int, Felled] = {}
         """Trees that a game has changed and taken over, by entity."""
-        self.left: set[int] = set()
+        self.departed: set[int] = set()
         """Entities removed because no viewer is near, until somebody clears the set."""
         self._generation = 0
         self._standing: dict[str, tuple[tuple[object, ...], Standing]] = {}
@@ -58,16 +58,16 @@ class Wild:
     def follow(self, viewer: str, eye: Eye, /) -> None:
         """Make the trees near a viewer's eye (x, y, z) [m] entities."""
         square = int(np.floor(eye[0] / SQUARE)), int(np.floor(eye[2] / SQUARE))
-        if self._eyes.get(viewer) == square and self._generation == self._world.check():
+        if self._viewer_squares.get(viewer) == square and self._generation == self._world.check():
             return
-        if self._generation != self._world.check():  # a game has deleted all there was
+        if self._generation != self._world.check():  # a game has cleared its world
             self._planted, self._generation = {}, self._world.check()
-        self._eyes.pop(viewer, None)
-        self._eyes[viewer] = square
-        self._eyes = dict([*self._eyes.items()][-MOST_VIEWERS:])
+        self._viewer_squares.pop(viewer, None)
+        self._viewer_squares[viewer] = square
+        self._viewer_squares = dict([*self._viewer_squares.items()][-MOST_VIEWERS:])
         stay = self._squares_near(2)
-        for square_left in [each for each in self._planted if each not in stay]:
-            self._remove(square_left)
+        for square in [each for each in self._planted if each not in stay]:
+            self._remove(square)
         self._add(self._squares_near(1) - self._planted.keys())
 
     def _squares_near(self, margin: int) -> set[Square]:
@@ -75,7 +75,7 @@ class Wild:
         steps = range(-reach, reach + 1)
         return {
             (i + x, j + z)
-            for i, j in self._eyes.values() for x in steps for z in steps if x * x + z * z <= reach * reach
+            for i, j in self._viewer_squares.values() for x in steps for z in steps if x * x + z * z <= reach * reach
         }  # fmt: skip
 
     def _add(self, squares: Iterable[Square]) -> None:
@@ -92,7 +92,7 @@ class Wild:
         for number, (entity, seedling) in enumerate(self._planted.pop(square)):
             if self._unchanged(entity, seedling):
                 self._world.delete(entity)
-                self.left.add(entity)
+                self.departed.add(entity)
             elif entity >= 0 and self._world.has(entity):
                 self._changed[entity] = *square, number
 
@@ -114,12 +114,12 @@ class Wild:
 
     def standing(self, viewer: str, eye: Eye, rows: Rows, /) -> Standing:
         """Return the trees that a viewer is shown; `rows` are all that are entities."""
-        inputs = id(rows), self._eyes.get(viewer), tuple(self._planted), self._forest.version
+        inputs = id(rows), self._viewer_squares.get(viewer), tuple(self._planted), self._forest.version
         known = self._standing.get(viewer)
         if known is not None and known[0][1] != inputs[1] and self._live and self._still_growing(viewer, eye):
             return known[1]
         if known is None or known[0] != inputs:
-            self._standing = {name: each for name, each in self._standing.items() if name in self._eyes}
+            self._standing = {name: each for name, each in self._standing.items() if name in self._viewer_squares}
             known = inputs, Standing(np.concatenate([rows, self._forest.around(eye, self._planted)]))
             self._standing[viewer] = known
         return known[1]
@@ -148,7 +148,7 @@ class Wild:
             by_square.setdefault((i, j), []).append(which)
         if not all(map(self._forest.reaches, by_square)):
             raise ValueError("it has felled trees off this scene's ground")
-        if self._forest.streams:  # what is not in its window cannot grow
+        if self._forest.streams:  # squares outside its window cannot grow
             middle = [((i + 0.5) * SQUARE, (j + 0.5) * SQUARE) for i, j, _ in felled] if stood is None else stood
             return {at: {felled[which][2]: middle[which] for which in own} for at, own in by_square.items()}
         gone: Gone = {}
@@ -173,7 +173,7 @@ class Wild:
         """Remove all entities until a viewer is followed again."""
         for square in [*self._planted]:
             self._remove(square)
-        self._eyes.clear()
+        self._viewer_squares.clear()
         self._standing.clear()
 
     def release(self) -> None:

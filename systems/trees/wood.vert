@@ -8,17 +8,17 @@
 #include "systems/trees/pigment.glsl"
 #include "systems/trees/wood.py"
 
-in uvec4 stem;    // middle of the model's stem; its radius; 0 to STEM_SCALE within their ranges
-in vec4 side;     // direction of the vertex from the middle, a unit vector, and outset of a flat-sided tube's corners; or a ribbon's tangent, and
-                  // -1 or 1 on its edge
-in vec4 surface;      // position around the stem and along it [m]; random number and frequency of its limb
-in vec3 pivot;    // foot of its limb
-in vec4 shading;  // optical depth, linear in direction about 0.5 and in the mean, of the greatest
+in uvec4 stem;   // middle of the model's stem; its radius; 0 to STEM_SCALE within their ranges
+in vec4 side;    // direction of the vertex from the middle, a unit vector, and outset of a flat-sided tube's corners; or a ribbon's tangent, and
+                 // -1 or 1 on its edge
+in vec4 surface; // position around the stem and along it [m]; random number and frequency of its limb
+in vec3 pivot;   // foot of its limb
+in vec4 shading; // optical depth, linear in direction about 0.5 and in the mean, of the greatest
 
 uniform vec4 stem_least;    // ranges, as in bark.py
 uniform vec4 stem_range;
 uniform vec2 most_shading;
-uniform float usual;     // as in twig.glsl
+uniform float twig_length;     // as in twig.glsl
 uniform vec3 leaf_shape;
 
 #ifdef BAKED
@@ -35,12 +35,12 @@ out vec3 sun_radiance;  // radiance of mean bark that faces the sun, and of the 
 out vec3 sky_radiance;
 flat out vec3 haze_colour;
 #endif
-out float stem_cover;  // coverage
-flat out float ribbon; // 1 on a ribbon, which is shaded as if round
-out vec2 edge;  // softness of its edges; position of the vertex, of the stem's edge
-out float age;   // age of its bark, 0 to 1; or radius of the stem, of THICKEST
-out float grass_height; // height over the ground, of the grass's
-flat out vec2 grass_here;  // leaf area of that grass; optical depth of sunlight in it, of that straight down
+out float stem_cover;     // coverage
+flat out float ribbon;    // 1 on a ribbon, which is shaded as if round
+out vec2 edge;            // softness of its edges; position of the vertex, of the stem's edge
+out float age;            // age of its bark, 0 to 1; or radius of the stem, of THICKEST
+out float grass_height;   // height over the ground, of the grass's
+flat out vec2 grass_here; // leaf area of that grass; optical depth of sunlight in it, of that straight down
 
 const float ON_EDGE = 0.5;  // beyond it, a vertex is on a ribbon's edge: bytes have no 0
 
@@ -87,7 +87,7 @@ void main() {
     sun_radiance = FACE_GAIN * pigment * pigment * light.sun;
     sky_radiance = pigment * pigment * light.sky;
     haze_colour = light.haze;
-    float leaf = scale * usual * leaf_shape.x * THINNEST / pixel_width;
+    float leaf = scale * twig_length * leaf_shape.x * THINNEST / pixel_width;
     gl_Position = just_behind(clip_position_among_leaves(seen_at, foliage * (1.0 - age), leaf, seen_at.y - root.y));
 #endif
 }

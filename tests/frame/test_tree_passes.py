@@ -11,7 +11,7 @@ from tallgrass.engine.camera import Camera
 from tallgrass.systems.trees.call import DrawCall, Pass, draw
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.programs import HARD
-from tallgrass.systems.trees.stream import Numbers
+from tallgrass.systems.trees.stream import Uniforms
 from tallgrass.systems.trees.wood import CLOSED
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 from tallgrass.testing.little import SPARSE
@@ -85,7 +85,7 @@ def test_what_is_told_only_once_is_what_each_call_would_be_told(
 ) -> None:
     """Calls leave out what those before them have told and bound."""
 
-    def each_alone(calls: Sequence[DrawCall], numbers: Numbers) -> int:
+    def each_alone(calls: Sequence[DrawCall], numbers: Uniforms) -> int:
         for one in calls:
             for told, *_ in one.state.uniforms:
                 told[0] = None
