@@ -56,10 +56,10 @@ def assign_units(
 UNITS = (
     assign_units(
         ["received", *(name for each in FEATURES for name in each.samplers)],
-        [name for each in FEATURES for name in each.asked],
+        [name for each in FEATURES for name in each.pass_samplers],
         {
             **{each.__name__: ((), each.own) for each in FEATURES},
-            **{each.name: (each.asked, each.samplers) for each in REPRESENTATIONS},
+            **{each.name: (each.pass_samplers, each.samplers) for each in REPRESENTATIONS},
         },
     )
     | BORROWED

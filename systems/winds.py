@@ -54,7 +54,7 @@ class _Record:
 class Winds(Feature):
     """All winds in one world: those that a scene declares, those that a game adds, and a game's own entities."""
 
-    asked = SAMPLERS
+    pass_samplers = SAMPLERS
 
     def __init__(
         self,

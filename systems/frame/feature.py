@@ -133,7 +133,7 @@ class Feature:
     samplers: ClassVar[tuple[str, ...]] = ()
     """Names of its samplers that are bound throughout a frame."""
 
-    asked: ClassVar[tuple[str, ...]] = ()
+    pass_samplers: ClassVar[tuple[str, ...]] = ()
     """Names of its samplers that only passes over receivers read."""
 
     own: ClassVar[tuple[str, ...]] = ()

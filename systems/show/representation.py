@@ -100,7 +100,7 @@ class RepresentationPainter(Part, ABC):
 
     @abstractmethod
     def receivers(self, outlook: Outlook, /) -> list[int]:
-        """Return the number of each pool's receivers that hear the wind in this frame."""
+        """Return by pool the number of receivers that hear the wind in this frame."""
 
     @abstractmethod
     def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
@@ -111,7 +111,7 @@ class RepresentationPainter(Part, ABC):
 
     @abstractmethod
     def hear(self) -> int:
-        """Compute the messages of its receivers; return the number of draw calls."""
+        """Compute the messages of the receivers; return the number of draw calls."""
 
     def heard(self) -> WindTextures:
         """Return the messages at the patches around the viewer; only the representation on the ground has them."""
@@ -172,16 +172,16 @@ class Representation(ABC):
     """Name for people to read."""
 
     programs: ClassVar[int] = 0
-    """Number of programs that its painter compiles one at a time."""
+    """Number of programs that the painter compiles one at a time."""
 
     color: ClassVar[Color]
     """Display colour in the overlay, in [0, 1]."""
 
     samplers: ClassVar[tuple[str, ...]] = ()
-    """Names of its own samplers that drawing reads."""
+    """Names of the representation's own samplers that drawing reads."""
 
-    asked: ClassVar[tuple[str, ...]] = ()
-    """Names of its own samplers that the passes before drawing read, over receivers and blades."""
+    pass_samplers: ClassVar[tuple[str, ...]] = ()
+    """Names of its own samplers that the passes over receivers and blades read, before drawing."""
 
     morphs_into: ClassVar[str | None] = None
     """Name of the coarser representation that its blades morph into (paper, section 4.2)."""
@@ -190,7 +190,7 @@ class Representation(ABC):
     """Name of the coarser representation that it grows out of (paper, section 4.3)."""
 
     record: ClassVar[type | None] = None
-    """Dataclass of arrays that one of its pictures is an object of, as kept on disk."""
+    """Dataclass of arrays that holds a picture, as it is kept on disk; None for a representation without pictures."""
 
     quality: Quality
     ground: Ground
@@ -198,11 +198,11 @@ class Representation(ABC):
     @staticmethod
     @abstractmethod
     def reach(quality: Quality, /) -> int:
-        """Return the largest discrete distance at which patches are to have it."""
+        """Return the largest discrete distance at which a patch is to have this representation."""
 
     @staticmethod
     def depends(kind: GrassKind, quality: Quality, /) -> object:  # noqa: ARG004 - for those with pictures
-        """Return the plain values that its pictures depend on, apart from the blades."""
+        """Return the plain values that pictures depend on, apart from the blades."""
         return None
 
     @staticmethod
@@ -217,7 +217,7 @@ class Representation(ABC):
 
     @staticmethod
     def layers(quality: Quality, /) -> int:  # noqa: ARG004 - the same
-        """Return the number of texture layers that the pictures of one patch model take."""
+        """Return the number of texture layers that the pictures of a patch model take."""
         return 0
 
     @classmethod
@@ -242,7 +242,7 @@ class Representation(ABC):
         """Compute ahead what takes the next painter long. It uses no GL, so another thread may call it."""
 
     def rings(self) -> int:
-        """Return the number of its rings around a viewer."""
+        """Return the number of rings around a viewer."""
         return 1
 
     def ring(self, sublevel: Levels, /) -> Levels:
@@ -258,7 +258,7 @@ class Representation(ABC):
         return 0.0
 
     def components(self, outlook: Outlook, rows: list[int], /) -> list[tuple[object, ...]]:  # noqa: ARG002 - for those with some
-        """Return the components that it adds to the entities of the patches in some rows."""
+        """Return the components that the representation adds to the entities of the patches in some rows."""
         return [()] * len(rows)
 
     def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:  # noqa: ARG002
@@ -269,33 +269,34 @@ class Representation(ABC):
         return np.zeros(len(rows), np.int8)
 
     def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:  # noqa: ARG002 - the same
-        """Return on which patches (n,) it would look wrong, as strips do from above, so that they need a coarser one.
+        """Return whether the representation would look wrong on each patch (n,), as strips do from above.
 
-        `has` (n,) says which patches have it already. With a `slack` above 0 they keep it a little longer.
+        These patches get a coarser one. `has` (n,) says which patches have this one already: with a `slack` above 0
+        they keep it a little longer.
         """
         return np.zeros(len(rows), np.bool_)
 
     def remaining(self, outlook: Outlook, rows: Rows, away: NDArray[np.float32], /) -> NDArray[np.float32]:  # noqa: ARG002 - the same
-        """Return the part of it that shows on patches (n,): it falls from 1 to 0 before they become `unfit`.
+        """Return the part of the representation that shows on each patch (n,): it falls from 1 to 0 before `unfit`.
 
-        `away` (n,) is the exact distance of their middles from the eye [patch sides], so that the part changes without
-        jumps from patch to patch.
+        `away` (n,) is the distance of the patch's middle from the eye [patch sides]. It is not rounded, so that the
+        part does not jump from patch to patch.
         """
         return np.ones(len(rows), np.float32)
 
     @abstractmethod
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> object:
-        """Return the patches that show it in a viewer's frame; `cover` (rows,) is its opacity on each patch."""
+        """Return the patches that show this representation to a viewer; `cover` (rows,) is its opacity on each."""
 
     def plant(self, outlook: Outlook, /) -> None:  # noqa: B027 - for those that stand on the ground
         """Plant the shown patches that are not planted yet."""
 
     def carry_ahead(self, before: "Representation", kept: Kept, patches: PatchTable, /) -> bool:  # noqa: ARG002 - for those that take long
-        """Prepare for `carry` in an earlier frame; return whether that was already done."""
+        """Prepare `carry`, in a frame before it; return whether that was already done."""
         return True
 
     def carry(self, before: "Representation", kept: Kept, patches: PatchTable, /) -> None:  # noqa: B027 - for those whose stores know their grass
-        """Take over a store from the representation `before`; grass that was not grown anew stays where it stands."""
+        """Take over a store of the representation `before`; grass that has not been grown anew stays planted."""
 
     @abstractmethod
     def painter(self, canvas: Canvas, /) -> RepresentationPainter:

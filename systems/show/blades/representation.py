@@ -36,7 +36,7 @@ class BladeRepresentation(Representation):
     color: ClassVar[Color] = (0.98, 0.33, 0.20)
     morphs_into: ClassVar[str | None] = StripRepresentation.name
     samplers: ClassVar[tuple[str, ...]] = ("targets",)
-    asked: ClassVar[tuple[str, ...]] = ("blades", "standing", "slices")
+    pass_samplers: ClassVar[tuple[str, ...]] = ("blades", "standing", "slices")
 
     stock: BladeStock
 

@@ -31,7 +31,7 @@ class CarpetRepresentation(Representation):
     programs = 18
     color: ClassVar[Color] = (0.72, 0.45, 0.95)
     samplers: ClassVar[tuple[str, ...]] = ("images", "bents", "shares", "mean_air", "earth", "rims")
-    asked: ClassVar[tuple[str, ...]] = ("air",)
+    pass_samplers: ClassVar[tuple[str, ...]] = ("air",)
     record: ClassVar[type | None] = Carpet
 
     stock: CarpetStock

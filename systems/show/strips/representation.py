@@ -52,7 +52,7 @@ class StripRepresentation(Representation):
     color: ClassVar[Color] = (0.12, 0.50, 0.98)
     grows_out_of: ClassVar[str | None] = "carpet"
     samplers: ClassVar[tuple[str, ...]] = ("atlas", "ranks", "extents", "strips", "placements")
-    asked: ClassVar[tuple[str, ...]] = ("placements",)
+    pass_samplers: ClassVar[tuple[str, ...]] = ("placements",)
     record: ClassVar[type | None] = Strips
 
     stock: StripStock
