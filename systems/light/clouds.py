@@ -30,8 +30,8 @@ FARTHEST_ASIDE = 450.0
 With more, samples at successive heights would belong to different heaps."""
 
 DOME = 0.3
-"""Excess density at which a cloud reaches the highest tops. With a fraction x of it, its height is a fraction sqrt(x):
-a dome."""
+"""Excess density at which a cloud reaches the highest tops. With the fraction x of it, a cloud has sqrt(x) of that
+height: a dome."""
 
 BILLOWED = 0.36
 """Difference in map density between the highest billows and the deepest creases. It is centred on the map's value, so
@@ -59,8 +59,8 @@ CREASE_SHADING, BILLOW_LIGHT = 0.6, 1.0
 that the highest billows send, relative to a base's."""
 
 SUNLIT, SILVER = 1.25, 1.0
-"""Radiance of a sunlit cloud relative to a leaf in the sun, which gets 0.8 of the light: all of it. And strength of the
-silver lining: transmitted light at edges in front of the sun."""
+"""Radiance of a sunlit cloud relative to a leaf in the sun: a cloud reflects all light, a leaf gets 0.8 of it. And
+strength of the silver lining: transmitted light at edges in front of the sun."""
 
 SILVER_DEPTH = 0.28
 """Optical depth for the silver lining, relative to the cloud's: light scattered almost straight on counts as

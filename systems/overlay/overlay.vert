@@ -1,10 +1,10 @@
-// A mark of the overlay: the corner of a triangle; with LINE, one instance is a line as wide as is asked in pixels;
-// with PAPER, four corners are an image.
+// A mark of the overlay: corners of triangles; with LINE, an instance is a line of a width in pixels; with PAPER, four
+// corners are an image.
 #include "lib/least.glsl"
 
 uniform mat4 onto;    // from the marks' space to clip space
-uniform vec2 screen;  // pixels from the middle to the edge, across and up
-uniform float scale;  // pixels for one of a picture 540 high
+uniform vec2 screen;  // half the picture's size [pixels]
+uniform float scale;  // pixels per pixel of a picture 540 high
 
 #ifdef PAPER
 in vec2 corner;       // 0 to 1, from the lower left
@@ -30,7 +30,7 @@ in float width;
 noperspective out float across;
 flat out float half_width;
 
-const float NEAR = 0.05;  // distance from the eye where lines are cut off [m]
+const float NEAR = 0.05;  // distance from the eye at which lines are clipped [m]
 
 void main() {
     vec4 from = onto * vec4(a, 1.0), to = onto * vec4(b, 1.0);

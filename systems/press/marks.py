@@ -72,10 +72,10 @@ class Listing:
     """Stretches, and all pairs of a stretch and a square that it touches."""
 
     stretches: Stretches
-    number: Ints
+    stretch_of_pair: Ints
     """Index of each pair's stretch, rising, shape (m,)."""
 
-    square: NDArray[np.uint16]
+    square_of_pair: NDArray[np.uint16]
     """Number of each pair's square, shape (m,)."""
 
     @classmethod
@@ -89,17 +89,17 @@ class Listing:
         stays = self.stretches[:, LEFT] > time
         if stays.all() and counts.all():
             return self
-        stays &= np.bincount(self.number[counts], minlength=len(stays)) > 0
-        number, those = np.cumsum(stays, dtype=np.int32) - 1, counts & stays[self.number]
-        return Listing(self.stretches[stays], number[self.number[those]], self.square[those])
+        stays &= np.bincount(self.stretch_of_pair[counts], minlength=len(stays)) > 0
+        new_index, pairs = np.cumsum(stays, dtype=np.int32) - 1, counts & stays[self.stretch_of_pair]
+        return Listing(self.stretches[stays], new_index[self.stretch_of_pair[pairs]], self.square_of_pair[pairs])
 
     def and_then(self, other: "Listing") -> "Listing":
         """Append others."""
-        number = other.number + np.int32(len(self.stretches))
+        stretch_of_pair = other.stretch_of_pair + np.int32(len(self.stretches))
         return Listing(
             np.concatenate([self.stretches, other.stretches]),
-            np.concatenate([self.number, number]),
-            np.concatenate([self.square, other.square]),
+            np.concatenate([self.stretch_of_pair, stretch_of_pair]),
+            np.concatenate([self.square_of_pair, other.square_of_pair]),
         )
 
     def marks(self, *, since: float) -> Marks:
@@ -108,8 +108,8 @@ class Listing:
 
     def lists(self) -> tuple[NDArray[np.intp], Ints]:
         """Return the lengths of the squares' lists, and the lists, concatenated."""
-        count = np.bincount(self.square, minlength=SIDE * SIDE)
-        return count, self.number[np.argsort(self.square, kind="stable")]
+        count = np.bincount(self.square_of_pair, minlength=SIDE * SIDE)
+        return count, self.stretch_of_pair[np.argsort(self.square_of_pair, kind="stable")]
 
 
 def as_marks(stretches: Stretches, since: float) -> Floats:
@@ -122,9 +122,9 @@ def as_marks(stretches: Stretches, since: float) -> Floats:
 
 def _marks(marks: Floats, count: NDArray[np.intp], listed: Ints) -> Marks:
     """Return marks with their lists, each limited to its last `MOST_MARKS`."""
-    fewer = np.minimum(count, MOST_MARKS)
-    first = np.cumsum(count) - fewer
-    return Marks(marks, first.astype(np.int32), fewer.astype(np.int32), listed)
+    limited = np.minimum(count, MOST_MARKS)
+    first = np.cumsum(count) - limited
+    return Marks(marks, first.astype(np.int32), limited.astype(np.int32), listed)
 
 
 def _first_counting(settled: Marks) -> Ints:
@@ -136,8 +136,8 @@ def _first_counting(settled: Marks) -> Ints:
 
 def square_of(place: Floats, /) -> Ints:
     """Return the number of the square of each ground position (n, 2), shape (n,)."""
-    at = np.floor(place / np.float32(SQUARE)).astype(np.int32) & (SIDE - 1)
-    return np.asarray(at[:, 1] * SIDE + at[:, 0], np.int32)
+    cell = np.floor(place / np.float32(SQUARE)).astype(np.int32) & (SIDE - 1)
+    return np.asarray(cell[:, 1] * SIDE + cell[:, 0], np.int32)
 
 
 def touched_squares(stretches: Stretches) -> tuple[Ints, NDArray[np.uint16]]:
@@ -147,12 +147,13 @@ def touched_squares(stretches: Stretches) -> tuple[Ints, NDArray[np.uint16]]:
     high = np.floor((np.maximum(stretches[:, FIRST], stretches[:, LAST]) + reach) / SQUARE).astype(np.int32)
     wide, deep = (high - low + 1).T
     squares_each = wide * deep
-    number = np.repeat(np.arange(len(stretches), dtype=np.int32), squares_each)
+    stretch_of_pair = np.repeat(np.arange(len(stretches), dtype=np.int32), squares_each)
     begins = np.cumsum(squares_each, dtype=np.int32) - squares_each
-    square_in_stretch, across = np.arange(len(number), dtype=np.int32) - begins[number], wide[number]
+    square_in_stretch = np.arange(len(stretch_of_pair), dtype=np.int32) - begins[stretch_of_pair]
+    across = wide[stretch_of_pair]
     row = square_in_stretch // across
-    x, z = low[:, 0][number] + square_in_stretch - row * across, low[:, 1][number] + row
-    return number, ((z & (SIDE - 1)) * SIDE + (x & (SIDE - 1))).astype(np.uint16)
+    x, z = low[:, 0][stretch_of_pair] + square_in_stretch - row * across, low[:, 1][stretch_of_pair] + row
+    return stretch_of_pair, ((z & (SIDE - 1)) * SIDE + (x & (SIDE - 1))).astype(np.uint16)
 
 
 NO_STRETCHES = np.zeros((0, NUMBERS))
@@ -192,7 +193,7 @@ class Conversion:
         while self._steps_done < min(part, 1.0) * self._steps:
             self._steps_done += 1
             for piece in islice(self._pieces_left, PIECES_AT_A_TIME):
-                counts = self._stretches_seen + piece.number >= self._first_counting[piece.square]
+                counts = self._stretches_seen + piece.stretch_of_pair >= self._first_counting[piece.square_of_pair]
                 self._stretches_seen += len(piece.stretches)
                 self._add(piece.kept_after(self.since - self.lasts, counts))
             if self._steps_done == self._steps:
@@ -202,7 +203,7 @@ class Conversion:
         """Finish; return all stretches as marks, followed by new ones (n, NUMBERS), which are kept from now on."""
         self.convert_to(1.0)
         fresh = Listing.of(stretches)
-        fresh = fresh.kept_after(self.since - self.lasts, np.ones(len(fresh.number), np.bool_))
+        fresh = fresh.kept_after(self.since - self.lasts, np.ones(len(fresh.stretch_of_pair), np.bool_))
         count, listed = fresh.lists()
         listed = listed + np.int32(sum(map(len, self._converted)))
         both = np.empty(len(self._listed) + len(listed), np.int32)
@@ -227,8 +228,10 @@ def concatenated(pieces: list[Listing], /) -> Listing:
     begins = np.cumsum([0, *(len(piece.stretches) for piece in pieces)], dtype=np.int32)[:-1]
     return Listing(
         np.concatenate([NO_STRETCHES, *(piece.stretches for piece in pieces)]),
-        np.concatenate([NO_LISTS[1], *(piece.number + begin for piece, begin in zip(pieces, begins, strict=True))]),
-        np.concatenate([np.zeros(0, np.uint16), *(piece.square for piece in pieces)]),
+        np.concatenate(
+            [NO_LISTS[1], *(piece.stretch_of_pair + begin for piece, begin in zip(pieces, begins, strict=True))]
+        ),
+        np.concatenate([np.zeros(0, np.uint16), *(piece.square_of_pair for piece in pieces)]),
     )
 
 

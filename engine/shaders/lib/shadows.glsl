@@ -104,7 +104,7 @@ float box_visibility(vec3 apart, vec3 toward, vec3 size) {
     return 1.0 - (1.0 - smoothstep(-soft, soft, max(max(by.x, by.y), by.z))) / max(part * part, 1.0);
 }
 
-// Visibility of the sun behind a shade; `told` is a record as `told_of` packs it.
+// Visibility of the sun behind a shade; `told` is a record as `shade_texels` packs it.
 float shade_visibility(mat3x4 told, vec3 place) {
     vec3 apart = told[0].xyz - place, axis = told[1].xyz;
     float deep = told[0].w, reach = told[1].w, radius = told[2].w;
