@@ -1,25 +1,25 @@
-"""The types of arrays that the whole house speaks of, by what they hold."""
+"""Types of arrays in the whole package, by their contents."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float32]
-"""What the graphics card takes, and all that is the same there: the usual array."""
+"""The usual array, in the graphics card's precision."""
 
 Doubles = NDArray[np.float64]
-"""What single precision would spoil: times, sums, and what is grown once."""
+"""Values that need double precision: times, sums, and what is grown once."""
 
 Ints = NDArray[np.int32]
-"""Numbers and cells, as the graphics card takes them."""
+"""Indices and cells, as the graphics card takes them."""
 
 Rows = NDArray[np.int64]
 """Rows of the patch table, and entities."""
 
 Levels = NDArray[np.int8]
-"""Representations and sub-levels, by number."""
+"""Numbers of representations and sub-levels."""
 
 Mask = NDArray[np.bool_]
-"""For each row, whether it is meant."""
+"""Boolean selection of rows."""
 
 Bytes = NDArray[np.uint8]
 """Bytes, and pictures in display colours."""

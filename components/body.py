@@ -1,4 +1,4 @@
-"""What is seen of a thing that flies over the prairie."""
+"""Bodies: things that fly over the prairie."""
 
 from dataclasses import dataclass
 from typing import Literal, get_args
@@ -6,18 +6,18 @@ from typing import Literal, get_args
 import numpy as np
 
 Model = Literal["saucer"]
-"""What a body looks like."""
+"""Name of a body's model."""
 
 HIGHEST = 1000.0
-"""How high a body may fly above the grass [m]."""
+"""Greatest height of a body above the grass [m]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Body:
-    """A flying thing of one instant: first turned by `yaw`, then its nose tilted, then banked."""
+    """A flying body at one instant: turned by `yaw`, then its nose tilted, then banked."""
 
     place: tuple[float, float, float]
-    """Where the middle of it is (x, y, z) [m]."""
+    """Position of its middle (x, y, z) [m]."""
 
     yaw: float = 0.0
     """Heading: 0 is -z, positive turns right [rad]."""
@@ -33,16 +33,16 @@ class Body:
 
 @dataclass(frozen=True, slots=True)
 class Hover:
-    """A thing that hovers over a wind, as a saucer does over its jet: what it looks like and how high it flies."""
+    """A body that hovers over a wind, as a saucer does over its jet."""
 
     model: Model = "saucer"
-    """What it looks like."""
+    """Name of its model."""
 
     height: float = 2.0
-    """How high its middle flies above the grass [m]."""
+    """Height of its middle above the grass [m]."""
 
     def __post_init__(self) -> None:
-        """Raise ValueError for what cannot be drawn, or not there."""
+        """Raise ValueError for an unknown model, or a height out of range."""
         if self.model not in get_args(Model):
             raise ValueError(f"a body looks like one of {', '.join(get_args(Model))}, not like {self.model!r}")
         height: object = self.height

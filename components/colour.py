@@ -8,7 +8,7 @@ LONG, SHORT = "#[0-9a-fA-F]{6}", "#[0-9a-fA-F]{3}"
 
 
 def hex_of(colour: object, /) -> object:
-    """Return a colour by its name in CSS, such as `orange`, or written `#rgb`, as `#rrggbb`; anything else as it is."""
+    """Return a colour, by its CSS name such as `orange` or written `#rgb`, as `#rrggbb`; anything else unchanged."""
     if not isinstance(colour, str) or is_colour(colour):
         return colour
     if re.fullmatch(SHORT, colour):
@@ -22,18 +22,18 @@ def hex_of(colour: object, /) -> object:
 
 
 def is_colour(colour: object, /) -> bool:
-    """Return whether this is a colour `#rrggbb`."""
+    """Return whether a value is a colour `#rrggbb`."""
     return isinstance(colour, str) and re.fullmatch(LONG, colour) is not None
 
 
 def nearest(text: str, /) -> str | None:
-    """Return the colour that a text was perhaps meant to be."""
+    """Return the colour that a text resembles, or None."""
     if is_colour(f"#{text}"):
         return f"#{text}"
     return next(iter(get_close_matches(text.lower(), _names(), n=1)), None)
 
 
 def _names() -> Collection[str]:
-    from PIL import ImageColor  # noqa: PLC0415 - who only asks for help is not to wait for it
+    from PIL import ImageColor  # noqa: PLC0415 - slow to import: `tallgrass --help` should not wait for it
 
     return ImageColor.colormap.keys()

@@ -1,31 +1,31 @@
-"""The course of a wind: how far its phases have come, whatever a game has changed on the way."""
+"""The course of a wind: its phases over time, continuous across a game's changes of their rates."""
 
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 MOST_CHANGES = 1024
-"""How many changes are remembered, the latest ones: 17 s of a ramp at 60 frames a second."""
+"""Number of latest changes that are kept: 17 s of a ramp at 60 frames a second."""
 
 Phases = tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """Phases that run at rates which have changed: integrals over time, in pieces between the changes.
+    """Phases of changing rates: integrals of the rates over time, piecewise linear between changes.
 
-    In each piece a phase is an offset plus a rate times the time, so that nothing is summed up step by step: between
-    two changes it is the same to the bit, however time is cut into frames.
+    In each piece a phase is an offset plus the rate times the time. Nothing is summed step by step, so between two
+    changes phases are the same bit by bit, however time is cut into frames.
     """
 
     times: tuple[float, ...]
-    """When the rates changed [s], rising."""
+    """Times of the changes [s], rising."""
 
     rates: tuple[Phases, ...]
-    """The rates before the first change, and from each one on."""
+    """Rates before the first change, and after each change [1/s]."""
 
     offsets: tuple[Phases, ...]
-    """What is added to rate times time in each piece, so that it begins where the one before ends."""
+    """Offsets in each piece, which make phases continuous."""
 
     @classmethod
     def of(cls, rates: Sequence[float], /) -> "Course":
@@ -33,7 +33,7 @@ class Course:
         return cls((), (tuple(rates),), ((0.0,) * len(rates),))
 
     def changed(self, rates: Sequence[float], /, *, time: float) -> "Course":
-        """Return the course on which the rates are others from `time` [s] on; what was to come after that is gone."""
+        """Return the course with new rates from `time` [s] on; later changes are dropped."""
         if len(rates) != len(self.rates[-1]):
             return Course.of(rates)
         kept = bisect_right(self.times, time)
@@ -48,7 +48,7 @@ class Course:
         )
 
     def phases(self, time: float, /, *, since: float = 0.0) -> Phases:
-        """Return how far the phases have come from `since` to `time` [s]."""
+        """Return the advance of each phase from `since` to `time` [s]."""
         late, early = bisect_right(self.times, time), bisect_right(self.times, since) if since else 0
         came = (rate * (time - since) for rate in self.rates[late])
         if late == early:
@@ -61,5 +61,5 @@ class Course:
 
     @property
     def slowest(self) -> Phases:
-        """The least rate of each phase."""
+        """Least rate of each phase [1/s]."""
         return tuple(map(min, zip(*self.rates, strict=True)))

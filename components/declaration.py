@@ -33,7 +33,7 @@ Number = Annotated[float, Field(ge=-1e6, le=1e6)]
 
 
 def _listed(value: Any) -> Any:
-    """Return what a program has in a tuple or an array as the list that a scene file has."""
+    """Return a program's tuple or array as a list, as scene files give; anything else unchanged."""
     return value.tolist() if isinstance(value, np.ndarray) else list(value) if isinstance(value, tuple) else value
 
 
@@ -53,7 +53,7 @@ Color = Annotated[
 
 
 def rising(what: str, least: float, most: float, /) -> AfterValidator:
-    """Return the validator of a pair of lengths that rises within limits [m]; `what` begins what it says of others."""
+    """Return the validator of a rising pair of lengths within limits [m]; `what` begins its message."""
 
     def must_rise(pair: list[float]) -> list[float]:
         if not least <= pair[0] <= pair[1] <= most:

@@ -1,4 +1,4 @@
-"""A declared field of a scene: its name, its type, and what may stand below it."""
+"""A declared field of a scene: its name, type, limits, and the keys below it."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -13,26 +13,26 @@ LIMITS = "ge", "gt", "le", "lt", "min_length", "max_length", "pattern"
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """A value's name, its declaration, and what may stand below it."""
+    """Name and declaration of a value."""
 
     name: str
-    """As people call it: `width`, `item 2 of path`."""
+    """Name in messages: `width`, `item 2 of path`."""
 
     annotation: Any = None
-    """Its declared type, without what `Annotated` adds."""
+    """Declared type, without `Annotated`."""
 
     limits: dict[str, Any] = field(default_factory=dict)
-    """What is declared of its range and length, of `X | None` too: some of `LIMITS`."""
+    """Limits of its range and length, of `X` in `X | None` too, by those names of `LIMITS` that are declared."""
 
     description: str = ""
-    """What the field that holds it says of itself."""
+    """Docstring of the field that holds it."""
 
     model: type[BaseModel] | None = None
-    """What it declares, if it is a mapping of known keys."""
+    """Class of its keys and values, if it is a mapping of known keys."""
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """The keys known at this value."""
+        """Known keys of the value."""
         return tuple(self.model.model_fields) if self.model else ()
 
 
@@ -55,7 +55,7 @@ def _named(limits: tuple[Any, ...]) -> dict[str, Any]:
 
 
 def _bare(annotation: Any) -> tuple[Any, tuple[Any, ...]]:
-    """Return a type without `None` and without what `Annotated` adds, and the limits that this gives."""
+    """Return a type without `None` and `Annotated`, and the limits in its annotations."""
     others = [one for one in get_args(annotation) if one is not NoneType]
     if get_origin(annotation) in (Union, UnionType) and len(others) == 1:
         return _bare(others[0])
@@ -67,7 +67,7 @@ def _bare(annotation: Any) -> tuple[Any, tuple[Any, ...]]:
 
 
 def model_of(annotation: Any, /) -> type[BaseModel] | None:
-    """Return the first model among the parts of a type, if there is any."""
+    """Return the first model among the parts of a type, or None."""
     return next(_models(annotation), None)
 
 

@@ -1,4 +1,4 @@
-"""What grows at some places, as a game asks for it."""
+"""The grass at given places, as a game queries it."""
 
 from dataclasses import dataclass
 
@@ -10,19 +10,19 @@ from .arrays import Floats, Mask
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GrassAt:
-    """What grows at some places and how high it stands there now; a row for each place."""
+    """The grass at some places, and its present height; a row for each place."""
 
     kind: NDArray[np.intp]
     """Number of the kind that grows most densely, in the order of the scene; -1 where nothing grows, shape (n,)."""
 
     name: tuple[str, ...]
-    """Its name; empty where nothing grows, n of them."""
+    """Name of that kind; empty where nothing grows, n names."""
 
     density: Floats
     """Density in [0, 1] of each kind, as the scene has it or as it was sown, shape (n, kinds)."""
 
     height: Floats
-    """How high grass stands over the ground [m], cut, trodden and blown as it is; 0 where none does, shape (n,)."""
+    """Height of the grass over the ground, cut, trodden and blown as it is [m]; 0 where none grows, shape (n,)."""
 
     cleared: Mask
-    """Whether a game has taken all grass away that would grow there: by `clear`, or with the patch, shape (n,)."""
+    """Whether a game has removed all grass there, by `clear` or with the patch, shape (n,)."""

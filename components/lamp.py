@@ -1,4 +1,4 @@
-"""What shines beside sun and sky."""
+"""Lamps: lights in addition to sun and sky."""
 
 from dataclasses import dataclass
 from math import pi
@@ -8,38 +8,38 @@ from .colour import hex_of, is_colour
 from .footprint import is_between
 
 FARTHEST = 1000.0
-"""How far a lamp reaches at most [m]."""
+"""Greatest range of a lamp [m]."""
 
 BRIGHTEST = 1e7
-"""Candela that one has at most: a lighthouse's."""
+"""Greatest luminous intensity of a lamp, that of a lighthouse [cd]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Lamp:
     """A light that shines on grass and ground: the component of a game's own entity, whose `Pose` says where it is.
 
-    It shines all ways, or within a `cone` ahead of its pose. Its light falls off by the inverse square of the distance,
-    and a little faster towards its `range`. Of more than 256 that are seen at once, the brightest count. Raises
-    ValueError for what cannot shine. A pose without a height `y` is an error when the prairie is next drawn.
+    It shines in all directions, or within a `cone` ahead of its pose. Its light falls off with the inverse square of
+    the distance, and a little faster towards its `range`. If more than 256 are in view, the brightest count. Raises
+    ValueError for an impossible lamp. A pose without a height `y` is an error when the prairie is next drawn.
     """
 
     colour: str = "#ffd9a6"
-    """Its colour (sRGB), such as `#ffd9a6` or `orange`; how bright it is, `candela` alone says."""
+    """Colour (sRGB), such as `#ffd9a6` or `orange`; it does not change the brightness."""
 
     candela: float = 400.0
-    """How brightly it shines in the middle of its light, 0 to 1e7 [cd]: a street lamp 400, a car's headlight 20 000."""
+    """Luminous intensity along the axis, 0 to 1e7 [cd]: a street lamp has 400, a car's headlight 20 000."""
 
     range: float = 30.0
     """Distance at which it has faded away, above 0, at most 1000 [m]: the shorter, the cheaper."""
 
     cone: float | None = None
-    """Half the angle of a spot light, above 0, below pi [rad]: it fades over the outer third; None shines all ways."""
+    """Half the angle of a spot light, above 0, below pi [rad]; it fades over the outer third. None: all directions."""
 
     pitch: float = 0.0
-    """Elevation that a spot light points to, positive up, within half a turn [rad]; the pose's `yaw` is its heading."""
+    """Elevation of a spot light's axis, positive up, within half a turn [rad]; the pose's `yaw` is its heading."""
 
     def __post_init__(self) -> None:
-        """Raise ValueError for what cannot shine."""
+        """Raise ValueError for an impossible lamp."""
         object.__setattr__(self, "colour", hex_of(self.colour))  # the one way in a frozen record
         if not is_colour(self.colour):
             raise ValueError(f"a lamp's colour is one such as '#ffd9a6' or 'orange', not {shortened(self.colour)}")

@@ -1,4 +1,4 @@
-"""Patches of grass and their level of detail: what a game reads of them, and what it may write."""
+"""Components of patches of grass and of their level of detail, for a game to read and to write."""
 
 from typing import Protocol, final
 
@@ -10,15 +10,15 @@ Cell = tuple[int, int]
 
 
 class Cleared(Protocol):
-    """The cells that have been cleared of their grass."""
+    """The set of cells whose grass has been removed."""
 
     def __contains__(self, cell: object, /) -> bool: ...
 
     def clear(self, cell: Cell, /) -> None:
-        """Take the grass of a cell away."""
+        """Remove the grass of a cell."""
 
     def restore(self, cell: Cell, /) -> None:
-        """Give the grass of a cell back."""
+        """Restore the grass of a cell."""
 
 
 class Levels(Protocol):
@@ -26,11 +26,11 @@ class Levels(Protocol):
 
     @property
     def viewer(self) -> str:
-        """The viewer's name."""
+        """Name of the viewer."""
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of the representations, by their numbers."""
+        """Names of the representations, by number."""
 
     @property
     def cell(self) -> NDArray[np.int32]:
@@ -69,7 +69,7 @@ class Levels(Protocol):
 class Patch:
     """One square of the tiling (paper, section 2.2). `grows` may be written; the rest cannot.
 
-    Each viewer has an entity of its own for a patch around it; what is written holds for the place, whoever looks.
+    Each viewer has an entity of its own for a patch around it. A value written to one holds for all viewers.
     """
 
     __slots__ = ("_cell", "_cleared", "_model", "_turn")
@@ -87,7 +87,7 @@ class Patch:
 
     @property
     def model(self) -> int:
-        """Which patch model stands here."""
+        """Number of the patch model that stands here."""
         return self._model
 
     @property
@@ -97,7 +97,7 @@ class Patch:
 
     @property
     def grows(self) -> bool:
-        """Whether grass grows here. False leaves bare ground, from the same frame on; True gives the grass back."""
+        """Whether grass grows here. False leaves bare ground, from the same frame on; True restores the grass."""
         return self._cell not in self._cleared
 
     @grows.setter
@@ -112,8 +112,8 @@ class Patch:
 class Lod:
     """The level of detail of a patch for one viewer. `wanted` and `hold` may be written; the rest cannot.
 
-    Representations go by their names, `blades`, `strips` and `carpet`; None is none. A patch that the viewer has left
-    behind has none and is not visible: after a leap its entity stays for a few frames.
+    Representations are given by name, `blades`, `strips` or `carpet`, or None. A patch that the viewer has left behind
+    has none and is not visible: after a leap its entity stays for a few frames.
     """
 
     __slots__ = ("_cell", "_levels", "_row")
@@ -127,7 +127,7 @@ class Lod:
 
     @property
     def viewer(self) -> str:
-        """The name of the viewer whose level of detail this is."""
+        """Name of the viewer whose level of detail this is."""
         return self._levels.viewer
 
     @property
@@ -145,22 +145,22 @@ class Lod:
 
     @property
     def representation(self) -> str | None:
-        """The representation that the patch has, or is coming to."""
+        """Representation of the patch; during a transition, the new one."""
         return self._name(self._levels.representation)
 
     @property
     def previous(self) -> str | None:
-        """The representation that it comes from."""
+        """Representation before the transition."""
         return self._name(self._levels.previous)
 
     @property
     def progress(self) -> float:
-        """How far the change has gone, 1 when it is over."""
+        """Progress of the transition in [0, 1], 1 when it is over."""
         return float(self._levels.progress[self._row])
 
     @property
     def wanted(self) -> str | None:
-        """The representation that the system `lod` has chosen in this frame; a system after it may choose another."""
+        """Representation that the system `lod` has chosen in this frame; a system after it may choose another."""
         return self._name(self._levels.wanted)
 
     @wanted.setter
@@ -169,10 +169,10 @@ class Lod:
 
     @property
     def hold(self) -> str | None:
-        """The representation that a game holds the patch in, whatever its distance; None leaves the choice to `lod`.
+        """Representation that a game holds the patch in, whatever its distance; None leaves the choice to `lod`.
 
-        The patch comes to it by a transition. Where there is no room for one so fine so far away, it has the finest
-        that there is room for. It is held until the viewer has left it behind.
+        The patch changes to it by a transition. If pools have no room for it at this distance, the patch gets the
+        finest that has room. It is held until the viewer has left the patch behind.
         """
         return self._name(self._levels.hold)
 
@@ -192,7 +192,7 @@ class Lod:
         return self._levels.names.index(name)
 
     def _is_there(self) -> bool:
-        """Return whether the row is still that of this patch."""
+        """Return whether the row still belongs to this patch."""
         i, j = self._levels.cell[self._row].tolist()
         return (i, j) == self._cell
 

@@ -1,4 +1,4 @@
-"""Where a thing on the prairie is, and where it heads."""
+"""The pose of a thing on the prairie: position and heading."""
 
 from dataclasses import dataclass
 
@@ -11,8 +11,8 @@ from .arrays import Floats
 class Pose:
     """A frame of reference on the ground: its own x points to the right, and its own -z ahead.
 
-    As the component of a wind's entity it says where the wind is, in place of what the wind itself says. An entity is
-    left out as long as its pose is not finite, and the log says so.
+    As a component of a wind's entity it replaces the wind's own pose. An entity is left out while its pose is not
+    finite, and the log says so.
     """
 
     x: float = 0.0
@@ -25,7 +25,7 @@ class Pose:
     """Heading: 0 is -z, positive turns right [rad]."""
 
     y: float | None = None
-    """Height [m], of what has one: a lamp must, to all else it makes no difference."""
+    """Height [m]; a lamp needs one, all else ignores it."""
 
     def inside(self, place: Floats, /) -> Floats:
         """Return ground positions (n, 2) in this frame [m], shape (n, 2)."""

@@ -1,4 +1,4 @@
-"""What lies grass down where it goes: people, animals, wheels."""
+"""Pressers, which tread grass down: people, animals, wheels."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -12,17 +12,17 @@ class Presser(Footprint):
     """A footprint that presses grass down: the component of a game's own entity, whose `Pose` says where it is.
 
     It is a disc; with a `length` a capsule; with `corners` a polygon. Grass under it lies down away from it, grass
-    beside it bends aside. Raises ValueError for an impossible footprint, and for one that reaches farther than 20 m.
+    next to it bends aside. Raises ValueError for an impossible footprint, and for one that reaches farther than 20 m.
     """
 
     _largest: ClassVar[float] = 20.0
 
     strength: float = 1.0
-    """The length of the message in its middle, in [0, 1]: 1 lays grass of stiffness 1 flat."""
+    """Length of the message at its middle, in [0, 1]: 1 lays grass of stiffness 1 flat."""
 
     wear: float = 0.0
-    """How much grass it wears off each time it goes over it, in [0, 1]. With a few hundredths, a path comes out
-    where many walk. Above 0 it is at least 1/255. Worn ground stays so until it is sown again."""
+    """Fraction of the grass that it wears off at each passage, in [0, 1]; above 0, at least 1/255. With a few
+    hundredths, paths form where many walk. Worn ground stays so until it is sown again."""
 
     if TYPE_CHECKING:
 
@@ -37,7 +37,7 @@ class Presser(Footprint):
             """Take what `Footprint` and `__post_init__` make of it."""
 
     def __post_init__(self) -> None:
-        """Raise ValueError for what is no footprint."""
+        """Raise ValueError for an impossible footprint."""
         Footprint.__post_init__(self)  # a class with slots is made twice, and `super()` means the first one
         if not is_between(0.0, self.strength, 1.0):
             raise ValueError(f"a presser's strength is from 0 to 1, not {self.strength!r}")

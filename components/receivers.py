@@ -1,4 +1,4 @@
-"""Receivers: what collects the wind's messages, for a game to read and to write."""
+"""Receivers, which collect the wind's messages, for a game to read and to write."""
 
 from typing import Protocol, final
 
@@ -9,14 +9,14 @@ from .arrays import Floats
 
 
 class Messages(Protocol):
-    """Where the messages of many patches' receivers are kept, a slot for each patch."""
+    """Storage of the messages of many patches' receivers, a slot for each patch."""
 
     def ask(self, slot: int, /) -> Floats:
-        """Return the messages of a slot, shape (n, 2), to be read and written; from now on what is written counts."""
+        """Return the messages of a slot, shape (n, 2), to read and write; from then on written values take effect."""
 
 
 class Places(Protocol):
-    """Where the receivers of some slots are, and what grows there."""
+    """Positions of receivers by slot, and the kinds that grow there."""
 
     def places(self, slots: NDArray[np.int64], /) -> Floats:
         """Return ground positions (x, z) [m], shape (m, ..., 2)."""
@@ -27,10 +27,10 @@ class Places(Protocol):
 
 @final
 class Receivers:
-    """What collects the wind's messages for one patch in one representation (paper, section 3.2).
+    """The receivers of the wind's messages of one patch in one representation (paper, section 3.2).
 
     One row per blade, per vertical edge of a strip, or one for a patch of carpet. `message` may be written; the rest
-    cannot. Those of blades and strips have entities of their own; the carpet's are carried by the patch's.
+    cannot. For blades and strips they are on entities of their own, for the carpet on the patch's entity.
     """
 
     __slots__ = ("_messages", "_patch", "_places", "_representation", "_slot", "_viewer")
@@ -46,17 +46,17 @@ class Receivers:
 
     @property
     def patch(self) -> int:
-        """The entity of the patch; 0 where it is the same entity."""
+        """Entity of the patch; 0 where it is the same entity."""
         return self._patch
 
     @property
     def representation(self) -> str:
-        """The name of the representation: `blades`, `strips` or `carpet`."""
+        """Name of the representation: `blades`, `strips` or `carpet`."""
         return self._representation
 
     @property
     def viewer(self) -> str:
-        """The name of the viewer that the patch is shown to."""
+        """Name of the viewer to whom the patch is shown."""
         return self._viewer
 
     @property
@@ -66,15 +66,15 @@ class Receivers:
 
     @property
     def kind(self) -> NDArray[np.intp]:
-        """Number of the kind of grass of each, in the order of the scene, shape (n,)."""
+        """Number of each receiver's kind of grass, in the order of the scene, shape (n,)."""
         return self._places.kind(np.array([self._slot]))
 
     @property
     def message(self) -> Floats:
-        """Bending directions times posture indices, (x, z), shape (n, 2): an array to be read and written.
+        """Bending directions times posture indices, (x, z), shape (n, 2): an array to read and write.
 
-        After the system `wind` it holds the wind of this frame, before it that of the last. What you write shows in the
-        next picture, and in that alone. A message longer than 1 is shortened to 1.
+        After the system `wind` it holds the wind of this frame, before it that of the last frame. Values that you write
+        show in the next picture alone. A message longer than 1 is shortened to 1.
         """
         return self._messages.ask(self._slot)
 

@@ -1,4 +1,4 @@
-"""What casts a shadow on the grass."""
+"""Shades: things that cast a shadow on the grass."""
 
 from dataclasses import dataclass
 from math import hypot, isfinite
@@ -11,38 +11,38 @@ _LARGEST = float_info.max
 
 @dataclass(frozen=True, slots=True)
 class Shade:
-    """A thing that casts a shadow on the prairie: the component of an entity of a game's, in the prairie's world.
+    """A thing that casts a shadow on the prairie: the component of a game's own entity, in the prairie's world.
 
-    With a `radius` it is a ball. With a `height` too, it is stretched or pressed flat along `up`: a disc, an egg, a
-    crown of leaves. With `capsule` it is a rod with round ends: a person, a trunk. With a `size` it is a box: a house,
-    a wall, a car. The farther its shadow falls, the softer is its edge. There may be any number; the 256 nearest to the
-    eye count, of those whose shadows are in view. Raises ValueError for a place that is nowhere, an `up` that leads
-    nowhere, what is no length, and a shape that is both round and a box, or neither.
+    With a `radius` it is a ball. With a `height` too, it is an ellipsoid along `up`: a disc, an egg, a crown of leaves.
+    With `capsule` it is a rod with round ends: a person, a trunk. With a `size` it is a box: a house, a wall, a car.
+    The farther its shadow falls, the softer is its edge. There may be any number; of those whose shadows are in view,
+    the 256 nearest to the eye count. Raises ValueError for a place that is not finite, an `up` of length 0, an invalid
+    length, and a shape that is both round and a box, or neither.
     """
 
     place: tuple[float, float, float]
-    """Where its middle is (x, y, z) [m]."""
+    """Position of its middle (x, y, z) [m]."""
 
     radius: float | None = None
-    """How large it is about `up`, above 0 [m]; a box has none."""
+    """Radius about `up`, above 0 [m]; a box has none."""
 
     height: float | None = None
-    """How high it is from end to end along `up`, above 0 [m]; without it, twice the radius, which is a ball."""
+    """Height from end to end along `up`, above 0 [m]; without it, twice the radius, which is a ball."""
 
     up: tuple[float, float, float] = (0.0, 1.0, 0.0)
-    """The direction of the axis that it is round about, or that a box stands along; its length does not count."""
+    """Direction of its axis, along which a box stands; its length does not count."""
 
     capsule: bool = False
-    """Whether it is a rod with round ends instead of an egg: then its `height` is at least twice its radius."""
+    """Whether it is a rod with round ends instead of an ellipsoid; its `height` is at least twice its radius."""
 
     size: tuple[float, float, float] | None = None
-    """How large a box is from side to side: to its right, along `up`, and ahead, each above 0 [m]."""
+    """Lengths of a box: to its right, along `up`, and ahead, each above 0 [m]."""
 
     yaw: float = 0.0
-    """Heading of a box, as a `Pose` has it: 0 is -z, positive turns right [rad]."""
+    """Heading of a box, as of a `Pose`: 0 is -z, positive turns right [rad]."""
 
     def __post_init__(self) -> None:
-        """Raise ValueError for what cannot cast a shadow."""
+        """Raise ValueError for an impossible shade."""
         if not _is_place(self.place):
             raise ValueError(f"a shade's place is three finite numbers (x, y, z), not {self.place!r}")
         if not _is_place(self.up) or hypot(*self.up) < 1e-6:
@@ -71,7 +71,7 @@ class Shade:
 
 def _is_place(thing: object) -> bool:
     if type(thing) is tuple and len(thing) == 3 and {float}.issuperset(map(type, thing)):
-        return all(map(isfinite, thing))  # what it nearly always is, and bodies cast new ones in every frame
+        return all(map(isfinite, thing))  # a short cut for the usual type: bodies make shades in every frame
     try:
         numbers: tuple[object, ...] = tuple(thing)  # type: ignore[arg-type]
     except TypeError:

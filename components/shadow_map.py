@@ -1,4 +1,4 @@
-"""What a game knows of the sun's shadows."""
+"""A game's own shadow map of the sun."""
 
 from dataclasses import dataclass
 from reprlib import repr as shortened
@@ -10,24 +10,24 @@ from .arrays import Doubles
 from .footprint import is_between
 
 FARTHEST_BIAS = 100.0
-"""How much nearer to the sun places are taken at most than they are [m]."""
+"""Greatest bias of a shadow map [m]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ShadowMap:
-    """A shadow map of a game's: what is nearest to the sun, in a depth texture that the game draws.
+    """A game's own shadow map: a depth texture that it draws from the sun.
 
     Raises TypeError for anything but a depth texture, ValueError for a bad matrix or bias.
     """
 
     texture: Any
-    """A 2D depth texture: moderngl's, pyglet's, or its number in GL. Its filters and its compare mode do not count."""
+    """A 2D depth texture of moderngl or pyglet, or its number in GL. Its filters and compare mode do not matter."""
 
     matrix: Any
-    """World to the map's clip space, as it was drawn: projection @ view, (4, 4), or pyglet's `Mat4`."""
+    """Matrix from the world to the map's clip space: projection @ view, (4, 4), or pyglet's `Mat4`."""
 
     bias: float = 0.05
-    """How much nearer to the sun places are taken than they are, so that nothing shades itself, 0 to 100 [m]."""
+    """Distance by which places are moved towards the sun, against self-shadowing, 0 to 100 [m]."""
 
     def __post_init__(self) -> None:
         """Raise TypeError and ValueError as above."""
@@ -38,7 +38,7 @@ class ShadowMap:
 
 
 def texture_number(texture: object, /) -> int:
-    """Return a texture's number in GL; raises TypeError for what is no depth texture."""
+    """Return a texture's number in GL; raises TypeError for anything but a depth texture."""
     number = held_number(texture)
     if not isinstance(number, int) or isinstance(number, bool) or number < 1:
         raise TypeError(
@@ -57,7 +57,7 @@ def texture_number(texture: object, /) -> int:
 
 
 def held_number(texture: object, /) -> object:
-    """Return the number that a texture of moderngl or pyglet holds, or a `c_uint`; anything else as it is."""
+    """Return the number in a texture of moderngl or pyglet, or in a `c_uint`; anything else unchanged."""
     held = (getattr(texture, name, None) for name in ("glo", "id", "value"))
     return next((found for found in held if found is not None), texture)
 

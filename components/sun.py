@@ -1,22 +1,22 @@
-"""The sun and the sky as they shine, for what a game draws itself."""
+"""The light of sun and sky, for what a game draws itself."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class Sun:
-    """What lights a prairie: linear radiance, before the tone curve, as bright as the picture is exposed."""
+    """The light on a prairie: linear radiance, before the tone curve and after exposure."""
 
     direction: tuple[float, float, float]
-    """To the sun, unit length (x, y, z); it points down once the sun has set."""
+    """Unit vector to the sun (x, y, z); it points down once the sun has set."""
 
     colour: tuple[float, float, float]
-    """Radiance of a white, dull face that is square to the sun (red, green, blue), past no cloud: 0 once it has set."""
+    """Radiance of a white, matt surface that faces the sun without clouds (red, green, blue); 0 once it has set."""
 
     sky: tuple[float, float, float]
-    """Radiance of a white, dull face that looks up, by the whole sky without the sun."""
+    """Radiance of a white, matt surface that faces up, lit by the whole sky without the sun."""
 
     candela: float
-    """Radiance of a white, dull face that is square to the light of a lamp of 1 cd and 1 m away [1/cd].
+    """Radiance of a white, matt surface that faces a lamp of 1 cd at 1 m [1/cd].
 
-    A `Lamp` gives a game's own things its candela times that, over the square of the distance."""
+    A `Lamp` lights a game's own things with its candela times this, over the square of the distance."""

@@ -1,4 +1,4 @@
-"""What pydantic finds wrong with a value, in plain sentences."""
+"""Pydantic's errors in plain sentences."""
 
 import re
 from collections.abc import Callable, Iterable
@@ -29,7 +29,7 @@ _WITH_UNIT = re.compile(r"([-+]?[\d.]+)\s*[a-zA-Z°%/]+")
 
 
 def sentence(error: ErrorDetails, field: Field, /) -> str:
-    """Return what an error says, in one sentence in words of the scene file."""
+    """Return an error as one sentence in words of the scene file."""
     kind = error["type"]
     if kind in _WANTED:
         return _of_type(error, field)
@@ -38,7 +38,7 @@ def sentence(error: ErrorDetails, field: Field, /) -> str:
 
 
 def told(error: ValidationError, model: type[BaseModel], name: str, /) -> str:
-    """Return what is wrong with the values of a model that is called `name`, a sentence for each of them."""
+    """Return the errors of a model that is called `name`, a sentence each."""
     return "; ".join(sentence(each, _field_of(each, model, name)) for each in error.errors(include_url=False))
 
 
@@ -53,7 +53,7 @@ def _field_of(error: ErrorDetails, model: type[BaseModel], name: str) -> Field:
 
 
 def suggestion(word: str, known: Iterable[str], /) -> str:
-    """Return what follows an unknown word: the known one it resembles, or else all that are known."""
+    """Return the end of a message on an unknown word: the most similar known word, or else all known words."""
     words = sorted(known)
     near = get_close_matches(word, words, n=1) or [each for each in words if len(word) > 2 and each.startswith(word)]
     if near:
@@ -62,7 +62,7 @@ def suggestion(word: str, known: Iterable[str], /) -> str:
 
 
 def found(value: object, /) -> str:
-    """Return how a sentence calls a value of a scene file."""
+    """Return a scene file's value in words, for messages."""
     match value:
         case None:
             return "nothing"
@@ -150,7 +150,7 @@ def _hint(kind: str, value: object, field: Field) -> str:
 
 
 def _hint_of_mapping(value: object, field: Field) -> str:
-    """Return what helps where a mapping is due and `value` is none."""
+    """Return a hint for a `value` that should have been a mapping."""
     if value is None:
         return "; write {} to leave everything at its default" if _needs_nothing(field.model) else ""
     if field.model is not None and field.name in field.model.model_fields:

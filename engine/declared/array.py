@@ -12,7 +12,7 @@ from ...components.declaration import DeclarationError
 
 
 class MapArray:
-    """A copy of a program's array, which nobody writes to. Two are equal where they hold the same numbers."""
+    """A read-only copy of a program's array. Two are equal if they hold the same numbers."""
 
     __slots__ = ("values",)
 
@@ -33,7 +33,7 @@ class MapArray:
 
 
 class HeightFunction:
-    """A program's function that says how high the ground is. Two are equal where they are the same function."""
+    """A program's function that returns heights of the ground. Two are equal if they are the same function."""
 
     __slots__ = ("function",)
 
@@ -51,7 +51,7 @@ class HeightFunction:
 
     @property
     def name(self) -> str:
-        """What it is called."""
+        """Name of the function."""
         return str(getattr(self.function, "__qualname__", type(self.function).__qualname__))
 
 
@@ -73,7 +73,7 @@ def _taken(value: Any, as_text: core_schema.ValidatorFunctionWrapHandler) -> Any
 
 
 def _or_array(text: Any, /, take: Callable[..., Any] = _taken) -> GetPydanticSchema:
-    """Return the schema of a file's name, or of what `take` takes in its place; to editors it is the name alone."""
+    """Return the schema of a file's name, or of values that `take` accepts instead; editors see the name alone."""
 
     def made(_: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         shown = core_schema.plain_serializer_function_ser_schema(
@@ -85,7 +85,7 @@ def _or_array(text: Any, /, take: Callable[..., Any] = _taken) -> GetPydanticSch
 
 
 HeightsSource = Annotated[str | MapArray | HeightFunction, _or_array(str, _asked)]
-"""The name of a map's file, the map itself, or a function of places."""
+"""Name of a map's file, the map itself, or a function of places."""
 
 PictureOrArray = Annotated[str | MapArray, _or_array(Annotated[str, Field(min_length=1)])]
-"""The name of a picture, or its numbers."""
+"""Name of a picture's file, or its array."""

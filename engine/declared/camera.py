@@ -1,4 +1,4 @@
-"""The viewer: what a scene declares of the camera, and the camera of one instant."""
+"""The camera of a scene."""
 
 from pydantic import Field, model_validator
 
@@ -20,7 +20,7 @@ class Stop(Timed):
 
 
 class CameraSource(Declaration):
-    """Where the scene is looked at from: a fixed place, or a path walked in time."""
+    """The camera of a scene: at a fixed place, or on a path walked in time."""
 
     position: Pair = Field(default=[0.0, 0.0])
     """Ground position (x, z) [m]."""

@@ -1,4 +1,4 @@
-"""Grass kinds: what a scene declares of them."""
+"""Kinds of grass and other plants, as a scene declares them."""
 
 from typing import Annotated, Any, Literal
 
@@ -10,29 +10,29 @@ from .array import MapArray, PictureOrArray
 from .plant import ON_GRASS, SIZES, USUAL, WITH_EYES, Head, Plant
 
 MOST_KINDS = 16
-"""Kinds of grass in a scene at most.
+"""Greatest number of kinds of grass in a scene.
 
-What bounds them are the numbers that every OpenGL 3.3 takes from the corners of the carpet's mesh to its pixels: 60, of
-which each kind needs one, or two where some bear heads, and the light on what is seen all that are left.
+The limit is the number of varyings from the carpet's mesh to its pixels that every OpenGL 3.3 has: 60 components. Each
+kind needs one of them, or two where some bear heads, and the lighting all others.
 """
 
 GLSL = {"MOST_KINDS": MOST_KINDS}
 
 Profile = Literal["blade", "rush", "fold"]
-"""What a blade is like across."""
+"""Cross section of a blade."""
 
 RUSH_TAPERS = 0.35
-"""How the width of a rush falls where a scene does not say."""
+"""Default of `taper` for rushes."""
 
 _OF_GRASS = {
     "profile": "grass alone has a profile: other plants have organs",
     "withered": "grass alone withers: other plants have organs",
     "blades": "a {plant} has plants in place of blades",
 }
-"""Keys that other plants do not have, and why."""
+"""Keys for grass alone, and the message for other plants."""
 
 _NONE = {"profile": "blade", "withered": 0.0}
-"""Values of such keys that any plant may have; those of the others are None."""
+"""Values of such keys that any plant may have; for the other keys it is None."""
 
 
 class Place(Declaration):
@@ -42,7 +42,7 @@ class Place(Declaration):
     """Picture file, relative to the scene file: in a channel 0 is no grass, its largest number is full density."""
 
     channel: Literal["red", "green", "blue", "alpha"] = "red"
-    """The channel that holds this kind's density."""
+    """Channel of the map that holds this kind's density."""
 
 
 def _or_none(schema: dict[str, Any]) -> None:
@@ -56,7 +56,7 @@ class GrassKind(Declaration):
     """
 
     plant: Plant = "grass"
-    """What kind of plant it is: blades of grass; flowers on stems; forbs with broad leaves along theirs; low shrubs.
+    """Kind of plant: blades of grass; flowers on stems; forbs with broad leaves along their stems; low shrubs.
 
     Flowers, forbs and shrubs are lower than grass, unless `height` says more."""
 
@@ -64,7 +64,7 @@ class GrassKind(Declaration):
     """Shortest and tallest blade, stem or branch, measured along it [m]."""
 
     width: float = Field(default=0.02, gt=0.0005, le=0.2)
-    """Width of a blade at its root; of other plants, that of a leaf where it is broadest [m]."""
+    """Width of a blade at its root; for other plants, greatest width of a leaf [m]."""
 
     stiffness: float = Field(default=1.0, gt=0.01, le=100.0)
     """Stiffness of the springs between the links of a blade, 1 is a common meadow grass.
@@ -73,31 +73,31 @@ class GrassKind(Declaration):
     lies flat before, and stiffer grass still stands."""
 
     damping: float = Field(default=1.0, gt=0.01, le=100.0)
-    """How fast a blade's swing dies away, 1 is a common meadow grass."""
+    """Damping of a blade's swing, 1 is a common meadow grass."""
 
     recovery: float = Field(default=20.0, ge=0.1, le=3600.0)
-    """How long grass that was trodden flat takes to stand again [s]; what was trodden less stands earlier."""
+    """Time that grass trodden flat takes to stand again [s]; less trodden grass stands earlier."""
 
     lean: float = Field(default=0.3, ge=0.0, le=0.9)
-    """Largest posture index that a blade holds at rest; each has its own, in its own direction. Old leaves of grass, a
-    quarter, hang over up to three times as far."""
+    """Largest posture index of blades at rest; each has its own, in its own direction. Old leaves of grass, a quarter
+    of them, hang over up to three times as far."""
 
     clumping: float = Field(default=0.5, ge=0.0, le=1.0)
-    """How closely blades stand in tufts, and how much neighbours are alike over about half a metre: in height, lean,
-    facing and, by that, in tint."""
+    """Strength of tufts: blades stand closer together in them, and neighbours within about half a metre are more
+    alike in height, lean, facing and so in tint."""
 
     taper: float = Field(default=0.6, ge=0.2, le=4.0)
-    """How the width falls from root to tip: 1 is a triangle, below 1 keeps it broad for longer."""
+    """Fall of the width from root to tip: 1 is a triangle, below 1 keeps it broad for longer."""
 
     profile: Profile = "blade"
-    """What a blade of grass is like across: flat; a `rush`, a round stem that is as wide from all sides and hardly
-    tapers; or a `fold`, two faces with a keel between them, which catch the light apart."""
+    """Cross section of a blade of grass: flat; a `rush`, a round stem that is as wide from all sides and hardly tapers;
+    or a `fold`, two faces with a keel between them, each in its own light."""
 
     withered: float = Field(default=0.0, ge=0.0, le=0.6)
-    """How many blades of grass are dead: of the colour of tips down to the root, thinner, and bent."""
+    """Fraction of blades of grass that are dead: of the colour of tips down to the root, thinner, and bent."""
 
     understorey: float = Field(default=0.9, ge=0.0, le=1.0)
-    """How much low leaves cover the ground beneath it: at 1 and full density, two thirds of it."""
+    """Cover of the ground by low leaves: at 1 and full density, two thirds of it."""
 
     root: Color = "#4b6128"
     """Colour at the root."""
@@ -106,34 +106,34 @@ class GrassKind(Declaration):
     """Colour at the tip."""
 
     variety: float = Field(default=0.15, ge=0.0, le=0.6)
-    """How far blades differ in brightness and hue from one another, as a fraction."""
+    """Variation of brightness and hue among blades, as a fraction."""
 
     translucency: float = Field(default=0.8, ge=0.0, le=1.5)
-    """How much light its leaves let through, as a part of what they send back: grass glows against the sun."""
+    """Ratio of the light that its leaves transmit to the light that they reflect: grass glows against the sun."""
 
     gloss: float = Field(default=0.06, ge=0.0, le=2.0)
-    """How much its leaves mirror the sun along themselves: wind runs over glossy grass as bands of light."""
+    """Strength of its leaves' reflection of the sun: wind runs over glossy grass as bands of light."""
 
     blades: int | None = Field(default=None, ge=1, le=5000)
-    """Blades of grass per patch at full density; without it the quality's number."""
+    """Number of blades of grass per patch at full density; without it the quality's number."""
 
     plants: int | None = Field(default=None, ge=1, le=1000)
-    """Plants per patch at full density, of those that are not grass; without it, what suits the plant."""
+    """Number of plants other than grass per patch at full density; without it, what suits the plant."""
 
     leaves: int | None = Field(default=None, ge=0, le=24)
-    """Leaves of a flower or forb, or of each branch of a shrub; without it, what suits the plant."""
+    """Number of leaves of a flower or forb, or of each branch of a shrub; without it, what suits the plant."""
 
     leaf: Annotated[Pair, rising("leaf must be [shortest, longest]", 0.005, 5.0)] | None = None
-    """Shortest and longest leaf of those [m]; without it, what suits the plant's height."""
+    """Shortest and longest of these leaves [m]; without it, what suits the plant's height."""
 
     head: Head | None = None
-    """What it bears; without it, flowers bear discs, and other plants nothing."""
+    """Head that it bears; without it, flowers bear discs, and other plants nothing."""
 
     segments: int | None = Field(default=None, ge=1, le=16)
     """Line segments per blade at the finest level, and the most at any other; without it the quality's numbers."""
 
     place: Place | None = Field(default=None, json_schema_extra=_or_none)
-    """Where it grows; without it, everywhere. With `none` it grows nowhere until a game sows it.
+    """Density map of where it grows; without it, everywhere. With `none` it grows nowhere until a game sows it.
 
     Kinds share the ground, but flowers stand among the others."""
 
@@ -143,13 +143,13 @@ class GrassKind(Declaration):
     @field_validator("place", mode="before")
     @classmethod
     def _nowhere(cls, value: Any) -> Any:
-        """Take `none` for a map of nothing."""
+        """Read `none` as an empty map."""
         return Place(map=MapArray(np.zeros((1, 1), np.uint8))) if isinstance(value, str) and value == "none" else value
 
     @model_validator(mode="before")
     @classmethod
     def _as_its_plant(cls, data: Any) -> Any:
-        """Fill in what goes without saying of a plant."""
+        """Fill in the defaults of the plant."""
         if not isinstance(data, dict):
             return data
         plant, rush = data.get("plant"), {"taper": RUSH_TAPERS} if data.get("profile") == "rush" else {}
@@ -158,7 +158,7 @@ class GrassKind(Declaration):
     @field_validator("profile", "withered", "blades", "plants", "leaves", "leaf")
     @classmethod
     def _suits_its_plant(cls, value: Any, info: ValidationInfo) -> Any:
-        """Refuse what is another plant's, each key by itself: all of them are told."""
+        """Refuse keys of other plants, each by itself, so that all are reported."""
         plant, key = info.data.get("plant"), str(info.field_name)
         if plant is None or value == _NONE.get(key):
             return value

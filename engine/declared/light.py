@@ -1,4 +1,4 @@
-"""Sun, sky and haze: what a scene declares of the light."""
+"""Sun, sky and haze of a scene."""
 
 from pydantic import Field
 
@@ -9,7 +9,7 @@ class Light(Declaration):
     """Sun, sky, clouds and haze, which light grass and ground."""
 
     azimuth: float = Field(default=140.0, ge=-360.0, le=360.0)
-    """Direction the sun stands in without an `hour`, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""
+    """Azimuth of the sun without an `hour`, as a camera's yaw: 0 is -z, 90 is +x [degrees]."""
 
     elevation: float = Field(default=35.0, ge=0.0, le=90.0)
     """Height of the sun above the horizon without an `hour` [degrees]; dusk and night, below it, need an `hour`."""
@@ -22,7 +22,7 @@ class Light(Declaration):
     Where there is an hour, an own azimuth or elevation has no effect."""
 
     hours_per_minute: float = Field(default=0.0, ge=0.0, le=1440.0)
-    """How fast the day goes by, from its `hour` on [h/min]: 0 stands still, 2 is a day in twelve minutes."""
+    """Speed of the day, from its `hour` on [h/min]: 0 stands still, 2 is a day in twelve minutes."""
 
     day: int = Field(default=172, ge=1, le=366)
     """Day of the year, for `hour`; 172 is midsummer in the north."""
@@ -31,13 +31,13 @@ class Light(Declaration):
     """Degrees north of the equator, for `hour`; negative is south."""
 
     sun: Color = "#ffffff"
-    """Colour of the sun before the air, which makes it warmer the lower it stands."""
+    """Colour of the sun outside of the air, which makes it warmer the lower it stands."""
 
     strength: float = Field(default=1.0, ge=0.0, le=10.0)
     """Strength of the sunlight; 1 is a clear day."""
 
     turbidity: float = Field(default=2.6, ge=1.8, le=10.0)
-    """How hazy the air is: 2 is very clear, 3 clear, 6 hazy. The sky's colours follow from it and the sun's height."""
+    """Turbidity of the air: 2 is very clear, 3 clear, 6 hazy. The sky's colours follow from it and the sun's height."""
 
     zenith: Color | None = None
     """Colour of the sky overhead; without it, that of a clear sky."""
@@ -46,10 +46,10 @@ class Light(Declaration):
     """Colour of the sky at the horizon, and of the haze; without it, that of a clear sky."""
 
     clouds: float = Field(default=0.0, ge=0.0, le=1.0)
-    """How much of the sky has clouds, 1 is overcast; their shadows drift over the grass with the first breeze."""
+    """Fraction of the sky with clouds, 1 is overcast; their shadows drift over the grass with the first breeze."""
 
     exposure: float = Field(default=0.0, ge=-8.0, le=8.0)
-    """How much brighter the picture is taken than it would be by itself, in stops: 1 is twice as bright."""
+    """Exposure in addition to the automatic one, in stops: 1 is twice as bright."""
 
     ground: Color = "#4a3f2a"
     """Colour of bare ground."""

@@ -1,4 +1,4 @@
-"""Who walks through a scene's grass, as its file declares it."""
+"""Pressers that walk through the grass, as a scene's file declares them."""
 
 from dataclasses import fields
 from typing import Self
@@ -12,7 +12,7 @@ from .way import Placed
 LARGEST = 20.0
 
 SHAPE = tuple(field.name for field in fields(Presser))
-"""What a presser says of its shape; a scene may declare it under the same names."""
+"""Fields of a presser's shape; a scene declares them under the same names."""
 
 
 class PresserOnPath(Placed):
@@ -28,7 +28,7 @@ class PresserOnPath(Placed):
     """Corners (x, z) of a polygon, x to its right and -z ahead, instead of `radius` and `length` [m]."""
 
     strength: float = Field(default=1.0, ge=0.0, le=1.0)
-    """How much it presses: 1 lays grass of stiffness 1 flat."""
+    """Strength of the pressure: 1 lays grass of stiffness 1 flat."""
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -39,5 +39,5 @@ class PresserOnPath(Placed):
         return self
 
     def footprint(self) -> Presser:
-        """Return what it presses with."""
+        """Return the component of the presser."""
         return Presser(**{name: getattr(self, name) for name in SHAPE if name in type(self).model_fields})

@@ -1,4 +1,4 @@
-"""Quality: how fine each representation is, and up to which discrete distance it reaches."""
+"""Quality: fineness and reach of each representation."""
 
 from itertools import pairwise
 from typing import TYPE_CHECKING, Literal
@@ -8,14 +8,14 @@ from pydantic import Field, model_validator
 from ...components.declaration import Declaration, DeclarationError
 
 LodName = Literal["auto", "blades", "strips", "carpet"]
-"""Which representation is drawn: the one due at each distance, or one of them everywhere."""
+"""Representation that is drawn: by distance, or one of them everywhere."""
 
 
 class BladeRing(Declaration):
     """A sub-level of the 3D blades."""
 
     to: int = Field(ge=0, le=64)
-    """Largest discrete distance it serves."""
+    """Largest discrete distance of the ring."""
 
     segments: int = Field(ge=1, le=16)
     """Line segments per blade."""
@@ -25,17 +25,17 @@ class StripRing(Declaration):
     """A sub-level of the 2.5D strips."""
 
     to: int = Field(ge=0, le=128)
-    """Largest discrete distance it serves. A ring that reaches no farther than the one before it, or than the
-    blades, serves patches seen from above, where coarser strips would show as rows."""
+    """Largest discrete distance of the ring. A ring that reaches no farther than the one before it, or than the
+    blades, is for patches seen from above, where coarser strips would show as rows."""
 
     strips: int = Field(ge=1, le=32)
     """Strips per patch and orientation."""
 
     columns: int = Field(default=2, ge=1, le=8)
-    """Polygon strips side by side in each strip; they share their vertical edges."""
+    """Quads side by side in each strip; they share their vertical edges."""
 
     sections: int = Field(default=3, ge=1, le=8)
-    """Quads that a vertical edge bends over."""
+    """Quads one above the other, over which a vertical edge bends."""
 
     texel: float = Field(default=0.006, ge=0.001, le=0.5)
     """Width and height of a texel [m]."""
@@ -48,11 +48,11 @@ class Quality(Declaration):
     """Side of a patch of grass [m]."""
 
     blades: int = Field(default=500, ge=1, le=5000)
-    """Blades per patch at full density, for kinds that do not say."""
+    """Blades per patch at full density, for kinds without a number of their own."""
 
     models: int = Field(default=3, ge=1, le=16)
-    """Patch models per kind; with four quarter turns each, so that no repetition shows. Of many kinds there are fewer,
-    where there would be no room for the pictures of all."""
+    """Patch models per kind; each is also turned by quarter turns, so that no repetition shows. With many kinds there
+    are fewer, if textures would have no room for all."""
 
     blade_rings: list[BladeRing] = Field(min_length=1, max_length=16)
     """Sub-levels of the 3D blades, from the nearest."""
@@ -71,7 +71,7 @@ class Quality(Declaration):
     about two thirds of the cost. With more than four kinds, only the mesh is coarser. Clouds have fewer pixels, too."""
 
     pixels: float = Field(default=1.0, ge=0.25, le=1.0)
-    """Part of the picture's width and height that is drawn; below 1 it is scaled up afterwards."""
+    """Resolution along each side as a fraction of the picture's; below 1 the picture is scaled up afterwards."""
 
     @model_validator(mode="after")
     def _rising_rings(self) -> "Quality":
@@ -111,7 +111,7 @@ def _quality(
 
 
 HALF = 0.5
-"""Part of the pixels, across and up, of `minimal`: a quarter of them all."""
+"""Resolution along each side of `minimal`: a quarter of all pixels."""
 
 PRESETS: dict[str, Quality] = {
     "minimal": _quality(100, [(1, 3), (7, 3)], [(12, 2, 1, 1, 0.012)], 32, coarse=True, pixels=HALF),
@@ -135,15 +135,16 @@ PRESETS: dict[str, Quality] = {
 }
 """The presets by name: the paper's three instances, and those that people use (paper, section 5.1).
 
-Blades of the first ring are drawn in two goes, and all farther ones in one: so the latter begin with a ring of what is
-near by, whether or not others have fewer segments. Their blades reach farther than the paper's: up to there they cost
-no more than strips and are much nearer to the truth.
+Blades of the first ring are drawn in two passes, all farther ones in one. So the presets for use begin with a near
+ring, even if the next one has as many segments. Their blades reach farther than the paper's: up to there they cost no
+more than strips and are much nearer to the truth.
 
-The paper's reach so far that the image of a wide enough `plain` has about 100,000, 500,000 and 1,000,000 blades.
+The paper's presets reach so far that the picture of a wide enough `plain` has about 100,000, 500,000 and 1,000,000
+blades.
 """
 
 if TYPE_CHECKING:
     PresetName = str
 else:
     PresetName = Literal[tuple(PRESETS)]
-"""The name of a preset."""
+"""Name of a preset."""

@@ -32,7 +32,7 @@ from .terrain import TerrainSource
 from .tree import TreeKind
 
 MOST_TREES = 16
-"""Kinds of trees in a scene at most."""
+"""Greatest number of kinds of trees in a scene."""
 
 FORMAT = 2
 """Version of the scene format that this release writes."""
@@ -44,10 +44,10 @@ class Reading(TypedDict):
     """The validation context that a scene's winds need: `Scene.model_validate(data, context=Reading(wind=...))`."""
 
     wind: Callable[[str], type[WindPrimitive]]
-    """Gives the class of a kind, or raises ValueError with a sentence."""
+    """Returns the class of a kind, or raises ValueError with a sentence."""
 
     folder: NotRequired[Path]
-    """What the files that winds name are relative to; without it they are not read yet."""
+    """Folder to which the file names in winds are relative; without it these files are not read yet."""
 
 
 def _of_its_kind(value: Any, _: object, info: ValidationInfo) -> WindPrimitive:
@@ -84,7 +84,7 @@ def _validated(primitive: type[WindPrimitive], value: dict[str, Any], info: Vali
 
 
 Wind = Annotated[SerializeAsAny[WindPrimitive], WrapValidator(_of_its_kind)]
-"""A wind primitive of the class that its `kind` names; classes are asked for when a scene is read."""
+"""A wind primitive of the class of its `kind`; classes are looked up when a scene is read."""
 
 
 def _quality_form(value: Any) -> str:
@@ -92,8 +92,8 @@ def _quality_form(value: Any) -> str:
 
 
 MOST_BLADES = 1 << 23
-"""Blades around a viewer, at most: half of the texels of a texture as large as cards have them, 1,024 by 16,384, in
-which each hears the winds. Edges of strips have the other half."""
+"""Greatest number of blades around a viewer: half of the texels of the largest texture of messages, 1,024 by 16,384,
+with a texel for each blade. Edges of strips have the other half."""
 
 
 class Scene(Declaration):
@@ -103,10 +103,10 @@ class Scene(Declaration):
     """Version of the scene format; by custom the first key."""
 
     seed: int = Field(default=1, ge=0, le=MOST_SEED)
-    """Everything random in the scene comes from it."""
+    """Seed of everything random in the scene."""
 
     terrain: TerrainSource = TerrainSource(noise="flat")
-    """The ground that the grass stands on."""
+    """Ground that the grass stands on."""
 
     grass: dict[str, GrassKind] = Field(min_length=1, max_length=MOST_KINDS)
     """Grass kinds by name."""
@@ -115,19 +115,20 @@ class Scene(Declaration):
     """Wind primitives."""
 
     mixing: Mixing = "weight"
-    """How winds meet: by weight, each sets in softly over those of lower priority; by priority, it cancels them."""
+    """Rule for winds that meet: by weight, each sets in softly over those of lower priority; by priority, it cancels
+    them."""
 
     pressers: list[PresserOnPath] = Field(default=[], max_length=200)
-    """Who walks through the grass and treads it down."""
+    """Pressers, which walk through the grass and tread it down."""
 
     camera: CameraSource = CameraSource()
-    """Where the scene is looked at from."""
+    """Camera, at a fixed place or on a path."""
 
     light: Light = Light()
     """Sun, sky and haze."""
 
     lamps: list[LampOnPath] = Field(default=[], max_length=256)
-    """Lamps besides sun and sky."""
+    """Lamps, in addition to sun and sky."""
 
     trees: dict[str, TreeKind] = Field(default={}, max_length=MOST_TREES)
     """Kinds of trees and bushes by name."""
@@ -176,6 +177,6 @@ class Scene(Declaration):
         return PRESETS[chosen] if isinstance(chosen, str) else chosen
 
     def number_of(self, kind: str | None) -> int | None:
-        """Return which of the grass kinds has a name, counted from 0. Raises ValueError for a name that none has."""
+        """Return the number of a grass kind by its name, from 0; None for None. Raises ValueError for others."""
         must_be_known("grass", kind, self.grass)
         return None if kind is None else list(self.grass).index(kind)

@@ -1,4 +1,4 @@
-"""The terrain: what a scene declares of it, and the elevation map it becomes."""
+"""The terrain, as a scene declares it."""
 
 from typing import Literal
 
@@ -18,7 +18,7 @@ class TerrainSource(Declaration):
     """Elevation map file, relative to the scene file: 16-bit grey .png, .r16 or .raw, .npy, or .tif (GeoTIFF too).
 
     A smooth surface divides cells longer than 2.5 m. A map wider than 10240 m is cut to its middle. `seed` and
-    `feature`, which are for noise, have no effect beside it. A program may hand in an array. Or it hands in a function
+    `feature`, which are for noise, have no effect on it. A program may hand in an array. Or it hands in a function
     `heights(x, z)`, which takes places [m] in two arrays of one shape, and returns their heights [m]."""
 
     holes: PictureOrArray | None = None
@@ -34,19 +34,19 @@ class TerrainSource(Declaration):
     """Seed of the noise."""
 
     size: Pair | None = None
-    """Width (x) and depth (z) [m]: of a noise landscape, without it 200 by 200; of a file, whose middle it keeps,
-    without it all there is."""
+    """Width (x) and depth (z) [m]: of a noise landscape, by default 200 by 200; or of the middle of a file, by default
+    all of it."""
 
     window: float | None = Field(default=None, ge=512.0, le=8192.0)
-    """For a function in `heights`: it is asked for ground so wide about the viewer [m], and for more as the viewer goes
-    on, up to 16384 m from the origin. Without it, the function is asked for all of the `size` while loading."""
+    """For a function in `heights`: width of the ground around the viewer that it is called for [m], again and again as
+    the viewer goes on, up to 16384 m from the origin. Without it, it is called for all of the `size` while loading."""
 
     feature: float | None = Field(default=None, ge=2.0, le=5000.0)
     """Distance between neighbouring hills of a noise landscape [m]; without it 60 for rolling, 90 for hills, 160 for
     ridges."""
 
     cell: float = Field(default=1.0, ge=0.05, le=1000.0)
-    """Metres per cell; a GeoTIFF says so itself where the scene does not."""
+    """Metres per cell; without it, a GeoTIFF's own."""
 
     scale: float | None = Field(default=None, ge=-100000.0, le=100000.0)
     """Vertical scale [m]. For a map of unsigned integers it is the height of their whole range, 100 without it. For
@@ -66,8 +66,8 @@ class TerrainSource(Declaration):
     """Whether the file's first row is the near edge (+z) instead of the far one."""
 
     beyond: Literal["level", "mirror"] = "level"
-    """How ground goes on beyond the terrain: as high as its edge, for 600 m; or as a mirror image of it, for 4000 m,
-    the last half of which fades into the haze."""
+    """Ground beyond the terrain: as high as its edge, for 600 m; or a mirror image of it, for 4000 m, the last half of
+    which fades into the haze."""
 
     @field_validator("size")
     @classmethod

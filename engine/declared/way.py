@@ -1,4 +1,4 @@
-"""Ways through a scene: places at times, and where one is between them."""
+"""Paths through a scene: places at times, and interpolation between them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,14 +15,14 @@ from ..curve import Curve
 from ..memo import by_identity
 
 _MOMENT = 0.05
-"""Time on either side over which the direction of travel is taken [s]."""
+"""Time before and after over which the direction of travel is measured [s]."""
 
 
 class Timed(Declaration):
     """One point of a path."""
 
     at: float = Field(ge=0.0, le=36000.0)
-    """When it is here [s]."""
+    """Time at this point [s]."""
 
     position: Pair
     """Ground position (x, z) [m]."""
@@ -32,18 +32,18 @@ class Waypoint(Timed):
     """One point of the path of a wind, a presser or a lamp."""
 
     yaw: float | None = Field(default=None, ge=-3600.0, le=3600.0)
-    """Heading, as a camera's yaw; without it, where the path leads [degrees]."""
+    """Heading, as a camera's yaw [degrees]; without it, along the path."""
 
 
 def check_times(path: Sequence[Timed], /) -> None:
-    """Raise DeclarationError where the times of a path do not rise."""
+    """Raise DeclarationError if the times of a path do not rise."""
     for i, (before, stop) in enumerate(pairwise(path), 1):
         if stop.at <= before.at:
             raise DeclarationError(f"at must be later than {before.at:g} s, the point before", "path", i, "at")
 
 
 def pose_on(path: list[Waypoint], position: list[float], yaw: float, /, *, time: float) -> Pose:
-    """Return the pose on a path at `time` [s]; where there is none, that of a position [m] and a yaw [degrees]."""
+    """Return the pose on a path at `time` [s]; for an empty path, that of a position [m] and a yaw [degrees]."""
     if not path:
         return Pose(position[0], position[1], radians(yaw))
     ways = _ways(path)
@@ -52,7 +52,7 @@ def pose_on(path: list[Waypoint], position: list[float], yaw: float, /, *, time:
 
 
 class Placed(Declaration):
-    """What is somewhere: at a fixed place, or on its way along a path."""
+    """A thing at a fixed place, or on a path."""
 
     position: Pair = Field(default=[0.0, 0.0])
     """Ground position (x, z) of its middle [m]."""
@@ -69,7 +69,7 @@ class Placed(Declaration):
         return self
 
     def pose(self, *, time: float) -> Pose:
-        """Return where it is at `time` [s]."""
+        """Return the pose at `time` [s]."""
         return pose_on(self.path, self.position, self.yaw, time=time)
 
 
@@ -81,13 +81,13 @@ class _Ways:
     """Ground position (x, z) [m]."""
 
     yaw: Curve | None
-    """Heading, where points of the path declare it [degrees]."""
+    """Heading through those points of the path that declare one [degrees]; None if none does."""
 
     legs: list[tuple[float, float]]
-    """When it sets out and arrives on each leg that leads somewhere [s]."""
+    """Times of departure and arrival of each leg between different places [s]."""
 
 
-@by_identity(most=512)  # a scene has 200 winds and 200 pressers at most: with fewer, all would be made anew in turn
+@by_identity(most=512)  # a scene has up to 200 winds and 200 pressers: a smaller cache would miss each time
 def _ways(path: list[Waypoint]) -> _Ways:
     times = np.array([stop.at for stop in path], np.float64)
     declared = [(stop.at, stop.yaw) for stop in path if stop.yaw is not None]
@@ -100,7 +100,7 @@ def _ways(path: list[Waypoint]) -> _Ways:
 
 
 def _heading(ways: _Ways, time: float, first: float) -> float:
-    """Return the heading on a path [rad]: what its points declare, or else where it leads, last led, or will lead."""
+    """Return the heading on a path [rad]: declared by its points, or else along the present, last or first leg."""
     if ways.yaw is not None:
         return radians(ways.yaw.at(time)[0])
     if not ways.legs:
