@@ -123,10 +123,10 @@ def equalised(pictures: Bytes, solid: float, /) -> Bytes:
     for each in result:
         tone, cover = (each[..., one].astype(np.float64) for one in (0, 3))
         mean = tone.sum() / max(cover.sum(), 1.0)
-        for some in (cover >= solid, cover < solid):
-            own = tone[some].sum()
-            if own > 0.0:
-                tone[some] *= mean * cover[some].sum() / own
+        for part in (cover >= solid, cover < solid):
+            total = tone[part].sum()
+            if total > 0.0:
+                tone[part] *= mean * cover[part].sum() / total
         each[..., 0] = np.round(np.minimum(tone, cover))
     return result
 

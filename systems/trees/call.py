@@ -121,8 +121,10 @@ class Calls:
         stream = model.hung.get(name, model.streams[name])
         array = self._programs.array(drawn_as, stream, model, edges=edges)
         whole_tree = SOLID if how.casts else CLOSED if sort == FAR else OPAQUE
-        own = uniforms_of(array.program, corners, outline, kind.solid if sort == NEAR else whole_tree, casts=how.casts)
-        uniforms = {id(each[0]): each for each in kind.uniforms(array.program, model) + own}
+        own_uniforms = uniforms_of(
+            array.program, corners, outline, kind.solid if sort == NEAR else whole_tree, casts=how.casts
+        )
+        uniforms = {id(each[0]): each for each in kind.uniforms(array.program, model) + own_uniforms}
         return State(
             array,
             moderngl.TRIANGLE_STRIP if sort in (NEAR, FAR) else moderngl.TRIANGLES,

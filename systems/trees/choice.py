@@ -252,8 +252,8 @@ def _by_stream(seen: _Seen, shell: Indices, leafy: Indices) -> tuple[Indices, In
         np.zeros(len(far), np.intp), shell[back],
     ]  # fmt: skip
     first = [FIRST_OF[name] for name in (LEAVES, CARDS[0], WOODS[0], FAR, BACKS[0])]
-    own = np.concatenate([number + index for number, index in zip(first, within, strict=True)])
-    stream = seen.model[tree] * len(STREAMS) + own
+    stream_of_model = np.concatenate([number + index for number, index in zip(first, within, strict=True)])
+    stream = seen.model[tree] * len(STREAMS) + stream_of_model
     order = _stable_order(stream)
     return stream[order], tree[order]
 
@@ -291,8 +291,8 @@ def _batches(stream: Indices, tree: Indices, seen: _Seen, distance: Doubles) -> 
         low(foliage[tree], first), high(drawn[tree], first), high((drawn * foliage)[tree], first),
     )  # fmt: skip
     return [
-        Batch(model, STREAMS[own], start, size, nearest, mean, farthest_of(SHELL_OF[STREAMS[own]], far), *rest)
-        for model, own, start, size, nearest, mean, far, *rest in zip(*(each.tolist() for each in columns), strict=True)
+        Batch(model, STREAMS[index], start, size, nearest, mean, farthest_of(SHELL_OF[STREAMS[index]], far), *rest)
+        for model, index, start, size, nearest, mean, far, *rest in zip(*map(np.ndarray.tolist, columns), strict=True)
     ]
 
 

@@ -61,8 +61,8 @@ def shade_of(area: float, radius: float, height: float, trunk: float, /) -> tupl
 
 def leaf_area(twigs: Twigs, leaf: Leaf, twig_length: float, /) -> Doubles:
     """Return the leaf area of each twig, one side [m²], shape (n,); `twig_length` is the usual one [m]."""
-    own = leaf.count * leaf.length * leaf.width * leaf.area
-    return np.asarray(own * (twigs.length.astype(np.float64) / twig_length) ** 2)
+    usual_area = leaf.count * leaf.length * leaf.width * leaf.area
+    return np.asarray(usual_area * (twigs.length.astype(np.float64) / twig_length) ** 2)
 
 
 def shading(tree: Tree, area: Doubles, place: Doubles, /) -> Floats:
@@ -76,8 +76,8 @@ def shading(tree: Tree, area: Doubles, place: Doubles, /) -> Floats:
     cell = float((high - low).max()) / CELLS
     size = np.maximum(np.ceil((high - low) / cell).astype(np.intp), 1)
     dense = np.zeros(size)
-    at = np.minimum(((middle - low) / cell).astype(np.intp), size - 1)
-    np.add.at(dense, tuple(at.T), area * PROJECTED * CLUMPING / cell**3)
+    index = np.minimum(((middle - low) / cell).astype(np.intp), size - 1)
+    np.add.at(dense, tuple(index.T), area * PROJECTED * CLUMPING / cell**3)
     directions = _directions()
     depths = np.stack(
         [_optical_depths(dense, (place - low) / cell, direction, cell) for direction in directions], axis=1
@@ -98,7 +98,7 @@ def _optical_depths(dense: Doubles, place: Doubles, direction: Doubles, cell: fl
     """Return the optical depth along rays from places (n, 3) [cells] in a direction, shape (n,)."""
     ends = (np.arange(STEPS + 1) / STEPS) ** 2 * float(max(dense.shape)) * RAY_LENGTH  # finer near by
     along, length = 0.5 * (ends[1:] + ends[:-1]), np.diff(ends) * cell
-    at = (place[:, None] + along[None, :, None] * direction).astype(np.intp)
-    inside = ((at >= 0) & (at < dense.shape)).all(axis=-1)
-    at = np.clip(at, 0, np.array(dense.shape) - 1)
-    return np.asarray((dense[at[..., 0], at[..., 1], at[..., 2]] * inside) @ length)
+    index = (place[:, None] + along[None, :, None] * direction).astype(np.intp)
+    inside = ((index >= 0) & (index < dense.shape)).all(axis=-1)
+    index = np.clip(index, 0, np.array(dense.shape) - 1)
+    return np.asarray((dense[index[..., 0], index[..., 1], index[..., 2]] * inside) @ length)

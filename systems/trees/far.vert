@@ -107,9 +107,9 @@ ivec4 choose_pictures(vec3 from) {
     vec2 second = vec2(mod(first.x + 1.0, float(COLUMNS)), first.y + 1.0);
     tile_corners = vec4(first, second) / vec2(COLUMNS, ROWS).xyxy;
     mix_shares = smoothstep(MIXES.x, MIXES.y, part);
-    ivec2 some = ivec2(mix(first, second, greaterThan(mix_shares, vec2(0.0))));
-    ivec2 most = ivec2(mix(first, second, greaterThanEqual(mix_shares, vec2(1.0))));
-    return ivec4(most.x, some.x, most.x, some.x) + COLUMNS * ivec4(most.y, most.y, some.y, some.y);
+    ivec2 end = ivec2(mix(first, second, greaterThan(mix_shares, vec2(0.0))));
+    ivec2 begin = ivec2(mix(first, second, greaterThanEqual(mix_shares, vec2(1.0))));
+    return ivec4(begin.x, end.x, begin.x, end.x) + COLUMNS * ivec4(begin.y, begin.y, end.y, end.y);
 }
 
 #ifndef CAST

@@ -298,14 +298,14 @@ def _discs(rows: NDArray[np.void], grown: Grown) -> Doubles:
     discs, feet = np.zeros((2, len(rows), 4))
     for number, kind in enumerate(grown.scene.trees.values()):
         for which, model in enumerate(models_of(kind.habit, grown.scene.seed + number)):
-            own = (rows["kind"] == number) & (rows["model"] == which)
-            scale = rows["height"][own].astype(np.float64) / model.height
+            mask = (rows["kind"] == number) & (rows["model"] == which)
+            scale = rows["height"][mask].astype(np.float64) / model.height
             far, leaves, foot = model.shade
             reach = np.maximum(scale * far, LEAST_SHADE)
-            discs[own, :2], discs[own, 2] = rows["root"][own][:, ::2], reach
-            discs[own, 3] = rows["foliage"][own] * leaves * (scale / reach) ** 2
-            feet[own, :2], feet[own, 2] = discs[own, :2], FOOT
-            feet[own, 3] = rows["foliage"][own] * np.minimum(foot * scale, FOOT_MEETS_MOST)
+            discs[mask, :2], discs[mask, 2] = rows["root"][mask][:, ::2], reach
+            discs[mask, 3] = rows["foliage"][mask] * leaves * (scale / reach) ** 2
+            feet[mask, :2], feet[mask, 2] = discs[mask, :2], FOOT
+            feet[mask, 3] = rows["foliage"][mask] * np.minimum(foot * scale, FOOT_MEETS_MOST)
     discs = np.concatenate([discs, feet])
     return discs[discs[:, 3] > 0.0]
 

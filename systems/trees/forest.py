@@ -136,13 +136,13 @@ class Forest:
     def _squares_of_ring(self, eye: tuple[float, float, float], level: int) -> list[tuple[int, int, int]]:
         """Return the squares of a level that are shown to an eye anywhere on its own square."""
         side, outer = SQUARE * 2**level, DENSE_TO * 2**level
-        own = np.floor(np.array(eye[::2]) / side).astype(int)
+        eye_square = np.floor(np.array(eye[::2]) / side).astype(int)
         steps = np.arange(-round(outer / side) - 1, round(outer / side) + 2)
         i, j = np.meshgrid(steps, steps, indexing="ij")
         nearest = np.hypot(np.maximum(abs(i) - 1, 0), np.maximum(abs(j) - 1, 0)) * side
         farthest = np.hypot(abs(i) + 1, abs(j) + 1) * side
         shown = (nearest <= outer) & ((farthest >= 0.4 * outer) | (level == 0))
-        squares = np.stack([i[shown], j[shown]], axis=1) + own
+        squares = np.stack([i[shown], j[shown]], axis=1) + eye_square
         terrain = self._grown.ground.terrain
         low, high = np.array(terrain.origin), np.array(terrain.origin) + terrain.size
         corner = squares * side

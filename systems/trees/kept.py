@@ -41,11 +41,11 @@ def kept_pictures(key: str, sides: list[tuple[int, int]], /) -> list[Picture] | 
 
     A model has two, as `tree_levels` returns them; `sides` are the texels across and up of each model's.
     """
-    told = kept(key + SUFFIX, key)
-    if told is None:
+    data = kept(key + SUFFIX, key)
+    if data is None:
         return None
     with suppress(ValueError, KeyError, zipfile.BadZipFile):
-        with np.load(io.BytesIO(told), allow_pickle=False) as archive:
+        with np.load(io.BytesIO(data), allow_pickle=False) as archive:
             sizes = sizes_of(sides)
             found = [[archive[f"{one}.{level}"] for level in range(len(each))] for one, each in enumerate(sizes)]
         if all(

@@ -204,10 +204,10 @@ class GpuKind:
             "tree_depths": model.depths,
             "tree_cards": cards,
         }
-        asked = set_used_uniforms(program)
+        used = set_used_uniforms(program)
         return [
             Binding(texture, self.units[name])
-            for name, texture in textures.items() if texture is not None and name in asked
+            for name, texture in textures.items() if texture is not None and name in used
         ]  # fmt: skip
 
     def release(self) -> None:

@@ -22,9 +22,9 @@ GLSL = {"NOISE_CELLS": float(NOISE_CELLS), "NOISE_FINER": float(FINER)}
 def bark_noise() -> list[Bytes]:
     """Return all mip levels, a layer (1, rows, columns) each: values of cells, smoothly interpolated."""
     values = np.random.default_rng(SEED).uniform(0.0, 255.0, (NOISE_CELLS, NOISE_CELLS))
-    at = (np.arange(NOISE_CELLS * FINER) + 0.5) / FINER
-    low = at.astype(np.intp)
-    part = at - low
+    position = (np.arange(NOISE_CELLS * FINER) + 0.5) / FINER
+    low = position.astype(np.intp)
+    part = position - low
     part = part * part * (3.0 - 2.0 * part)
     for _ in range(2):
         ahead = np.roll(values, -1, axis=0)

@@ -34,8 +34,8 @@ def card_normals(picture: Bytes, /) -> Normals:
     `picture` (2, n, n, 4) is that of a card, as `mip_levels` returns it.
     """
     texels = picture.astype(np.float64).reshape(2, -1, 4)
-    own = texels[1, texels[0, :, 3] >= LEAST_COVER]
-    normal = 2.0 * own[:, :3] - own[:, 3:]
+    texel = texels[1, texels[0, :, 3] >= LEAST_COVER]
+    normal = 2.0 * texel[:, :3] - texel[:, 3:]
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1.0)
     return _clustered(normal, 1.0 / np.maximum(normal[:, 2], LEAST_FACING))  # from the area that is seen
 
@@ -51,12 +51,12 @@ def tree_normals(twigs: NDArray[np.void], card: Normals, /, *, turn: bool) -> No
     normal = list[Doubles]()
     for around in np.pi * np.arange(CARD_TURNS if turn else 1) / CARD_TURNS:
         across, out = np.cos(around) * aside - np.sin(around) * face, np.sin(around) * aside + np.cos(around) * face
-        own = (
+        direction = (
             card_values[:, 0, None, None] * across
             + card_values[:, 1, None, None] * along
             + card_values[:, 2, None, None] * out
         )
-        normal.append(own.reshape(-1, 3))
+        normal.append(direction.reshape(-1, 3))
     normals_of_twigs = np.concatenate(normal)[:, [0, 2, 1]]
     normals_of_twigs[normals_of_twigs[:, 2] < 0.0] *= -1.0  # a leaf has two sides
     area = card_values[:, 3, None] * twigs["span"].astype(np.float64) ** 2
@@ -75,9 +75,9 @@ def _clustered(normal: Doubles, area: Doubles) -> Normals:
         inside = np.flatnonzero(part == number)
         steep = inside[np.argsort(normal[inside, 2])]
         halves = np.searchsorted(np.cumsum(area[steep]), 0.5 * area[steep].sum())
-        for tilt, some in enumerate((steep[:halves], steep[halves:])):
-            if len(some):
-                clusters[TILTS * number + tilt] = *_mean(normal[some], area[some]), area[some].sum()
+        for tilt, half in enumerate((steep[:halves], steep[halves:])):
+            if len(half):
+                clusters[TILTS * number + tilt] = *_mean(normal[half], area[half]), area[half].sum()
     whole = clusters[:, 3].sum()
     clusters[:, 3] /= whole if whole > 0.0 else 1.0
     return [(x, y, z, share) for x, y, z, share in clusters.tolist()]

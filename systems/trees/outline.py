@@ -137,9 +137,9 @@ def covered_at(covers: list[Bytes], least: float, /) -> Mask:
     side = len(covers[0])
     found = np.zeros((side, side), np.bool_)
     for cover in covers:
-        at = ((np.arange(side) + 0.5) * len(cover) / side - 0.5).clip(0.0, len(cover) - 1.0)
-        first = at.astype(np.intp)
-        part, second = at - first, np.minimum(first + 1, len(cover) - 1)
+        position = ((np.arange(side) + 0.5) * len(cover) / side - 0.5).clip(0.0, len(cover) - 1.0)
+        first = position.astype(np.intp)
+        part, second = position - first, np.minimum(first + 1, len(cover) - 1)
         rows = cover[first] * (1.0 - part[:, None]) + cover[second] * part[:, None]
         found |= rows[:, first] * (1.0 - part) + rows[:, second] * part > least
     return found
@@ -192,6 +192,8 @@ def _quads(to: Doubles, reach: Doubles) -> Doubles:
     sides = np.array(list(combinations(range(SIDES), len(BOX))))
     turn = np.diff(sides, axis=1, append=sides[:, :1] + SIDES)
     sides = sides[(2 * turn < SIDES).all(axis=1)]  # other sides do not meet
-    (one, other), (a, b) = ([each[some] for some in (sides, np.roll(sides, -1, axis=1))] for each in (to, reach))
-    (ax, ay), (bx, by) = np.moveaxis(one, -1, 0), np.moveaxis(other, -1, 0)
+    (side, next_side), (a, b) = (
+        [each[chosen] for chosen in (sides, np.roll(sides, -1, axis=1))] for each in (to, reach)
+    )
+    (ax, ay), (bx, by) = np.moveaxis(side, -1, 0), np.moveaxis(next_side, -1, 0)
     return np.asarray(np.stack([a * by - b * ay, b * ax - a * bx], axis=-1) / (ax * by - ay * bx)[..., None])

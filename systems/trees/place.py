@@ -42,14 +42,14 @@ def _along(row: Sequence[Sequence[float]], spacing: float, uneven: float, draw: 
     line = np.array(row, np.float64)
     run = np.append(0.0, np.hypot(*np.diff(line, axis=0).T).cumsum())
     count = min(max(round(run[-1] / spacing), 1) + 1, MOST)
-    at, aside = np.linspace(0.0, run[-1], count), np.zeros((count, 2))
+    distance, aside = np.linspace(0.0, run[-1], count), np.zeros((count, 2))
     if uneven > 0.0:
         each = uneven * run[-1] / max(count - 1, 1)
-        at = (at + each * draw.uniform(-0.5, 0.5, count)).clip(0.0, run[-1])
+        distance = (distance + each * draw.uniform(-0.5, 0.5, count)).clip(0.0, run[-1])
         aside = min(JITTER * each, MOST_JITTER) * draw.uniform(-1.0, 1.0, (count, 2))
         kept = draw.random(count) >= MISSING * uneven
-        at, aside = at[kept], aside[kept]
-    place = np.stack([np.interp(at, run, line[:, axis]) for axis in (0, 1)], axis=1)
+        distance, aside = distance[kept], aside[kept]
+    place = np.stack([np.interp(distance, run, line[:, axis]) for axis in (0, 1)], axis=1)
     return np.asarray(place + aside, np.float32)
 
 

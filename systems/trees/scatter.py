@@ -79,12 +79,12 @@ class Scatter:
         size = np.ceil(high / self.cell).astype(np.int64) + 2 - first
         lines = [first[axis] + np.arange(size[axis]) for axis in (0, 1)]
         square_of = [
-            np.floor((line + 0.5) * self.cell / side).astype(np.int64) - at
-            for line, at in zip(lines, squares.corner, strict=True)
+            np.floor((line + 0.5) * self.cell / side).astype(np.int64) - corner
+            for line, corner in zip(lines, squares.corner, strict=True)
         ]
         inside = [(each >= 0) & (each < count) for each, count in zip(square_of, squares.wanted.shape, strict=True)]
-        at = [np.where(keep, each, 0) for keep, each in zip(inside, square_of, strict=True)]
-        wanted_cell = squares.wanted[np.ix_(*at)] & inside[0][:, None] & inside[1][None, :]
+        index = [np.where(keep, each, 0) for keep, each in zip(inside, square_of, strict=True)]
+        wanted_cell = squares.wanted[np.ix_(*index)] & inside[0][:, None] & inside[1][None, :]
         near = wanted_cell.copy()
         for axis in (0, 1):
             near |= np.roll(near, 1, axis) | np.roll(near, -1, axis)
@@ -107,8 +107,8 @@ class Scatter:
         drawn = chance < self.drawn(self.share(place))
         priority = np.full(near.shape, np.inf)  # the lower stays; places not drawn never do
         priority[i, j] = np.where(drawn, unit(stream(hashed, 4)), np.inf)
-        at = np.zeros((*near.shape, 2), np.float32)
-        at[i, j] = place
+        position = np.zeros((*near.shape, 2), np.float32)
+        position[i, j] = place
         stays = wanted_cell & np.isfinite(priority)
         i, j = stays.nonzero()
         kept = np.ones(len(i), np.bool_)
@@ -116,10 +116,11 @@ class Scatter:
             for down in (-1, 0, 1):
                 if right or down:
                     other = i + right, j + down
-                    close = ((at[other] - at[i, j]) ** 2).sum(axis=1) < self.spacing**2
+                    close = ((position[other] - position[i, j]) ** 2).sum(axis=1) < self.spacing**2
                     kept &= ~(close & (priority[other] < priority[i, j]))
         i, j = i[kept], j[kept]
-        return at[i, j], np.stack([square_of[0][i] + corner[0], square_of[1][j] + corner[1]], axis=1).astype(np.int32)
+        square = np.stack([square_of[0][i] + corner[0], square_of[1][j] + corner[1]], axis=1)
+        return position[i, j], square.astype(np.int32)
 
 
 def apart(place: Floats, others: Floats, least: float, /) -> Mask:
@@ -131,10 +132,10 @@ def apart(place: Floats, others: Floats, least: float, /) -> Mask:
     key = (cell[:, 0] << 32) + cell[:, 1]
     order = np.argsort(key, kind="stable")
     key, others = key[order], others[order]
-    own = np.floor(place.astype(np.float64) / least).astype(np.int64)
+    place_cell = np.floor(place.astype(np.float64) / least).astype(np.int64)
     for right in (-1, 0, 1):
         for down in (-1, 0, 1):
-            asked = ((own[:, 0] + right) << 32) + own[:, 1] + down
+            asked = ((place_cell[:, 0] + right) << 32) + place_cell[:, 1] + down
             first, last = np.searchsorted(key, asked, "left"), np.searchsorted(key, asked, "right")
             for number in range(int((last - first).max(initial=0))):
                 which = np.flatnonzero(first + number < last)

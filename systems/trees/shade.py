@@ -128,11 +128,11 @@ class ShadeMap:
             return
         self._standing = standing
         for number, model in enumerate(model for kind in kinds for model in kind.models):
-            own = standing.of_model(number)
-            own = own[own["ring"] < 2]  # no shade is visible farther off
+            rows = standing.of_model(number)
+            rows = rows[rows["ring"] < 2]  # no shade is visible farther off
             if id(model) not in self._streams:
                 self._streams[id(model)] = Stream(self._ctx, INSTANCE)
-            self._streams[id(model)].write(far_instances(own, np.float32(model.model.height), np.float32(0.0)))
+            self._streams[id(model)].write(far_instances(rows, np.float32(model.model.height), np.float32(0.0)))
 
     def release(self) -> None:
         """Give everything back."""

@@ -138,8 +138,8 @@ class Wild:
         for square in self._planted:
             self._note_gone(square)
         gone = [(square, number) for square, gone in self._forest.gone.items() for number in gone]
-        told = sorted((*square, number, *self._forest.gone[square][number]) for square, number in gone)
-        return [(i, j, number) for i, j, number, _, _ in told], [(x, z) for _, _, _, x, z in told]
+        felled = sorted((*square, number, *self._forest.gone[square][number]) for square, number in gone)
+        return [(i, j, number) for i, j, number, _, _ in felled], [(x, z) for _, _, _, x, z in felled]
 
     def found_again(self, felled: Sequence[Felled], stood: Sequence[Place] | None, /) -> Gone:
         """Return the trees that a saved state has felled; raises ValueError for any that nobody planted."""
@@ -150,12 +150,12 @@ class Wild:
             raise ValueError("it has felled trees off this scene's ground")
         if self._forest.streams:  # squares outside its window cannot grow
             middle = [((i + 0.5) * SQUARE, (j + 0.5) * SQUARE) for i, j, _ in felled] if stood is None else stood
-            return {at: {felled[which][2]: middle[which] for which in own} for at, own in by_square.items()}
+            return {at: {felled[which][2]: middle[which] for which in indices} for at, indices in by_square.items()}
         gone: Gone = {}
         for square, rows in self._forest.on(by_square).items():
-            own, places = by_square[square], rows["root"][:, ::2].astype(np.float64)
-            there = None if stood is None else [stood[which] for which in own]
-            numbers = found_again([felled[which][2] for which in own], there, places)
+            indices, places = by_square[square], rows["root"][:, ::2].astype(np.float64)
+            places_then = None if stood is None else [stood[which] for which in indices]
+            numbers = found_again([felled[which][2] for which in indices], places_then, places)
             gone[square] = {number: (float(places[number, 0]), float(places[number, 1])) for number in numbers}
         return gone
 

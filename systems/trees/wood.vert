@@ -46,10 +46,10 @@ const float ON_EDGE = 0.5;  // beyond it, a vertex is on a ribbon's edge: bytes 
 
 // Direction of a vertex from its stem's middle.
 vec3 outward(vec3 middle_at) {
-    vec4 told = 2.0 * side - 1.0;
-    vec3 way = to_world(told.xyz);
-    ribbon = step(ON_EDGE, abs(told.w));
-    return ribbon > 0.0 ? sign(told.w) * normalize(cross(way, eye - middle_at)) : way;
+    vec4 direction = 2.0 * side - 1.0;
+    vec3 way = to_world(direction.xyz);
+    ribbon = step(ON_EDGE, abs(direction.w));
+    return ribbon > 0.0 ? sign(direction.w) * normalize(cross(way, eye - middle_at)) : way;
 }
 
 void main() {
