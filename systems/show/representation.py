@@ -117,7 +117,7 @@ class RepresentationPainter(Part, ABC):
         """Return the messages at the patches around the viewer; only the representation on the ground has them."""
         raise NotImplementedError
 
-    def draw_ground(self, *, alone: bool) -> int:  # noqa: ARG002 - for the one that lies on the ground
+    def draw_ground(self, *, alone: bool) -> int:  # noqa: ARG002 - for overrides
         """Draw the bare ground, and with `alone` the ground under grass too; return the number of draw calls."""
         return 0
 
@@ -201,22 +201,22 @@ class Representation(ABC):
         """Return the largest discrete distance at which a patch is to have this representation."""
 
     @staticmethod
-    def depends(kind: GrassKind, quality: Quality, /) -> object:  # noqa: ARG004 - for those with pictures
+    def depends(kind: GrassKind, quality: Quality, /) -> object:  # noqa: ARG004 - for overrides
         """Return the plain values that pictures depend on, apart from the blades."""
         return None
 
     @staticmethod
-    def grow(seedling: Seedling, /) -> tuple[Any, ...]:  # noqa: ARG004 - for those with pictures
+    def grow(seedling: Seedling, /) -> tuple[Any, ...]:  # noqa: ARG004 - for overrides
         """Return the pictures of a patch model, grown from its blades: objects of the class `record`."""
         return ()
 
     @staticmethod
-    def fits(pictures: tuple[Any, ...], quality: Quality, blades: int, /) -> bool:  # noqa: ARG004 - the same
+    def fits(pictures: tuple[Any, ...], quality: Quality, blades: int, /) -> bool:  # noqa: ARG004 - for overrides
         """Return whether pictures read from disk have the right shapes for a quality and a number of blades."""
         return not pictures
 
     @staticmethod
-    def layers(quality: Quality, /) -> int:  # noqa: ARG004 - the same
+    def layers(quality: Quality, /) -> int:  # noqa: ARG004 - for overrides
         """Return the number of texture layers that the pictures of a patch model take."""
         return 0
 
@@ -234,11 +234,11 @@ class Representation(ABC):
         """Return the same grass on another ground."""
         return replace(self, ground=ground)
 
-    def defines(self, grown: Grown, /) -> Mapping[str, str | int]:  # noqa: ARG002 - for those with something special
+    def defines(self, grown: Grown, /) -> Mapping[str, str | int]:  # noqa: ARG002 - for overrides
         """Return the shader defines that a scene's kinds need in all programs."""
         return {}
 
-    def prepare(self) -> None:  # noqa: B027 - for those whose painters take long to make
+    def prepare(self) -> None:  # noqa: B027 - optional
         """Compute ahead what takes the next painter long. It uses no GL, so another thread may call it."""
 
     def rings(self) -> int:
@@ -249,7 +249,7 @@ class Representation(ABC):
         """Return the ring of each sub-level (n,), shape (n,)."""
         return sublevel
 
-    def keep(self, patches: PatchTable, side: int, /) -> Kept:  # noqa: ARG002 - for those with receivers
+    def keep(self, patches: PatchTable, side: int, /) -> Kept:  # noqa: ARG002 - for overrides
         """Return an empty store for one viewer, with room for `side` by `side` patches."""
         return Kept()
 
@@ -257,7 +257,7 @@ class Representation(ABC):
         """Return the largest distance of a receiver outside its patch [m]."""
         return 0.0
 
-    def components(self, outlook: Outlook, rows: list[int], /) -> list[tuple[object, ...]]:  # noqa: ARG002 - for those with some
+    def components(self, outlook: Outlook, rows: list[int], /) -> list[tuple[object, ...]]:  # noqa: ARG002 - for overrides
         """Return the components that the representation adds to the entities of the patches in some rows."""
         return [()] * len(rows)
 
@@ -268,7 +268,7 @@ class Representation(ABC):
         """
         return np.zeros(len(rows), np.int8)
 
-    def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:  # noqa: ARG002 - the same
+    def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:  # noqa: ARG002 - for overrides
         """Return whether the representation would look wrong on each patch (n,), as strips do from above.
 
         These patches get a coarser one. `has` (n,) says which patches have this one already: with a `slack` above 0
@@ -276,7 +276,7 @@ class Representation(ABC):
         """
         return np.zeros(len(rows), np.bool_)
 
-    def remaining(self, outlook: Outlook, rows: Rows, away: NDArray[np.float32], /) -> NDArray[np.float32]:  # noqa: ARG002 - the same
+    def remaining(self, outlook: Outlook, rows: Rows, away: NDArray[np.float32], /) -> NDArray[np.float32]:  # noqa: ARG002 - for overrides
         """Return the part of the representation that shows on each patch (n,): it falls from 1 to 0 before `unfit`.
 
         `away` (n,) is the distance of the patch's middle from the eye [patch sides]. It is not rounded, so that the
@@ -288,14 +288,14 @@ class Representation(ABC):
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> object:
         """Return the patches that show this representation to a viewer; `cover` (rows,) is its opacity on each."""
 
-    def plant(self, outlook: Outlook, /) -> None:  # noqa: B027 - for those that stand on the ground
+    def plant(self, outlook: Outlook, /) -> None:  # noqa: B027 - optional
         """Plant the shown patches that are not planted yet."""
 
-    def carry_ahead(self, before: "Representation", kept: Kept, patches: PatchTable, /) -> bool:  # noqa: ARG002 - for those that take long
+    def carry_ahead(self, before: "Representation", kept: Kept, patches: PatchTable, /) -> bool:  # noqa: ARG002 - for overrides
         """Prepare `carry`, in a frame before it; return whether that was already done."""
         return True
 
-    def carry(self, before: "Representation", kept: Kept, patches: PatchTable, /) -> None:  # noqa: B027 - for those whose stores know their grass
+    def carry(self, before: "Representation", kept: Kept, patches: PatchTable, /) -> None:  # noqa: B027 - optional
         """Take over a store of the representation `before`; grass that has not been grown anew stays planted."""
 
     @abstractmethod

@@ -87,16 +87,16 @@ vec2 foot_of(Column column, int side) {
 
 // The edge on a side of a column, 0 or 1, at the ground position `at`. `way` leads from side 0 to side 1.
 Edge edge_of(Column column, int side, vec2 at, vec2 way) {
-    vec4 told = received_by(column.receiver + side);
+    vec4 texel = received_by(column.receiver + side);
     int count = stacks[column.ring].z;
     float height = sizes[column.form].y * column.placement.growth;
     Edge edge;
-    edge.rooted = vec3(at.x, told.z, at.y);
+    edge.rooted = vec3(at.x, texel.z, at.y);
     edge.foot = pulled_nearer(edge.rooted, way, count);
-    edge.bend = bending(column.kind, told.xy);
+    edge.bend = bending(column.kind, texel.xy);
     edge.top = posture(float(column.form) * posture_variants, edge.bend, 1.0).place * height;
     edge.back = laid_back(way, edge.foot, edge.top, height, count);
-    edge.dense = told.w;
+    edge.dense = texel.w;
     return edge;
 }
 
@@ -130,9 +130,9 @@ vec4 on_edge(Column column, Edge edge, float t, float sections) {
     return vec4(there, spine.y / (OF(crown, column.kind) * lodged(edge.bend)));
 }
 
-// First and last place that may be looked up in a picture that is painted from `begins` to `ends`, all in texels. Farther out, a
-// texel of the mip level, which is `texel` wide, mixes the picture with its neighbour, which has dark roots at its edge. `side`
-// is the length of the picture's side.
+// First and last place to look up in a picture that is painted from `begins` to `ends`, in texels. Farther out, a texel of the
+// mip level, which is `texel` wide, mixes the picture with its neighbour, whose edge has dark roots. `side` is the length of the
+// picture's side.
 float first_unmixed(float begins, float texel) {
     return min(max(floor((begins + 1.0 - SPARE) / WHOLE), 0.0) * WHOLE + 0.5 * texel, begins);
 }
@@ -152,8 +152,8 @@ float hidden_part(Column column, Edge edge) {
 }
 
 // Place of a vertex on its column, across and up, 0 to 1. What is not painted or is hidden is left out. A strip ends a pixel
-// beyond its paint, or where the next picture begins. `pixel` is the size of a pixel and `side` is the size of the column
-// [texels], both across and up; the former is in parts of the column. `level` is the mip level.
+// beyond its paint, or where the next picture begins. `pixel` is the size of a pixel in parts of the column, and `side` the size
+// of the column in texels, each across and up. `level` is the mip level.
 vec2 corner_of(Column column, vec4 extent, vec2 pixel, float level, vec2 side, float hidden) {
     float texel = clamp(exp2(ceil(level)), 1.0, WHOLE), before = float(column.number) * side.x;
     float left = column.number == 0 ? first_unmixed(extent.x * side.x, texel) / side.x : 0.0;
