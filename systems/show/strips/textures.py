@@ -61,7 +61,7 @@ def strip_atlas(stock: Sequence[list[list[Strips]]], columns: Sequence[int]) -> 
 
 
 def _painted_box(strips: Strips) -> NDArray[np.int64]:
-    """Return the first and the last (row, column) of each picture's painted part, shape (pictures, 2, 2).
+    """Return the first (row, column) of each picture's painted part, and the end after the last, (pictures, 2, 2).
 
     `SPARE` texels are added on all sides. Boxes begin at the ground, and at a multiple of `WHOLE` columns, so that the
     texels of their mip levels are those of the whole picture's.
