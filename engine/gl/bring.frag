@@ -1,10 +1,10 @@
-// Brings the host's depth over, and no colour.
+// Copies the host's depth into the smaller picture, without colour.
 
 #include "engine/gl/smaller.glsl"
 
 out vec4 pixel;
 
 void main() {
-    pixel = vec4(0.0);  // it is not written
-    gl_FragDepth = texture(before, middle_of(at)).r;
+    pixel = vec4(0.0);  // masked off
+    gl_FragDepth = texture(host_depth, pixel_centre(at)).r;
 }

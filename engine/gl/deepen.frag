@@ -1,17 +1,17 @@
-// Writes how deep the picture is, where anything has been drawn that hides what the host has drawn.
+// Writes the picture's depth where the picture hides something of the host's.
 
 #include "engine/gl/smaller.glsl"
 
-uniform bool whole;  // whether `enlarge` does it where the host has drawn nothing
+uniform bool whole;  // whether `enlarge` writes depth where the host has drawn nothing
 
 out vec4 pixel;
 
 void main() {
-    if (whole && !has_host(depth_before())) {
+    if (whole && !host_has_drawn(host_depth_here())) {
         discard;
     }
-    float drawn = texture(deep, at).r;
-    if (behind(drawn, texture(before, middle_of(at)).r) >= 0.0) {
+    float drawn = texture(small_depth, at).r;
+    if (farther_by(drawn, texture(host_depth, pixel_centre(at)).r) >= 0.0) {
         discard;
     }
     pixel = vec4(0.0);

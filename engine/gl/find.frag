@@ -1,7 +1,7 @@
-// What passes the test of depth is counted, and nothing is written.
+// Counts the pixels that pass the depth test; nothing is written.
 
 out vec4 pixel;
 
 void main() {
-    pixel = vec4(0.0);  // it is not written
+    pixel = vec4(0.0);  // masked off
 }

@@ -1,9 +1,9 @@
-// Lays the picture over all that the host has drawn.
+// Draws the picture over everything that the host has drawn.
 
 #include "engine/gl/smaller.glsl"
 
 out vec4 pixel;
 
 void main() {
-    pixel = sharp(at);
+    pixel = upsampled(at);
 }

@@ -1,42 +1,43 @@
-// A picture with fewer pixels than the host's, and how it is read in the host's. All places go from 0 to 1.
+// Uniforms and sampling of a picture of reduced resolution, drawn over the host's. All positions go from 0 to 1.
 
-uniform sampler2D before;   // how deep the host's pixels were before anything was drawn here
-uniform sampler2D picture;  // what was drawn smaller, premultiplied
-uniform sampler2D deep;     // and how deep that is
-uniform vec2 size;          // pixels of the smaller picture
-uniform vec2 unit;          // how large each of them is
-uniform float farthest;     // depth where nothing has been drawn, 1 or 0
-uniform ivec2 corner;       // of the viewport in the host's framebuffer [pixels]
+uniform sampler2D host_depth;   // depth of the host's pixels before anything was drawn here
+uniform sampler2D small_color;  // the smaller picture, premultiplied
+uniform sampler2D small_depth;  // and its depth
+uniform vec2 size;              // of the smaller picture [pixels]
+uniform vec2 texel;             // size of its pixels
+uniform float farthest;         // depth where nothing has been drawn, 1 or 0
+uniform ivec2 corner;           // of the viewport in the host's framebuffer [pixels]
 
 in vec2 at;
 
-// The middle of the smaller picture's pixel.
-vec2 middle_of(vec2 place) {
-    return (floor(place * size) + 0.5) * unit;
+// Centre of the smaller picture's pixel at a position.
+vec2 pixel_centre(vec2 place) {
+    return (floor(place * size) + 0.5) * texel;
 }
 
-// How much farther off one depth is than another.
-float behind(float one, float other) {
-    return farthest > 0.5 ? one - other : other - one;
+// Distance in depth by which `depth` is farther than `other`.
+float farther_by(float depth, float other) {
+    return farthest > 0.5 ? depth - other : other - depth;
 }
 
-// How deep the host's pixel was.
-float depth_before() {
-    return texelFetch(before, ivec2(gl_FragCoord.xy) - corner, 0).r;
+// Depth of the host's pixel.
+float host_depth_here() {
+    return texelFetch(host_depth, ivec2(gl_FragCoord.xy) - corner, 0).r;
 }
 
-// Whether the host had drawn something so deep.
-bool has_host(float depth) {
+// Whether a depth is of something that the host has drawn.
+bool host_has_drawn(float depth) {
     return depth != farthest;
 }
 
-// Within how many of the host's pixels one texel's colour goes over into the next one's. Evenly, over a whole texel, a quarter of the
-// contrast would be lost, and a cubic takes three samples and is no nearer to the truth (FLIP, half the pixels across); within one,
-// texels would be squares.
-const float GOES_OVER = 1.1;
+// Width of the transition from one texel's colour to the next one's [pixels of the host]. Plain bilinear interpolation, over a whole
+// texel, would lose a quarter of the contrast, and a cubic filter takes three samples and is no nearer to the truth (FLIP, half the
+// pixels across); within one pixel, texels would show as squares.
+const float TRANSITION = 1.1;
 
-// Filtered up.
-vec4 sharp(vec2 place) {
-    vec2 texel = place * size - 0.5, part = fract(texel), within = min(GOES_OVER * vec2(dFdx(texel.x), dFdy(texel.y)), 1.0);
-    return texture(picture, (floor(texel) + clamp((part - 0.5) / within + 0.5, 0.0, 1.0) + 0.5) * unit);
+// Return the smaller picture, upsampled by sharpened bilinear interpolation.
+vec4 upsampled(vec2 place) {
+    vec2 at_texel = place * size - 0.5, fraction = fract(at_texel);
+    vec2 width = min(TRANSITION * vec2(dFdx(at_texel.x), dFdy(at_texel.y)), 1.0);
+    return texture(small_color, (floor(at_texel) + clamp((fraction - 0.5) / width + 0.5, 0.0, 1.0) + 0.5) * texel);
 }

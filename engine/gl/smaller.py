@@ -26,7 +26,7 @@ OVER = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
 MOST_SIZES = 4
 """Number of sizes whose buffers are kept: the last and the present one of two viewers."""
 
-TEXTURE_UNITS = dict(zip(("before", "picture", "deep"), UNITS[-3:], strict=True))
+TEXTURE_UNITS = dict(zip(("host_depth", "small_color", "small_depth"), UNITS[-3:], strict=True))
 """Texture units of the samplers: the last ones, whose other users bind their textures anew before each use."""
 
 PASSES = {"find": ">", "bring": "1", "fit": ">", "deepen": "<", "enlarge": "1", "lay": "1"}
@@ -47,36 +47,36 @@ def smaller_size(size: Size, scale: float, /) -> Size:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Buffers:
-    """A smaller framebuffer with its colour `picture` and depth `deep`, and the host's depth `before` drawing."""
+    """A smaller framebuffer with its textures of colour and depth, and a copy of the host's depth."""
 
-    before: moderngl.Texture
-    picture: moderngl.Texture
-    deep: moderngl.Texture
+    host_depth: moderngl.Texture
+    color: moderngl.Texture
+    depth: moderngl.Texture
     target: moderngl.Framebuffer
 
     @classmethod
     def made(cls, ctx: moderngl.Context, full: Size, small: Size, /, *, floats: bool = False) -> "Buffers":
         """Return new buffers for the sizes of the host's viewport and of the smaller picture [pixels]."""
-        before, picture, deep = (
+        host_depth, color, depth = (
             ctx.depth_texture(full),
             ctx.texture(small, 4, dtype="f2" if floats else "f1"),
             ctx.depth_texture(small),
         )
-        for texture in (before, picture, deep):
+        for texture in (host_depth, color, depth):
             texture.repeat_x = texture.repeat_y = False
-        for depth in (before, deep):
-            depth.compare_func, depth.filter = "", (moderngl.NEAREST, moderngl.NEAREST)
-        return cls(before, picture, deep, ctx.framebuffer([picture], deep))
+        for texture in (host_depth, depth):
+            texture.compare_func, texture.filter = "", (moderngl.NEAREST, moderngl.NEAREST)
+        return cls(host_depth, color, depth, ctx.framebuffer([color], depth))
 
     def use(self) -> None:
         """Bind the textures to the units of the passes' samplers."""
-        self.before.use(TEXTURE_UNITS["before"])
-        self.picture.use(TEXTURE_UNITS["picture"])
-        self.deep.use(TEXTURE_UNITS["deep"])
+        self.host_depth.use(TEXTURE_UNITS["host_depth"])
+        self.color.use(TEXTURE_UNITS["small_color"])
+        self.depth.use(TEXTURE_UNITS["small_depth"])
 
     def release(self) -> None:
         """Release framebuffer and textures."""
-        release_all(self.target, self.before, self.picture, self.deep)
+        release_all(self.target, self.host_depth, self.color, self.depth)
 
 
 class Smaller:
@@ -116,7 +116,7 @@ class Smaller:
             self._find(host, buffers)
         with aside(self._ctx, host, alike=True):
             if not is_alone:  # the host's framebuffer is still bound for reading
-                self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + TEXTURE_UNITS["before"])
+                self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + TEXTURE_UNITS["host_depth"])
                 self._gl.glCopyTexSubImage2D(NUMBERS["TEXTURE_2D"], 0, 0, 0, x, y, width, height)
             buffers.target.depth_mask = True
             buffers.target.scissor = None  # type: ignore[assignment]
@@ -164,7 +164,7 @@ class Smaller:
         """Bind buffers for the passes, and set the uniforms that depend on them."""
         buffers.use()
         small, ends = buffers.target.size, {"far_end": depth_ends()[1], "farthest": farthest_depth()}
-        self._set_uniforms({"size": small, "unit": (1.0 / small[0], 1.0 / small[1]), **ends})
+        self._set_uniforms({"size": small, "texel": (1.0 / small[0], 1.0 / small[1]), **ends})
 
     def release(self) -> None:
         """Release programs, vertex arrays, buffers and the query."""
