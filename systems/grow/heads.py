@@ -100,7 +100,7 @@ class _Ages:
     seeds: NDArray[np.bool_]
     """Whether the head is closed because it has set seed."""
 
-    of_open: Doubles
+    open_part: Doubles
     """Fraction of its time that an open head has been open."""
 
 
@@ -120,14 +120,14 @@ def _random_tilt(count: int, random: np.random.Generator, /, *, nods: NDArray[np
 
 @dataclass(frozen=True, slots=True)
 class _Cup:
-    """The petals of discs and bells, and what their middles are placed by."""
+    """The petals of discs and bells, and the measures that place their middles."""
 
     petals: Rows
     ages: _Ages
     longest: Doubles
     """Length of the longest petal of each head [m], shape (m, 1)."""
 
-    turned: Doubles
+    first_azimuth: Doubles
     """Azimuth of the first petal of each head [rad], shape (m, 1)."""
 
     tilt: Doubles
@@ -141,7 +141,7 @@ def _cup(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.ran
     cup = _grow_cup(head, layout, stems, size, random, whorls=whorls, petal=PETAL if few else STRAP)
     middle = stand_organs(
         stems, np.where(cup.ages.shut, BUD, EYE if few else STRAP), part=1.0, height=0.36 * cup.longest,
-        width=0.22 * cup.longest, toward=cup.turned, spread=0.05, tilt=cup.tilt,
+        width=0.22 * cup.longest, toward=cup.first_azimuth, spread=0.05, tilt=cup.tilt,
     )  # fmt: skip
     return _concatenated(cup.petals, middle)
 
@@ -173,7 +173,7 @@ def _disc(cup: _Cup, count: int, stems: Stems, size: Doubles, arched: int, /) ->
     return stand_organs(
         stems, organ, part=1.0, height=np.where(shut, 0.6, 1.0) * length,
         width=np.where(shut, 0.3, 2.0 * wide * _REACH * spread * np.tan(np.pi / count)) * length,
-        toward=cup.turned + 2.0 * np.pi / count * np.arange(count), spread=np.where(shut, 0.05, spread),
+        toward=cup.first_azimuth + 2.0 * np.pi / count * np.arange(count), spread=np.where(shut, 0.05, spread),
         tilt=cup.tilt, variant=np.where(shut, 0, arched),
     )  # fmt: skip
 
@@ -185,12 +185,12 @@ def _stamens(cup: _Cup, count: int, stems: Stems, size: Doubles, /) -> tuple[Row
     stamens = stand_organs(
         stems, np.where(cup.ages.shut, BUD, STAMENS), part=1.0, height=np.where(cup.ages.shut, 0.6, 1.0) * length,
         width=np.where(cup.ages.shut, 0.2, wide * np.pi * spread / count) * length,
-        toward=cup.turned + 2.0 * np.pi / count * np.arange(count), spread=np.where(cup.ages.shut, 0.05, spread),
+        toward=cup.first_azimuth + 2.0 * np.pi / count * np.arange(count), spread=np.where(cup.ages.shut, 0.05, spread),
         tilt=cup.tilt,
     )  # fmt: skip
     high, across = _CAPSULE
     capsule = stand_organs(
-        stems, CAPSULE, part=1.0, height=high * cup.longest, width=across * cup.longest, toward=cup.turned,
+        stems, CAPSULE, part=1.0, height=high * cup.longest, width=across * cup.longest, toward=cup.first_azimuth,
         spread=0.05, tilt=cup.tilt,
     )  # fmt: skip
     return stamens, capsule
@@ -208,18 +208,18 @@ def _grow_cup(
     longest = (size / (2.0 * _REACH * max(spread)))[:, None]
     long = _petals(longest * length, ages, random, drops=few)
     wide = np.minimum((_OVERLAP if few else _OVERLAP_OF_MANY) * np.pi * spread * long / in_whorl, _WIDEST * long)
-    turned = random.uniform(-np.pi, np.pi, (len(size), 1)) + azimuth
-    opens = np.interp(np.sqrt(ages.of_open), (0.0, 1.0), _OPENS if few else _OPENS_OF_MANY)
-    opens = opens * random.uniform(0.85, 1.1, turned.shape)
+    toward = random.uniform(-np.pi, np.pi, (len(size), 1)) + azimuth
+    opens = np.interp(np.sqrt(ages.open_part), (0.0, 1.0), _OPENS if few else _OPENS_OF_MANY)
+    opens = opens * random.uniform(0.85, 1.1, toward.shape)
     tilt = _random_tilt(len(size), random, nods=ages.shut & ~ages.seeds if few else None)
     bud = longest * np.where(ages.seeds, 0.5, random.uniform(0.5, 0.74, ages.shut.shape))
     part = 1.0 - below * longest / stems.height[:, None] if below else 1.0
     petals = stand_organs(
         stems, np.where(ages.shut, BUD, petal), part=part, height=np.where(ages.shut, bud, long),
-        width=np.where(ages.shut, 0.34 * longest, wide), toward=turned + random.normal(0.0, 0.15, turned.shape),
+        width=np.where(ages.shut, 0.34 * longest, wide), toward=toward + random.normal(0.0, 0.15, toward.shape),
         spread=np.where(ages.shut, 0.12, spread * opens), tilt=tilt,
     )  # fmt: skip
-    return _Cup(petals, ages, longest, turned[:, :1], tilt)
+    return _Cup(petals, ages, longest, toward[:, :1], tilt)
 
 
 def _spread_over(count: int, whorls: tuple[Whorl, ...], /) -> tuple[NDArray[np.intp], NDArray[np.intp], Doubles]:
@@ -237,8 +237,8 @@ def _spread_over(count: int, whorls: tuple[Whorl, ...], /) -> tuple[NDArray[np.i
 
 def _petals(longest: Doubles, ages: _Ages, random: np.random.Generator, /, *, drops: bool) -> Doubles:
     """Return the lengths of open heads' petals, (m, petals): they grow while they open, and old ones are shed."""
-    length = longest * np.interp(ages.of_open, (0.0, 0.5), (_YOUNG, 1.0)) * random.uniform(0.86, 1.08, longest.shape)
-    gone = drops & (ages.of_open > _DROPS) & (random.random(longest.shape) < _DROPPED)
+    length = longest * np.interp(ages.open_part, (0.0, 0.5), (_YOUNG, 1.0)) * random.uniform(0.86, 1.08, longest.shape)
+    gone = drops & (ages.open_part > _DROPS) & (random.random(longest.shape) < _DROPPED)
     return np.asarray(np.where(gone, _STUB * length, length))
 
 
@@ -282,7 +282,7 @@ def _umbel(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.r
     ray = (size / (2.0 * _REACH))[:, None] * random.uniform(0.85, 1.1, (len(size), count))
     toward = random.uniform(-np.pi, np.pi, (len(size), 1)) + GOLDEN * np.arange(count)
     toward += random.normal(0.0, 0.1, toward.shape)
-    opens = np.interp(np.sqrt(ages.of_open), (0.0, 1.0), (_UMBEL_OPENS, 1.0))
+    opens = np.interp(np.sqrt(ages.open_part), (0.0, 1.0), (_UMBEL_OPENS, 1.0))
     nests = np.where(ages.seeds, 0.85, 0.5)
     return stand_organs(
         stems, np.where(ages.shut, BUD, RAY), part=1.0, height=np.where(ages.shut, nests, 1.0) * ray,

@@ -81,7 +81,7 @@ class Layout:
 
 
 def layout_of(kind: GrassKind, quality: Quality, /) -> Layout:
-    """Return the layout of a kind at a quality: a coarser one has as many plants, but fewer petals and leaves."""
+    """Return the layout of a kind at a quality: a coarser one has as many plants other than grass, of fewer organs."""
     habit = HABITS[kind.plant]
     part = min(max(sqrt(quality.blades / FULL), FEWEST), 1.0)
     plants = max(round(habit.plants * quality.patch**2), 1) if kind.plants is None else kind.plants

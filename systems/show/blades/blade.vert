@@ -1,7 +1,7 @@
 // The pass over blades: a vertex computes everything about a blade that is the same along its ribbon. With STORED the blade
 // is read from textures, by the number of its receiver. With MORPH it is between its own place and its painted place on a
 // moving strip (paper, section 4.2). With HIDING, a height is computed below which other blades hide it.
-#define PIXELS_ASK  // shadow maps are read along the ribbons, not here
+#define PIXELS_ASK  // shadow maps are read by the ribbons, not here
 #include "lib/light.glsl"
 #include "lib/posture.glsl"
 #include "systems/show/blades/organs.glsl"
@@ -73,7 +73,7 @@ struct BladeInput {
 #ifdef STORED
 BladeInput blade_input(Standing on_patch, int number_on_patch) {
     BladeInput given;
-    given.blade = blade_of(int(on_patch.row) * each + number_on_patch);
+    given.blade = blade_of(int(on_patch.model_turn) * each + number_on_patch);
     vec4 received = received_by(blades_from + int(number));
     given.blade.root = vec3(given.blade.root.xz + on_patch.cell * patch_side, received.z).xzy;
     given.message = received.xy;
@@ -148,14 +148,14 @@ vec3 set_pigments(Blade blade, vec2 across, bool has_section, bool is_round, vec
 #ifdef MORPH
 // Set its painted place.
 void set_painted(Standing on_patch, int blade, int k, int form) {
-    int ring = int(on_patch.ring), model = int(on_patch.row) / 4, turn = int(on_patch.row) % 4;
+    int ring = int(on_patch.ring), model = int(on_patch.model_turn) / 4, turn = int(on_patch.model_turn) % 4;
     int along = int(on_patch.along), own = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;
     int row = (model * 2 + own) * each + blade, slice = ring * models * 2 * each + row;
     int plane = int(texelFetch(slices, ivec2(slice % SLICES_ROW, slice / SLICES_ROW), 0).r);
     int strip = k * count + stack_place(plane, count, own, along, turn);
     vec2 first = edge_foot(on_patch.cell, turn, own, plane, count, 0, columns, sizes[form].x);
     vec2 second = edge_foot(on_patch.cell, turn, own, plane, count, 1, columns, sizes[form].x);
-    float receiver = on_patch.edges + float(strip * (columns + 1));
+    float receiver = on_patch.first_edge + float(strip * (columns + 1));
     base = vec4(first, second - first);
     painted = vec4(receiver, float(row), sizes[form].y * on_patch.growth, on_patch.morph);
     level_kind.yw = vec2(NEVER, on_patch.ring);
@@ -167,8 +167,8 @@ void main() {
     Standing on_patch = standing_of(int(number) / each);
     BladeInput given = blade_input(on_patch, int(number) % each);
     float hides = mix(PARTED, NEVER, smoothstep(NEARLY * near, near, distance(given.blade.root.xz, eye.xz)));
-    level_kind = vec4(on_patch.slide, hides, given.blade.kind, 0.0);
-    canopy_organ.w = on_patch.fade;
+    level_kind = vec4(on_patch.sublevel, hides, given.blade.kind, 0.0);
+    canopy_organ.w = on_patch.cover;
 #else
     BladeInput given = blade_input();
     level_kind = vec4(0.0, NEVER, given.blade.kind, 0.0);

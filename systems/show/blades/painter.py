@@ -28,7 +28,7 @@ from ..strips.shown import StripsShown
 from .draw import CORES, DEEP, EDGES, PAINTED, RIBBON, Ribbons, blade_program
 from .gather import Numbers, distances, gather_blades, may_be_seen
 from .morph import at_home, gather_morph
-from .plant import BladeStock, standing_of
+from .plant import BladeStock, rank_bounds
 from .pool import BladePool, BladesKept
 from .shown import BladesShown, Standing, together
 from .store import STANDING, STANDING_ROW, BladeStore
@@ -249,7 +249,7 @@ class BladesPainter(RepresentationPainter):
 
     def _of_form(self, outlook: Outlook, shown: Standing) -> NDArray[np.bool_]:
         """Return a mask of the blades of the form that plants of their rank have now, shape (m, blades)."""
-        least, most = standing_of(self._stock, self._came)
+        least, most = rank_bounds(self._stock, self._came)
         rank = self._stock.rank[outlook.patches.model[shown.rows]]
         return np.asarray((rank >= least) & (rank < most))
 
@@ -264,14 +264,14 @@ class BladesPainter(RepresentationPainter):
         """
         patches, rows = outlook.patches, shown.standing.rows
         standing = np.zeros(len(rows), STANDING)
-        standing["cell"], standing["row"] = patches.cell[rows], patches.model[rows] * 4 + patches.turn[rows]
+        standing["cell"], standing["model_turn"] = patches.cell[rows], patches.model[rows] * 4 + patches.turn[rows]
         for rings in self._grouped(shown.rings):
             for number, ring in enumerate(rings):
-                standing["fade"][ring.places], standing["slide"][ring.places] = ring.fade, number + ring.slide
+                standing["cover"][ring.places], standing["sublevel"][ring.places] = ring.cover, number + ring.slide
         if len(shown.morphing.rows):
             _set_morph(standing, outlook, shown.morphing, self._strips, first)
-            standing["fade"][shown.morphing.places] = left
-            standing["slide"][shown.morphing.places] = len(self._grouped(shown.rings)[-1]) - 1
+            standing["cover"][shown.morphing.places] = left
+            standing["sublevel"][shown.morphing.places] = len(self._grouped(shown.rings)[-1]) - 1
         return standing
 
     def hear(self) -> int:
@@ -336,4 +336,4 @@ def _set_morph(
         strip_rows = outlook.shows(StripsShown).rings[number].rows
         index[strip_rows] = np.arange(len(strip_rows))
         receivers = prod(outlook.keeps(StripsKept).pools[number].shape)
-        standing["edges"][places[in_ring]] = first[number] + index[rows[in_ring]] * receivers
+        standing["first_edge"][places[in_ring]] = first[number] + index[rows[in_ring]] * receivers

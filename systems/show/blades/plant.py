@@ -63,20 +63,24 @@ def blade_records(
     `record` is `BLADE`, or `ORGAN` if some stand on stems. Postures are those of the `form`, by default the kind's own.
     """
     records = np.zeros(len(blades.height), record)
-    spun = turned(blades.root, np.asarray(turn, np.int32), patch=patch)
-    records["root"][:, 0], records["root"][:, 2] = spun[:, 0], spun[:, 1]
+    root = turned(blades.root, np.asarray(turn, np.int32), patch=patch)
+    records["root"][:, 0], records["root"][:, 2] = root[:, 0], root[:, 1]
     records["height"], records["width"], records["kind"] = blades.height, blades.width, kind
     records["organ"] = blades.organ
     records["variant"] = (kind if form is None else form) * variants + blades.variant
-    records["rest"] = _spun(blades.rest, turn)
+    records["rest"] = _turned_leans(blades.rest, turn)
     if record == ORGAN:
-        records["stem"], records["part"], records["sways"] = blades.stem, blades.part, _spun(blades.stem_rest, turn)
+        records["stem"], records["part"], records["sways"] = (
+            blades.stem,
+            blades.part,
+            _turned_leans(blades.stem_rest, turn),
+        )
     azimuth = blades.facing + turn * (np.pi / 2)
     records["facing"] = np.stack([np.cos(azimuth), np.sin(azimuth)], 1)
     return records
 
 
-def _spun(lean: Floats, turn: int) -> Floats:
+def _turned_leans(lean: Floats, turn: int) -> Floats:
     """Return leans (n, 2) after quarter turns."""
     c, s = quarter_turn(turn)
     x, z = lean.T
@@ -96,13 +100,16 @@ def stock_blades(growths: Sequence[Growth], patch: float, coming: Mapping[int, G
     forms = forms_of(growths, coming)
     models, record = range(len(growths[0].models)), record_of([form.growth for form in forms])
     return BladeStock(
-        records=np.stack([_turned(forms, model, turn, patch, record) for model in models for turn in range(4)]),
+        records=np.stack([_turned_records(forms, model, turn, patch, record) for model in models for turn in range(4)]),
         rank=np.stack([np.concatenate([form.growth.models[model].blades.rank for form in forms]) for model in models]),
         forms=forms,
     )
 
 
-def _turned(forms: Sequence[Form], model: int, turn: int, patch: float, record: np.dtype[np.void]) -> NDArray[np.void]:
+def _turned_records(
+    forms: Sequence[Form], model: int, turn: int, patch: float, record: np.dtype[np.void]
+) -> NDArray[np.void]:
+    """Return the records of one model of all forms after quarter turns."""
     return np.concatenate([
         blade_records(
             form.growth.models[model].blades, turn, patch=patch, kind=form.kind, form=form.number,
@@ -126,7 +133,7 @@ def standing_blades(
     return records, _grown(stock, place, model, ground)
 
 
-def standing_of(stock: BladeStock, came: Sequence[float], /) -> tuple[Floats, Floats]:
+def rank_bounds(stock: BladeStock, came: Sequence[float], /) -> tuple[Floats, Floats]:
     """Return the least rank and the bound above the largest of the blades that stand, shape (n,) each.
 
     `came` (kinds,) is the fraction of each kind that has become its next form: blades of lower ranks are of the next
@@ -176,7 +183,7 @@ def carry_blades(
     model, turn = patches.model[rows[slots]], patches.turn[rows[slots]]
     for form in stock.forms:
         here = stock.rows[form.number]
-        there = _alike(stock, here, before, form)
+        there = _same_blades(stock, here, before, form)
         if there is not None:
             for column in ("x", "z", "present"):
                 getattr(pool, column)[:, here] = getattr(old, column)[:, there]
@@ -193,7 +200,7 @@ def _corners(cells: Ints, ground: Ground) -> Floats:
     return np.asarray(cells.astype(np.float32)[:, None] * np.float32(ground.patch), np.float32)
 
 
-def _alike(stock: BladeStock, here: slice, before: BladeStock, form: Form) -> slice | None:
+def _same_blades(stock: BladeStock, here: slice, before: BladeStock, form: Form) -> slice | None:
     """Return the columns of `before` whose blades have the same roots and ranks as those of a form, None if none do."""
     for other in before.forms:
         there = before.rows[other.number]

@@ -11,6 +11,6 @@ void main() {
         return;
     }
     Standing on_patch = standing_of(number / each);
-    Blade blade = blade_of(int(on_patch.row) * each + number % each);
+    Blade blade = blade_of(int(on_patch.model_turn) * each + number % each);
     received_texel = receiver_texel(blade.root.xz + on_patch.cell * patch_side, int(blade.kind), number);
 }

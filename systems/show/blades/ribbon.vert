@@ -133,7 +133,7 @@ const float SMALL = 4.0;  // length up to which an organ on the tip of a stem is
 #endif
 
 #ifdef SOFT
-// Whether the `side` of a ribbon appears on the opposite side of its line on the screen, as seen along the line from the root.
+// Whether the `side` of a ribbon projects to the opposite side of its line: the right one to the left of an upright line.
 bool is_turned(Point point, float side) {
     vec3 across = vec3(clip[0].x, clip[1].x, clip[2].x), up = vec3(clip[0].y, clip[1].y, clip[2].y), ahead = vec3(clip[0].w, clip[1].w, clip[2].w);
     float face = dot(cross(point.tangent, vec3(point.across.x, 0.0, point.across.y)), point.place - eye);
@@ -318,7 +318,7 @@ vec2 along_blade(int k) {
 // Side, -1 or 1, whose light a vertex has, and side of the line to which it is moved.
 vec2 sides_of(Point point, float side) {
 #ifdef SOFT
-    // Far off the move alternates strictly between the sides: else a ribbon seen edge-on would be twisted.
+    // Far off, vertices are moved to alternate sides of the line: else a ribbon seen edge-on would be twisted.
     if (is_turned(point, side))
         return distance(foot.xyz, eye) < foot.w + NEAREST ? vec2(side, -side) : vec2(-side, side);
 #endif

@@ -24,7 +24,7 @@ class Standing:
     places: Rows
     """Index of each among all patches with blades, shape (m,)."""
 
-    fade: Floats
+    cover: Floats
     """Cover of each patch's blades, in [0, 1], shape (m,)."""
 
     slide: Floats
@@ -53,7 +53,7 @@ class BladesShown:
 
 def together(rings: list[Standing], /) -> Standing:
     """Return the patches of several rings in one record."""
-    fields = ("rows", "slots", "places", "fade", "slide")
+    fields = ("rows", "slots", "places", "cover", "slide")
     return Standing(*(np.concatenate([getattr(ring, name) for ring in rings]) for name in fields))
 
 

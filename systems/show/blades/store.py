@@ -17,14 +17,14 @@ from .pool import BLADE, ORGAN
 STANDING = np.dtype(
     [
         ("cell", "2f4"),
-        ("row", "f4"),
-        ("fade", "f4"),
-        ("slide", "f4"),
+        ("model_turn", "f4"),
+        ("cover", "f4"),
+        ("sublevel", "f4"),
         ("morph", "f4"),
         ("growth", "f4"),
         ("along", "f4"),
         ("ring", "f4"),
-        ("edges", "f4"),
+        ("first_edge", "f4"),
         ("unused", "2f4"),
     ]
 )
