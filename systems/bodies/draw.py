@@ -108,6 +108,7 @@ class BodyPainter:
         return self._draw(self.border)
 
     def _draw(self, layer: _Layer) -> int:
+        """Draw all instances of a layer; return the number of draw calls."""
         if self.stream.count:
             layer.array.render(moderngl.TRIANGLES, instances=self.stream.count)
         return int(self.stream.count > 0)

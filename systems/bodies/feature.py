@@ -83,6 +83,7 @@ class BodiesPart(Part):
 
     @property
     def _is_due(self) -> bool:
+        """Whether the painter is missing, and bodies may fly."""
         return self.painter is None and self._bodies.are_due
 
     def rehearse(self, record: NDArray[np.void], /) -> None:

@@ -155,6 +155,7 @@ class LampPart(TexturePart):
         self._send_shades(outlook, record)
 
     def _send_lamps(self, outlook: Outlook, record: NDArray[np.void]) -> None:
+        """Upload the visible lamps, scaled by the exposure of lamplight, and write their grid."""
         shining = self._shining()
         if not shining:
             return
@@ -167,6 +168,7 @@ class LampPart(TexturePart):
         record["beside_sun"] = 1.0
 
     def _send_shades(self, outlook: Outlook, record: NDArray[np.void]) -> None:
+        """Upload the visible shades and write their grid."""
         shades, lowest = self._shades()
         if not shades:
             return

@@ -30,6 +30,7 @@ class Heights:
         """Number of uploaded rows of the next window."""
 
     def _new_texture(self, heights: NDArray[np.uint32] | None) -> moderngl.Texture:
+        """Return a texture of the terrain's size with these bits of heights, or empty."""
         rows, columns = self.terrain.heights.shape
         texture = self.ctx.texture((columns, rows), 1, heights, dtype="f4")
         texture.filter = (moderngl.LINEAR, moderngl.LINEAR)

@@ -37,12 +37,12 @@ class Mown:
 
         Raise TypeError for no footprint, height or pose, ValueError for a negative height or a pose that is not finite.
         """
-        _check("cut", area, height, pose)
+        _must_be_valid("cut", area, height, pose)
         self._stroke(area, pose, partial(_limit_within, limit=np.minimum, height=np.float32(height)))
 
     def grow(self, area: Area, height: float, pose: Pose) -> None:
         """Let cut grass under a footprint or a road stand up to `height` [m] again; raise the errors of `cut`."""
-        _check("grown", area, height, pose)
+        _must_be_valid("grown", area, height, pose)
         if self.plots.any:
             self._stroke(area, pose, partial(_limit_within, limit=np.maximum, height=np.float32(height)))
 
@@ -120,10 +120,12 @@ def _uncut(part: Part) -> Floats:
 
 
 def _limit_within(before: Floats, distances: Floats, *, limit: np.ufunc, height: np.float32) -> Floats:
+    """Return heights with a lower or upper limit applied at distances up to 0."""
     return np.where(distances <= 0.0, limit(before, height), before)
 
 
-def _check(done: str, area: object, height: object, pose: object) -> None:
+def _must_be_valid(done: str, area: object, height: object, pose: object) -> None:
+    """Raise the errors of `Mown.cut`; `done` is the verb's participle."""
     must_be_area(area, pose, done)
     if isinstance(height, bool) or not isinstance(height, NUMBERS):
         raise TypeError(f"grass is {done} to a height in metres, not to {height!r}")

@@ -124,6 +124,7 @@ def _painted_densities(density: Density, part: Part) -> Values:
 
 
 def _must_be_number(thing: object, rule: str, highest: float, unit: str = "") -> None:
+    """Raise TypeError or ValueError unless a value is a number from 0 to `highest`; `rule` begins the message."""
     if isinstance(thing, bool) or not isinstance(thing, NUMBERS):
         raise TypeError(f"{rule} from 0 to {highest:g}{unit}, not {thing!r}")
     if not isfinite(thing) or not 0.0 <= thing <= highest:

@@ -40,11 +40,11 @@ def entries(
     lines = _mask_entries(layers, masks)
     if "arrows" in layers:
         shades = index_color(np.linspace(0.0, 1.0, 12, dtype=np.float32))
-        lines.append(Entry("ramp", _colors(shades), "posture index, 0 to 1"))
+        lines.append(Entry("ramp", _as_colors(shades), "posture index, 0 to 1"))
     if layers & {"levels", "weights", "map"}:
         lines += _level_entries(representations)
     if "weights" in layers:
-        colors = tuple(color for each in representations[1::-1] for color in _colors(ring_shades(each.color)))
+        colors = tuple(color for each in representations[1::-1] for color in _as_colors(ring_shades(each.color)))
         lines.append(Entry("inside", colors, "two at once: the finer's share"))
     if "map" in layers:
         lines.append(Entry("none", (BRIGHT,), "map: dim outside the view cone"))
@@ -67,7 +67,7 @@ def _level_entries(representations: Sequence[Representation]) -> list[Entry]:
     return [
         Entry(
             "areas",
-            _colors(ring_shades(each.color, each.rings())),
+            _as_colors(ring_shades(each.color, each.rings())),
             f"{each.label}, near to far" if each.rings() > 1 else each.label,
         )
         for each in representations
@@ -84,22 +84,23 @@ def legend(lines: tuple[Entry, ...], size: int, /) -> Bytes:
     high, gap = round(1.5 * size), round(0.7 * size)
     swatch = round(SWATCH * size)
     wide = max(round(font.getlength(entry.text)) for entry in lines) + swatch + 3 * gap
-    image = Image.new("RGBA", (wide, high * len(lines) + gap), (*_bytes(DARK), BACKGROUND_OPACITY))
+    image = Image.new("RGBA", (wide, high * len(lines) + gap), (*_as_bytes(DARK), BACKGROUND_OPACITY))
     draw = ImageDraw.Draw(image)
     for number, entry in enumerate(lines):
         top = gap // 2 + number * high
         box = (gap, top + round(0.25 * size), gap + swatch, top + round(1.25 * size))
         _FORMS[entry.form](draw, box, entry.colors)
         ink = entry.colors[0] if entry.form == "none" else BRIGHT
-        draw.text((2 * gap + swatch, top + high // 2), entry.text, (*_bytes(ink), 255), font, anchor="lm")
+        draw.text((2 * gap + swatch, top + high // 2), entry.text, (*_as_bytes(ink), 255), font, anchor="lm")
     return np.asarray(image)
 
 
-def _colors(shades: NDArray[np.float32]) -> tuple[Color, ...]:
+def _as_colors(shades: NDArray[np.float32]) -> tuple[Color, ...]:
     return tuple((float(r), float(g), float(b)) for r, g, b in shades)
 
 
-def _bytes(color: Color) -> tuple[int, int, int]:
+def _as_bytes(color: Color) -> tuple[int, int, int]:
+    """Return a colour as bytes."""
     red, green, blue = (round(255 * channel) for channel in color)
     return red, green, blue
 
@@ -109,25 +110,28 @@ Colors = tuple[Color, ...]
 
 
 def _draw_areas(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
+    """Draw colours side by side."""
     left, top, right, bottom = box
     sides = np.linspace(left, right, len(colors) + 1).round().astype(int).tolist()
     for color, a, b in zip(colors, sides[:-1], sides[1:], strict=True):
-        draw.rectangle((a, top, b - 1, bottom), (*_bytes(color), 255))
+        draw.rectangle((a, top, b - 1, bottom), (*_as_bytes(color), 255))
 
 
 def _draw_outline(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
+    """Draw a tinted box with an outline."""
     line = max(2, (box[3] - box[1]) // 6)
     red, green, blue = (0.3 * mark + 0.7 * paper for mark, paper in zip(colors[0], DARK, strict=True))
-    draw.rectangle(box, (*_bytes((red, green, blue)), 255), (*_bytes(colors[0]), 255), line)
+    draw.rectangle(box, (*_as_bytes((red, green, blue)), 255), (*_as_bytes(colors[0]), 255), line)
 
 
 def _draw_inside(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
+    """Draw a square with one colour inside the other."""
     left, top, right, bottom = box
     side = bottom - top
     left += (right - left - side) // 2
-    draw.rectangle((left, top, left + side, bottom), (*_bytes(colors[0]), 255), (255, 255, 255, 255))
+    draw.rectangle((left, top, left + side, bottom), (*_as_bytes(colors[0]), 255), (255, 255, 255, 255))
     inset = side // 4
-    draw.rectangle((left + inset, top + inset, left + side - inset, bottom - inset), (*_bytes(colors[1]), 255))
+    draw.rectangle((left + inset, top + inset, left + side - inset, bottom - inset), (*_as_bytes(colors[1]), 255))
 
 
 def _draw_nothing(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:

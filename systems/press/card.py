@@ -73,6 +73,7 @@ class PressPart(TexturePart):
         self._upload(outlook.noted(Trodden, UNTRODDEN))
 
     def _upload(self, trodden: Trodden) -> None:
+        """Upload head and fresh marks, and settled marks when they are others; nothing while there are none."""
         if not trodden and self._is_empty:
             return
         self._is_empty = not trodden
