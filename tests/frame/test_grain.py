@@ -13,7 +13,7 @@ from tallgrass.systems.light.repeating import LITTER_SIDE
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_truth, patch_distances
 from tallgrass.systems.show.strips import textures
-from tallgrass.systems.show.strips.pages import SPARE, WHOLE
+from tallgrass.systems.show.strips.pages import ALIGNMENT, SPARE
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.testing import LITTLE, Stage
 
@@ -70,7 +70,7 @@ def test_a_strip_shows_nothing_of_the_picture_beside_its_own(
 ) -> None:
     """From afar, below a crest, dark roots of the pictures beside them hung over strips."""
     seen = []
-    for spare in (SPARE, 3 * WHOLE):
+    for spare in (SPARE, 3 * ALIGNMENT):
         monkeypatch.setattr(textures, "SPARE", spare)
         seen.append(room.shot(load("meadow", preset="high", lod="strips"), BELOW))
     assert np.abs(seen[0] - seen[1]).max() < 40.0

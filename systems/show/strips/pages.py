@@ -5,14 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-WHOLE = 16
-"""Grid that pictures begin on [texels], so that a texel of the finest mip levels belongs to one picture alone. Coarser
+ALIGNMENT = 16
+"""Multiple that pictures begin at [texels], so that a texel of the finest mip levels belongs to one picture alone. Coarser
 texels mix several pictures, all of one kind."""
 
 SPARE = 4
 """Width of the empty border around what is painted [texels]: it keeps the edges of blades free of other pictures."""
 
-GLSL = {"WHOLE": float(WHOLE), "SPARE": float(SPARE)}
+GLSL = {"ALIGNMENT": float(ALIGNMENT), "SPARE": float(SPARE)}
 
 ROWS, MOST_PAGES = 512, 256
 """Height of a page [texels], as a page is uploaded at a time; and largest number of pages that OpenGL promises."""
@@ -20,7 +20,7 @@ ROWS, MOST_PAGES = 512, 256
 WIDTHS = range(512, 1025, 16)
 """Widths that a page may have [texels], at most what OpenGL promises."""
 
-LOWER = 0.75
+LEAST_HEIGHT = 0.75
 """Least height of a picture, as a fraction of the height of its shelf."""
 
 
@@ -37,9 +37,9 @@ class Pages:
 
 def packed(sizes: NDArray[np.int64], kinds: NDArray[np.int64], /) -> Pages:
     """Return the pages of least area for pictures of these kinds (n,) and sizes (n, 2): rows, columns."""
-    whole = -(-sizes // WHOLE) * WHOLE
-    widest = int(whole[:, 1].max())
-    candidates = (_packed(whole, kinds, max(width, widest)) for width in WIDTHS)
+    aligned = -(-sizes // ALIGNMENT) * ALIGNMENT
+    widest = int(aligned[:, 1].max())
+    candidates = (_packed(aligned, kinds, max(width, widest)) for width in WIDTHS)
     return min(candidates, key=lambda pages: np.prod(pages.shape))
 
 
@@ -47,9 +47,9 @@ def _packed(sizes: NDArray[np.int64], kinds: NDArray[np.int64], width: int) -> P
     """Return pages of this width: pictures of a kind stand side by side on shelves, and shelves are stacked."""
     shelf, column, heights = _shelved(sizes, kinds, width)
     count = min(-(-sum(heights) // max(ROWS, *heights)), MOST_PAGES)
-    rows = -(-sum(heights) // (count * WHOLE)) * WHOLE
+    rows = -(-sum(heights) // (count * ALIGNMENT)) * ALIGNMENT
     while (stacks := _stacked(heights, count, rows)) is None:
-        rows += WHOLE
+        rows += ALIGNMENT
     places = np.column_stack([np.array(stacks)[shelf], column])
     return Pages(places, (count, rows, width))
 
@@ -65,7 +65,7 @@ def _shelved(
         fitting = (
             candidate
             for candidate, (end, owner) in enumerate(zip(ends, owners, strict=True))
-            if owner == kind and end + wide <= width and high >= LOWER * heights[candidate]
+            if owner == kind and end + wide <= width and high >= LEAST_HEIGHT * heights[candidate]
         )
         found = next(fitting, len(ends))
         if found == len(ends):

@@ -134,11 +134,11 @@ vec4 on_edge(Column column, Edge edge, float t, float sections) {
 // mip level, which is `texel` wide, mixes the picture with its neighbour, whose edge has dark roots. `side` is the length of the
 // picture's side.
 float first_unmixed(float begins, float texel) {
-    return min(max(floor((begins + 1.0 - SPARE) / WHOLE), 0.0) * WHOLE + 0.5 * texel, begins);
+    return min(max(floor((begins + 1.0 - SPARE) / ALIGNMENT), 0.0) * ALIGNMENT + 0.5 * texel, begins);
 }
 
 float last_unmixed(float ends, float side, float texel) {
-    return max(ceil(min(ends - 1.0 + SPARE, side) / WHOLE) * WHOLE - 0.5 * texel, ends);
+    return max(ceil(min(ends - 1.0 + SPARE, side) / ALIGNMENT) * ALIGNMENT - 0.5 * texel, ends);
 }
 
 // Part of an edge that is hidden, from its root on.
@@ -155,7 +155,7 @@ float hidden_part(Column column, Edge edge) {
 // beyond its paint, or where the next picture begins. `pixel` is the size of a pixel in parts of the column, and `side` the size
 // of the column in texels, each across and up. `level` is the mip level.
 vec2 corner_of(Column column, vec4 extent, vec2 pixel, float level, vec2 side, float hidden) {
-    float texel = clamp(exp2(ceil(level)), 1.0, WHOLE), before = float(column.number) * side.x;
+    float texel = clamp(exp2(ceil(level)), 1.0, ALIGNMENT), before = float(column.number) * side.x;
     float left = column.number == 0 ? first_unmixed(extent.x * side.x, texel) / side.x : 0.0;
     bool is_last = column.number + 1 == stacks[column.ring].x;
     float right = is_last ? (last_unmixed(before + extent.y * side.x, before + side.x, texel) - before) / side.x : 1.0;

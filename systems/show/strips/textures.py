@@ -11,7 +11,7 @@ from ....components.arrays import Bytes, Mask
 from ....engine.gl.mipmaps import levels, mipmapping
 from ...grow.record import Growth
 from .grow import Strips, strips_of
-from .pages import SPARE, WHOLE, Pages, packed
+from .pages import ALIGNMENT, SPARE, Pages, packed
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,12 +63,12 @@ def strip_atlas(stock: Sequence[list[list[Strips]]], columns: Sequence[int]) -> 
 def _painted_box(strips: Strips) -> NDArray[np.int64]:
     """Return the first (row, column) of each picture's painted part, and the end after the last, (pictures, 2, 2).
 
-    `SPARE` texels are added on all sides. Boxes begin at the ground, and at a multiple of `WHOLE` columns, so that the
-    texels of their mip levels are those of the whole picture's.
+    `SPARE` texels are added on all sides. Boxes begin at the ground, and at a multiple of `ALIGNMENT` columns, so that
+    their mip levels consist of the same texels as those of the whole picture.
     """
     painted: Mask = np.asarray(strips.texels[..., 3].reshape(-1, *strips.texels.shape[2:4]) > 0)
     (_, top), (left, right) = (_ends(np.asarray(painted.any(axis=axis))) for axis in (2, 1))
-    low, high = [0 * top, (left - SPARE) // WHOLE * WHOLE], [top + SPARE, right + SPARE]
+    low, high = [0 * top, (left - SPARE) // ALIGNMENT * ALIGNMENT], [top + SPARE, right + SPARE]
     box: NDArray[np.int64] = np.clip(np.array([low, high]).transpose(2, 0, 1), 0, painted.shape[1:])
     return box
 

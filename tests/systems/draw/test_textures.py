@@ -16,7 +16,7 @@ from tallgrass.systems.light.lie import slow_map
 from tallgrass.systems.light.repeating import LITTER_ONE, SIDE, ground_maps, repeating_levels
 from tallgrass.systems.show.carpet.grow import carpet_of
 from tallgrass.systems.show.carpet.textures import carpet_texture
-from tallgrass.systems.show.strips.pages import WHOLE, packed
+from tallgrass.systems.show.strips.pages import ALIGNMENT, packed
 from tallgrass.systems.show.strips.stock import stock_strips
 from tallgrass.systems.show.strips.textures import (
     extent_texture,
@@ -71,7 +71,7 @@ def test_pages_hold_every_picture_apart_and_little_else() -> None:
         taken = np.zeros(pages.shape, np.int32)
         stands = np.zeros((*pages.shape[:2], 2), np.bool_)
         for number, ((page, row, column), (high, wide)) in enumerate(zip(pages.places, sizes, strict=True)):
-            assert (row % WHOLE, column % WHOLE) == (0, 0)
+            assert (row % ALIGNMENT, column % ALIGNMENT) == (0, 0)
             mine = taken[page, row : row + high, column : column + wide]
             assert mine.shape == (high, wide)
             mine += 1
