@@ -65,8 +65,9 @@ _COARSE = 0.011
 def texel_of(texel: float, finest: float, height: float, /, *, far: bool) -> float:
     """Return the width of a kind's texels [m] in a ring of width `texel` [m]; that of the finest ring is `finest` [m].
 
-    The texels of all rings get coarser with the kind's `height` [m], until broad blades would blur. From there on, a
-    ring seen from `far` has texels as coarse as such blades allow, or as the largest number of texels demands.
+    The texels of all rings get coarser with the kind's `height` [m], until broad blades would blur. From there on, the
+    width in a ring seen from `far` is the largest of `texel`, the width for broad blades, and the least that there is
+    room for.
     """
     least, most = _TEXELS_UP
     coarser = texel * max(height / least / finest, 1.0)

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 ALIGNMENT = 16
-"""Multiple that pictures begin at [texels], so that a texel of the finest mip levels belongs to one picture alone. Coarser
-texels mix several pictures, all of one kind."""
+"""Multiple that pictures begin at [texels], so that texels of the finest mip levels belong to one picture alone. Coarser
+ones mix several pictures, all of one kind."""
 
 SPARE = 4
 """Width of the empty border around what is painted [texels]: it keeps the edges of blades free of other pictures."""
