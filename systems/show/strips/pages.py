@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 ALIGNMENT = 16
-"""Multiple that pictures begin at [texels], so that texels of the finest mip levels belong to one picture alone. Coarser
+"""Multiple that pictures begin at [texels]: texels of the finest mip levels belong to one picture alone, and coarser
 ones mix several pictures, all of one kind."""
 
 SPARE = 4
