@@ -27,7 +27,7 @@ class Hearing:
         self._canvas, self._fragment, self._defines, self._set_uniforms = canvas, fragment, defines, set_uniforms
         self._array: moderngl.VertexArray | None = None
         self._runs: tuple[int, ...] = ()
-        """The runs of the winds that the array was program for."""
+        """The runs of the winds that the array was made for."""
 
     def array(self) -> moderngl.VertexArray:
         """Return the vertex array that runs the pass in the winds that blow now."""
