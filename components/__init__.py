@@ -1,1 +1,1 @@
-"""What entities carry: data that games read and, where it says so, write; no GL and no esper."""
+"""Components of entities: data that games read and, where documented, write; no GL and no esper."""

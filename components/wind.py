@@ -17,7 +17,7 @@ from .course import Course
 from .declaration import Declaration, DeclarationError
 from .pose import HERE, Pose
 from .presser import Presser
-from .words import told
+from .words import errors_in_words
 
 INTERFACE = 1
 """Version of the interface between winds and tallgrass; it changes when winds written for it would break."""
@@ -114,7 +114,7 @@ else:
             try:
                 return super().__call__(*args, **values)
             except ValidationError as error:
-                raise ValueError(f"{cls.__name__}: {told(error, cls, cls.__name__)}") from None
+                raise ValueError(f"{cls.__name__}: {errors_in_words(error, cls, cls.__name__)}") from None
 
 
 class WindPrimitive(Declaration, metaclass=_Making):

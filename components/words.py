@@ -37,7 +37,7 @@ def sentence(error: ErrorDetails, field: Field, /) -> str:
     return say(error, field) if say else f"{field.name}: {error['msg']}"
 
 
-def told(error: ValidationError, model: type[BaseModel], name: str, /) -> str:
+def errors_in_words(error: ValidationError, model: type[BaseModel], name: str, /) -> str:
     """Return the errors of a model that is called `name`, a sentence each."""
     return "; ".join(sentence(each, _field_of(each, model, name)) for each in error.errors(include_url=False))
 
@@ -61,7 +61,7 @@ def suggestion(word: str, known: Iterable[str], /) -> str:
     return f"; known: {', '.join(words)}" if words else ""
 
 
-def found(value: object, /) -> str:
+def in_words(value: object, /) -> str:
     """Return a scene file's value in words, for messages."""
     match value:
         case None:
@@ -81,7 +81,7 @@ def found(value: object, /) -> str:
 def _of_type(error: ErrorDetails, field: Field) -> str:
     kind, value = error["type"], error["input"]
     wanted = _list(field) if kind == "list_type" else _WANTED[kind]
-    return f"{field.name} must be {wanted}, found {found(value)}{_hint(kind, value, field)}"
+    return f"{field.name} must be {wanted}, found {in_words(value)}{_hint(kind, value, field)}"
 
 
 def _unknown_key(error: ErrorDetails, field: Field) -> str:
@@ -93,7 +93,7 @@ def _not_among(error: ErrorDetails, field: Field) -> str:
     value, choices = error["input"], re.findall(r"'([^']*)'", error["ctx"]["expected"])
     near = get_close_matches(value, choices, n=1) if isinstance(value, str) else []
     guess = f", did you mean '{near[0]}'?" if near else ""
-    return f"{field.name} must be one of {', '.join(choices)}; found {found(value)}{guess}"
+    return f"{field.name} must be one of {', '.join(choices)}; found {in_words(value)}{guess}"
 
 
 def _out_of_range(error: ErrorDetails, field: Field) -> str:
@@ -104,7 +104,7 @@ def _out_of_range(error: ErrorDetails, field: Field) -> str:
         words = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
         text = " and ".join(f"{words[name]} {_number(bounds[name])}" for name in words if name in bounds)
     unit = _UNIT.search(field.description)
-    return f"{field.name} must be {text}{' ' + unit[1] if unit else ''}, found {found(error['input'])}"
+    return f"{field.name} must be {text}{' ' + unit[1] if unit else ''}, found {in_words(error['input'])}"
 
 
 def _of_length(error: ErrorDetails, field: Field) -> str:
@@ -118,10 +118,10 @@ def _of_length(error: ErrorDetails, field: Field) -> str:
 def _of_pattern(error: ErrorDetails, field: Field) -> str:
     pattern, text = error["ctx"]["pattern"], str(error["input"])
     if LONG not in pattern:
-        return f"{field.name} must be text of the form {pattern}, found {found(text)}"
+        return f"{field.name} must be text of the form {pattern}, found {in_words(text)}"
     near = nearest(text)
     guess = f", did you mean '{near}'?" if near else ""
-    return f"{field.name} must be a colour such as '#2f4019' or 'orange', found {found(text)}{guess}"
+    return f"{field.name} must be a colour such as '#2f4019' or 'orange', found {in_words(text)}{guess}"
 
 
 def _number(value: float) -> str:

@@ -1,1 +1,1 @@
-"""What every system stands on: world, phases, plugins, scene files, terrain files and GL."""
+"""The base of all systems: world, schedule, plugins, scene files, terrain files and GL."""

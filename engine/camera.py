@@ -51,7 +51,7 @@ class Camera:
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """The two matrices that a picture is drawn with, which nobody writes to."""
+    """View and projection matrix of a picture; never write to them."""
 
     view: NDArray[np.float32]
     """World to eye, shape (4, 4), column vectors: `view @ (x, y, z, 1)`."""
@@ -71,7 +71,7 @@ class View:
 
     @property
     def eye(self) -> tuple[float, float, float]:
-        """Where it is seen from, (x, y, z) [m]; raises LinAlgError where a matrix has no inverse."""
+        """Position of the eye (x, y, z) [m]; raises LinAlgError where a matrix has no inverse."""
         x, y, z = self._numbers[1, 0, :3, 3].tolist()
         return x, y, z
 

@@ -14,7 +14,7 @@ from ..components.patch import Cell
 from ..components.pose import Pose
 from ..components.tree import Tree
 from ..components.wind import WindPrimitive, WindSource, with_course
-from ..components.words import told
+from ..components.words import errors_in_words
 from ..engine.declared.scene import Reading
 from ..engine.handed import is_somewhere, must_be_a
 from ..engine.plugins import wind_kinds
@@ -306,7 +306,7 @@ def _wind_of(kind: str, values: dict[str, Any], reading: Reading) -> WindPrimiti
         known = reading["wind"](kind)
         return known.model_validate_json(json.dumps(values), context=reading)
     except Exception as error:  # a stranger's wind may raise anything
-        said = told(error, known, kind) if isinstance(error, ValidationError) else error
+        said = errors_in_words(error, known, kind) if isinstance(error, ValidationError) else error
         raise ValueError(f"a wind of this state, a {kind}, cannot be made: {said}") from error
 
 

@@ -1,1 +1,1 @@
-"""What a scene file can declare, part by part."""
+"""The keys of scene files, a module for each part of a scene."""

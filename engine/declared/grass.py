@@ -36,7 +36,7 @@ _NONE = {"profile": "blade", "withered": 0.0}
 
 
 class Place(Declaration):
-    """Where a kind grows: one channel of a density map laid over the whole terrain."""
+    """The density map of a kind: one channel of a map laid over the whole terrain."""
 
     map: PictureOrArray
     """Picture file, relative to the scene file: in a channel 0 is no grass, its largest number is full density."""

@@ -57,7 +57,7 @@ def limits_of(gl: Functions) -> Limits:
     gl.glGetQueryiv(NUMBERS["TIMESTAMP"], NUMBERS["QUERY_COUNTER_BITS"], bits)
     return Limits(
         version=version,
-        renderer=_told(gl.glGetString(NUMBERS["RENDERER"])),
+        renderer=_text(gl.glGetString(NUMBERS["RENDERER"])),
         layers=gl.number("MAX_ARRAY_TEXTURE_LAYERS"),
         bindings=gl.number("MAX_UNIFORM_BUFFER_BINDINGS"),
         side=gl.number("MAX_TEXTURE_SIZE"),
@@ -70,15 +70,15 @@ def limits_of(gl: Functions) -> Limits:
 
 def version_of(gl: Functions, /) -> tuple[tuple[int, int], bool]:
     """Return the version of the current context, and whether it is OpenGL ES; (0, 0) where no context is current."""
-    told = _told(gl.glGetString(NUMBERS["VERSION"]))
-    number = re.search(r"(\d+)\.(\d+)", told)
-    return (int(number[1]), int(number[2])) if number else (0, 0), told.startswith("OpenGL ES")
+    text = _text(gl.glGetString(NUMBERS["VERSION"]))
+    number = re.search(r"(\d+)\.(\d+)", text)
+    return (int(number[1]), int(number[2])) if number else (0, 0), text.startswith("OpenGL ES")
 
 
 def _extensions(gl: Functions) -> frozenset[str]:
     numbers = range(gl.number("NUM_EXTENSIONS"))
-    return frozenset(_told(gl.glGetStringi(NUMBERS["EXTENSIONS"], number)) for number in numbers)
+    return frozenset(_text(gl.glGetStringi(NUMBERS["EXTENSIONS"], number)) for number in numbers)
 
 
-def _told(text: bytes | None) -> str:
+def _text(text: bytes | None) -> str:
     return (text or b"").decode("utf-8", "replace")

@@ -26,7 +26,7 @@ class Problem:
     """Column of the first character, from 1."""
 
     message: str
-    """What is wrong, in one sentence."""
+    """Message on the fault, in one sentence."""
 
     source_line: str = ""
     """The file's line; empty where there is none to show."""

@@ -11,7 +11,7 @@ from pydantic_core import ErrorDetails
 from ...components.declaration import DeclarationError
 from ...components.field import Field, declared, inside
 from ...components.wind import WindPrimitive
-from ...components.words import found, sentence, told
+from ...components.words import errors_in_words, in_words, sentence
 from ..declared.grass import GrassKind
 from ..declared.scene import FORMAT, Reading, Scene
 from ..plugins import wind_kinds
@@ -29,7 +29,7 @@ def validate(document: Document, /, *, folder: Path | None = None, also: Iterabl
     Files that winds name are relative to `folder`, and are read only if it is given.
     """
     if not isinstance(document.root.data, dict):
-        message = f"{FIRST}, then its keys; this is {found(document.root.data)}"
+        message = f"{FIRST}, then its keys; this is {in_words(document.root.data)}"
         raise SceneError([*document.problems, document.problem((), message)])
     problems = [*document.problems, *also, *_of_version(document)]
     values = upgraded(document)
@@ -49,7 +49,7 @@ def _of_version(document: Document) -> Iterator[Problem]:
     if "tallgrass" not in document.root.data:
         yield document.problem((), FIRST)
     elif not _is_whole(version):
-        yield document.problem(("tallgrass",), f"tallgrass must be the number {FORMAT}, found {found(version)}")
+        yield document.problem(("tallgrass",), f"tallgrass must be the number {FORMAT}, found {in_words(version)}")
 
 
 def upgraded(document: Document, /) -> dict[str, Any]:
@@ -115,7 +115,7 @@ def changed(part: Part, values: Mapping[str, object], /, *, name: str) -> Part:
     try:
         return type(part).model_validate(part.model_dump() | dict(values))
     except ValidationError as error:
-        raise ValueError(told(error, type(part), name)) from error
+        raise ValueError(errors_in_words(error, type(part), name)) from error
 
 
 def changed_kind(scene: Scene, name: str, values: Mapping[str, object], /) -> GrassKind:

@@ -61,7 +61,7 @@ def load_terrain(source: TerrainSource, folder: Path, /, *, about: Sequence[floa
     return replace(loaded, mirrored=True) if source.beyond == "mirror" else loaded
 
 
-def _streamed(asked: HeightFunction, source: TerrainSource, window: float, about: Sequence[float]) -> Terrain:
+def _streamed(function: HeightFunction, source: TerrainSource, window: float, about: Sequence[float]) -> Terrain:
     """Return the window around a place (x, z) [m] of a function's ground; the window is at least `window` wide [m]."""
     cell = min(source.cell, SMOOTH)
     steps = max(ceil(window / cell / (PARTS * BLOCK) - 1e-6), 1)
@@ -69,11 +69,11 @@ def _streamed(asked: HeightFunction, source: TerrainSource, window: float, about
         raise MapError(None, f"a window of {window:g} m has more than {SIDE - 1} cells of {cell:g} m: enlarge cell")
 
     def ask(x: Doubles, z: Doubles) -> tuple[Floats, Mask | None]:
-        elevation = Elevation(_ask_heights(asked, x, z), None)
-        open_: Mask = np.isnan(elevation.values)
-        if open_.all():
-            return np.full(open_.shape, source.offset, np.float32), open_
-        return _metres(None, elevation, source, open_ if open_.any() else None), open_ if open_.any() else None
+        elevation = Elevation(_heights_of(function, x, z), None)
+        holes: Mask = np.isnan(elevation.values)
+        if holes.all():
+            return np.full(holes.shape, source.offset, np.float32), holes
+        return _metres(None, elevation, source, holes if holes.any() else None), holes if holes.any() else None
 
     blocks = Blocks(ask, cell, steps * PARTS * BLOCK)
     made = window_of(blocks, blocks.first_about(about[0], about[1]))
@@ -91,22 +91,22 @@ def _loaded(source: TerrainSource, folder: Path) -> Terrain:
     else:
         path = folder / source.heights
         elevation = read_elevation(path, source)
-    open_ = _holes_in(path, elevation)
-    heights = _metres(path, elevation, source, open_)
+    holes = _holes_in(path, elevation)
+    heights = _metres(path, elevation, source, holes)
     if source.flip:
-        heights, open_ = heights[::-1], None if open_ is None else open_[::-1]
-    return _spread(path, heights, elevation.cell or (source.cell, source.cell), source.size, open_)
+        heights, holes = heights[::-1], None if holes is None else holes[::-1]
+    return _spread(path, heights, elevation.cell or (source.cell, source.cell), source.size, holes)
 
 
-def _of_function(asked: HeightFunction, source: TerrainSource) -> Terrain:
+def _of_function(function: HeightFunction, source: TerrainSource) -> Terrain:
     """Return the terrain of the scene's size that a program's function describes."""
     size = source.size or DEFAULT_SIZE
     cell = max(min(source.cell, SMOOTH), max(size) / (SIDE - 1))
     x, z = (_places(side, cell) for side in size)
-    given = _ask_heights(asked, x, z)
+    given = _heights_of(function, x, z)
     elevation = Elevation(given, None)
-    open_ = _holes_in(None, elevation)
-    return Terrain(_metres(None, elevation, source, open_), cell, open_)
+    holes = _holes_in(None, elevation)
+    return Terrain(_metres(None, elevation, source, holes), cell, holes)
 
 
 def _holes_in(path: Path | None, elevation: Elevation) -> Mask | None:
@@ -130,9 +130,9 @@ def _with_holes(terrain: Terrain, source: TerrainSource, folder: Path) -> Terrai
     return replace(terrain, holes=holes) if holes.any() else terrain
 
 
-def _metres(path: Path | None, elevation: Elevation, source: TerrainSource, open_: Mask | None) -> Floats:
-    """Return an elevation map's heights [m], with voids and holes (`open_`) filled from their surroundings."""
-    values, void = elevation.values, elevation.void if open_ is None else open_
+def _metres(path: Path | None, elevation: Elevation, source: TerrainSource, holes: Mask | None) -> Floats:
+    """Return an elevation map's heights [m], with voids and holes (`holes`) filled from their surroundings."""
+    values, void = elevation.values, elevation.void if holes is None else holes
     check_finite(path, values, "height", "heights", void)
     if elevation.whole is None:
         factor = 1.0 if source.scale is None else source.scale
@@ -143,7 +143,7 @@ def _metres(path: Path | None, elevation: Elevation, source: TerrainSource, open
         heights *= np.float32(factor)
         heights += np.float32(source.offset)
     if void is not None and void.any():
-        if open_ is None and void.mean() > 0.5:
+        if holes is None and void.mean() > 0.5:
             raise MapError(path, f"{void.mean():.0%} of it has no height; at most half may be filled from around")
         heights = fill_voids(heights, void)
     low, high = float(heights.min()), float(heights.max())
@@ -205,14 +205,14 @@ def _noise(source: TerrainSource) -> Terrain:
     return Terrain(heights, cell)
 
 
-def _ask_heights(asked: HeightFunction, x: Doubles, z: Doubles, /) -> Floats:
+def _heights_of(function: HeightFunction, x: Doubles, z: Doubles, /) -> Floats:
     """Return a function's heights [m] on the grid of columns at `x` and rows at `z` [m], (rows, columns).
 
     NaN is a hole. Raises `MapError` where the function raises anything, or returns invalid heights.
     """
     heights = np.empty((len(z), len(x)), np.float32)
     for rows, columns in _squares(*heights.shape):
-        heights[rows, columns] = _call(asked, *np.meshgrid(x[columns], z[rows]))
+        heights[rows, columns] = _call(function, *np.meshgrid(x[columns], z[rows]))
     return heights
 
 
@@ -222,11 +222,11 @@ def _squares(rows: int, columns: int) -> Iterator[tuple[slice, slice]]:
             yield slice(row, row + SQUARE), slice(column, column + SQUARE)
 
 
-def _call(asked: HeightFunction, x: Doubles, z: Doubles) -> Floats:
-    where = f"{asked.name}, asked for x from {x[0, 0]:g} to {x[0, -1]:g} and z from {z[0, 0]:g} to {z[-1, 0]:g} m"
+def _call(function: HeightFunction, x: Doubles, z: Doubles) -> Floats:
+    where = f"{function.name}, asked for x from {x[0, 0]:g} to {x[0, -1]:g} and z from {z[0, 0]:g} to {z[-1, 0]:g} m"
     try:
         with np.errstate(all="ignore"):
-            given = np.asarray(asked.function(x, z))
+            given = np.asarray(function.function(x, z))
     except Exception as error:  # a program's own function may raise anything
         raise MapError(None, f"{where}, raised {type(error).__name__}: {' '.join(str(error).split())}") from error
     if given.shape not in (x.shape, ()) or given.dtype.kind not in "fiu":

@@ -31,7 +31,7 @@ Untouched = Callable[[Part], Values]
 
 
 class On(NamedTuple):
-    """Those of given places that lie on stored plots."""
+    """The subset of given places that lies on stored plots."""
 
     which: NDArray[np.intp]
     """Indices among the given places, shape (m,)."""

@@ -133,10 +133,10 @@ def _on_open_ground(density: Density, place: Floats, kind: NDArray[np.intp] | No
         return _limited(density, _painted(density, place, kind), place, kind)
     on, rest = _sown_on(density, place), np.ones(len(place), np.bool_)
     rest[on.which] = False
-    sown, open_ = (None, None) if kind is None else (kind[on.which], kind[rest])
+    sown_kind, painted_kind = (None, None) if kind is None else (kind[on.which], kind[rest])
     result = np.empty((len(density.maps), len(place)) if kind is None else len(place), np.float32)
-    result[..., on.which] = density.sown.between(on, sown).T * _WHOLE
-    result[..., rest] = _painted(density, place[rest], open_)
+    result[..., on.which] = density.sown.between(on, sown_kind).T * _WHOLE
+    result[..., rest] = _painted(density, place[rest], painted_kind)
     return _limited(density, result, place, kind)
 
 

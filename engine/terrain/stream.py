@@ -34,9 +34,9 @@ def _joined(blocks: Blocks, first: Numbers, count: int, own: Blocks | None) -> T
     for down in range(count):
         for right in range(count):
             here = np.s_[BLOCK * down : BLOCK * (down + 1) + 1, BLOCK * right : BLOCK * (right + 1) + 1]
-            heights[here], open_ = blocks.block(first[0] // BLOCK + down, first[1] // BLOCK + right)
-            if open_ is not None:
-                holes[here] = open_
+            heights[here], block_holes = blocks.block(first[0] // BLOCK + down, first[1] // BLOCK + right)
+            if block_holes is not None:
+                holes[here] = block_holes
     made = Terrain(heights, blocks.cell, holes if holes.any() else None, first=first, blocks=own)
     with blocks.lock:
         changed = [*blocks.changed]
