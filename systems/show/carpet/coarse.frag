@@ -40,12 +40,12 @@ const uint LOWER_HALF = 0xFFFFu;
 
 // Texture coordinates, image and level that a pixel reads of each kind.
 struct Look {
-    vec2 at;
+    vec2 at;        // texture coordinates
     int image;      // index among the images of a kind
     ivec2 between;  // images of both slopes
     float blend;    // weight of the second slope
-    float level;
-    float grain;  // gain of contrast about the mean of images
+    float level;    // mip level
+    float grain;    // gain of contrast about the mean of images
 };
 
 // Gain of contrast at a mip level, for a pixel `across` [m] wide.

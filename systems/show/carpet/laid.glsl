@@ -33,8 +33,8 @@ struct Laid {
     float stands;          // height of the grass in the wind, as a fraction of that at rest
     vec2 message;          // message of the wind
     float slope;           // slope of the line of sight to the ground [m/m]
-    float crest_weight;    // from crest_weight
-    float rim_path;        // from rim_path_at
+    float crest_weight;    // degree to which the line of sight passes over a crest there, in [0, 1]
+    float rim_path;        // path over a rim, from rim_path_at
 };
 
 // The least of the carpet's shares of the patches that a place lies on or next to.
@@ -71,9 +71,10 @@ vec2 mesh_rise_at(vec2 at) {
 
 const int NEIGHBOURS = 5, ALL_NEIGHBOURS = 9;  // a vertex with its four straight neighbours, and with the four diagonal ones too
 
+// The place of a neighbour, 0 for the vertex itself.
 vec2 neighbour(vec2 place, int number) {
-    ivec2 aslant = ivec2(number - NEIGHBOURS) >> ivec2(0, 1) & 1, straight = ivec2(number > 2, number == 1 || number == 2);
-    vec2 way = number < NEIGHBOURS ? vec2(straight) * (number % 2 == 0 ? 1.0 : -1.0) : vec2(aslant) * 2.0 - 1.0;
+    ivec2 diagonal = ivec2(number - NEIGHBOURS) >> ivec2(0, 1) & 1, straight = ivec2(number > 2, number == 1 || number == 2);
+    vec2 way = number < NEIGHBOURS ? vec2(straight) * (number % 2 == 0 ? 1.0 : -1.0) : vec2(diagonal) * 2.0 - 1.0;
     return place + way * grid_spacing;
 }
 

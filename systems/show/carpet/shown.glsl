@@ -50,7 +50,7 @@ void apply_cut(int kind, inout Texel texel, inout Light light, View view, float 
 // The point of the line of sight through the pixel that is `height` [m] over the ground.
 vec3 sight_at_height(float height, float slope) {
     float on = (mesh_share * tall - height) / max(slope, LOWEST);
-    return gone_on(place, heading_to(place.xz) * clamp(on, -FARTHEST_SEEN, FARTHEST_SEEN));
+    return moved_along(place, heading_to(place.xz) * clamp(on, -FARTHEST_SEEN, FARTHEST_SEEN));
 }
 
 // Light of lamps on the leaves that are seen, as from lamps_at, computed for the kind that is met most.

@@ -83,7 +83,7 @@ vec2 image_place(vec2 place, vec2 heading, float lowered, float slope) {
 }
 
 // The point of the line of sight through a place that is `way` (x, z) farther over the ground [m].
-vec3 gone_on(vec3 place, vec2 way) {
+vec3 moved_along(vec3 place, vec2 way) {
     vec3 ray = place - eye;
     return place + vec3(way.x, ray.y * dot(way, ray.xz) / max(dot(ray.xz, ray.xz), TINY), way.y);
 }
