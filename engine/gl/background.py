@@ -40,9 +40,9 @@ class BackgroundCompiler:
         if not compiles_in_background(self._ctx):
             return
         for each in texts:
-            self.ask(each)
+            self.start(each)
             yield
-        while self.left:
+        while self.pending:
             yield
 
     def compile_together(self, texts: Iterable[Texts], /) -> Iterator[None]:
@@ -50,13 +50,13 @@ class BackgroundCompiler:
         if not compiles_in_background(self._ctx):
             return
         for each in texts:
-            self.ask(each)
-        for number in reversed(range(self.left)):
-            while self.left > number:
+            self.start(each)
+        for number in reversed(range(self.pending)):
+            while self.pending > number:
                 sleep(WAITS)
             yield
 
-    def ask(self, texts: Texts, /) -> None:
+    def start(self, texts: Texts, /) -> None:
         """Start one program; errors in it are not reported."""
         gl = self._gl
         getattr(gl, f"glMaxShaderCompilerThreads{limits_of(gl).parallel_compile}")(AS_MANY)
@@ -72,7 +72,7 @@ class BackgroundCompiler:
         self._underway.append(made)
 
     @property
-    def left(self) -> int:
+    def pending(self) -> int:
         """Number of programs that are not done yet; reading it does not wait."""
         made = [number for number in self._underway if self._is_made(number)]
         for number in made:

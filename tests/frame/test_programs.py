@@ -128,12 +128,12 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     asked: list[str] = []
     looks = count()
 
-    def ask(_: BackgroundCompiler, texts: Texts) -> None:
+    def start(_: BackgroundCompiler, texts: Texts) -> None:
         asked.append(texts.vertex)
 
     monkeypatch.setattr(background, "draws_in_software", lambda _: False)
-    monkeypatch.setattr(BackgroundCompiler, "ask", ask)
-    monkeypatch.setattr(BackgroundCompiler, "left", property(lambda _: max(0, len(asked) - next(looks))))
+    monkeypatch.setattr(BackgroundCompiler, "start", start)
+    monkeypatch.setattr(BackgroundCompiler, "pending", property(lambda _: max(0, len(asked) - next(looks))))
     return asked
 
 

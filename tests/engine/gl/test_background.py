@@ -20,20 +20,20 @@ def numbers(ctx: moderngl.Context) -> list[int]:
 
 
 def test_what_a_driver_was_asked_for_is_made_and_given_back_whatever_it_is(ctx: moderngl.Context) -> None:
-    before, beside = numbers(ctx), BackgroundCompiler(ctx)
+    before, compiler = numbers(ctx), BackgroundCompiler(ctx)
     for texts in (DRAWN, WRONG):
-        beside.ask(texts)
+        compiler.start(texts)
     assert len(numbers(ctx)) == len(before) + 2
     start = monotonic()
-    while beside.left and monotonic() - start < 20.0:
+    while compiler.pending and monotonic() - start < 20.0:
         sleep(0.001)
-    assert (beside.left, numbers(ctx), ctx.error) == (0, before, "GL_NO_ERROR")
+    assert (compiler.pending, numbers(ctx), ctx.error) == (0, before, "GL_NO_ERROR")
 
 
 def test_what_is_underway_is_given_back_with_it(ctx: moderngl.Context) -> None:
-    before, beside = numbers(ctx), BackgroundCompiler(ctx)
-    beside.ask(DRAWN)
-    beside.release()
+    before, compiler = numbers(ctx), BackgroundCompiler(ctx)
+    compiler.start(DRAWN)
+    compiler.release()
     assert numbers(ctx) == before
 
 
