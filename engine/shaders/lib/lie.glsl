@@ -36,30 +36,30 @@ vec2 lie_uv(vec2 place) {
 
 // Normal (x, z) and slow noises of a place.
 vec4 lie_texel(vec2 place) {
-    vec4 still = textureLod(lie, lie_uv(place), 0.0);
+    vec4 texel = textureLod(lie, lie_uv(place), 0.0);
 #ifdef MIRRORED
-    still.xy *= mirror_sign(place);
+    texel.xy *= mirror_sign(place);
 #endif
-    return still;
+    return texel;
 }
 
 // The horizon map: tangent of the elevation of what stands before the sun. A mirrored place has the sun on another side.
 float horizon_at(vec2 place) {
-    vec4 before = textureLod(lie, lie_uv(place) + vec2(0.5, 0.0), 0.0);
+    vec4 horizons = textureLod(lie, lie_uv(place) + vec2(0.5, 0.0), 0.0);
 #ifdef MIRRORED
-    vec2 turned = mirror_sign(place), sides = turned.y > 0.0 ? before.rg : before.ba;
-    return turned.x > 0.0 ? sides.x : sides.y;
+    vec2 mirrored = mirror_sign(place), sides = mirrored.y > 0.0 ? horizons.rg : horizons.ba;
+    return mirrored.x > 0.0 ? sides.x : sides.y;
 #else
-    return before.r;
+    return horizons.r;
 #endif
 }
 
 Lie lie_at(vec2 place) {
-    vec4 still = lie_texel(place);
-    float before = horizon_at(place);
-    float up = sqrt(max(1.0 - dot(still.xy, still.xy), 0.0)), high = dot(sun.xz, still.xy) + sun.y * up;
-    float rise = max(sun.y, LOWEST_SUN) / max(length(sun.xz), LEAST_WIDTH);
-    return Lie(max(high, 0.0), smoothstep(-PENUMBRA, PENUMBRA, rise - before), still.zw, vec3(still.x, up, still.y));
+    vec4 texel = lie_texel(place);
+    float up = sqrt(max(1.0 - dot(texel.xy, texel.xy), 0.0)), sun_sine = dot(sun.xz, texel.xy) + sun.y * up;
+    float sun_tangent = max(sun.y, LOWEST_SUN) / max(length(sun.xz), LEAST_WIDTH);
+    float visibility = smoothstep(-PENUMBRA, PENUMBRA, sun_tangent - horizon_at(place));
+    return Lie(max(sun_sine, 0.0), visibility, texel.zw, vec3(texel.x, up, texel.y));
 }
 
 // The two slow noises alone.
@@ -69,12 +69,12 @@ vec2 slow_noise_at(vec2 place) {
 
 // Gradient of the ground's height along x and z.
 vec2 gradient_at(vec2 place) {
-    vec2 still = lie_texel(place).xy;
-    return -still * inversesqrt(max(1.0 - dot(still, still), FLATTEST_NORMAL));
+    vec2 normal = lie_texel(place).xy;
+    return -normal * inversesqrt(max(1.0 - dot(normal, normal), FLATTEST_NORMAL));
 }
 
 // Sine of the angle between a line of sight and the ground.
 float view_sine(vec3 place) {
-    vec2 still = lie_texel(place.xz).xy;
-    return dot(normalize(eye - place), vec3(still, sqrt(max(1.0 - dot(still, still), 0.0))).xzy);
+    vec2 normal = lie_texel(place.xz).xy;
+    return dot(normalize(eye - place), vec3(normal, sqrt(max(1.0 - dot(normal, normal), 0.0))).xzy);
 }

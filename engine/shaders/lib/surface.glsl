@@ -72,9 +72,9 @@ Reflectance leaf_reflectance(int kind, vec2 bend, vec3 place, vec3 from, float h
     vec3 ray = normalize(place - eye);
     float facing = clamp(dot(ray, from), -1.0, 1.0);  // rounding goes beyond it, and roots are taken
     // Leaves that face all ways reflect where the eye sees them lit, and transmit where it sees them against the light.
-    float back = 0.5 - 0.5 * facing, against = 1.0 - back;
-    vec3 phase = back * sqrt(back) + against * sqrt(against) * kinds[kind].through;
-    float lies = min(dot(bend, bend), 1.0), face = 1.0 + LIES_OPEN * lies + LEANS_AWAY * dot(bend, normalize(ray.xz + LEAST_LENGTH));
+    float lit = 0.5 - 0.5 * facing, against = 1.0 - lit;
+    vec3 phase = lit * sqrt(lit) + against * sqrt(against) * kinds[kind].through;
+    float flatness = min(dot(bend, bend), 1.0), face = 1.0 + LIES_OPEN * flatness + LEANS_AWAY * dot(bend, normalize(ray.xz + LEAST_LENGTH));
     // A blade mirrors light along itself like a thread (Kajiya and Kay, Rendering Fur, 1989).
     vec3 spine = normalize(vec3(SPINE.x * bend, 1.0 - SPINE.y * length(bend)).xzy), half_way = from - ray;
     float along = dot(spine, half_way), thread = 1.0 - along * along / max(dot(half_way, half_way), LEAST_SQUARE);
@@ -92,30 +92,30 @@ Reflectance reflectance_of(Reflector reflector, vec3 place, vec3 from, float hig
 const float LIT_AT = 0.7;  // height of the leaves that reflect most of a lamp's light, as a part of the canopy's
 
 // A light with the result of lamps_at added.
-Light with_lamps(Light light, vec4 sent) {
-    float own = brightness(light.sun), more = brightness(sent.rgb);
-    light.extinction = (own * light.extinction + more * sent.w) / max(own + more, DARKEST);
-    light.sun += sent.rgb;
+Light with_lamps(Light light, vec4 lamps) {
+    float from_sun = brightness(light.sun), from_lamps = brightness(lamps.rgb);
+    light.extinction = (from_sun * light.extinction + from_lamps * lamps.w) / max(from_sun + from_lamps, DARKEST);
+    light.sun += lamps.rgb;
     return light;
 }
 
 // Add the reflected light of one lamp to the sum in rgb, and its extinction, weighted by brightness, to that in a.
-void add_light(inout vec4 sent, Incoming light, vec3 place, Reflector reflector) {
+void add_light(inout vec4 sum, Incoming light, vec3 place, Reflector reflector) {
     float high = max(dot(reflector.normal, light.direction), 0.0);
-    vec3 more = light.radiance * reflectance_of(reflector, place, light.direction, high).sun;
-    sent += vec4(more, brightness(more) * sun_extinction(kind_index(reflector.kind), high));
+    vec3 reflected = light.radiance * reflectance_of(reflector, place, light.direction, high).sun;
+    sum += vec4(reflected, brightness(reflected) * sun_extinction(kind_index(reflector.kind), high));
 }
 
 // Reflected light of all lamps at a place of the ground, and its mean extinction. This is the list of all lights but sun and sky:
 // each is an `add_light`, and the block's `beside_sun` is 1 where any shines.
 vec4 lamps_at(vec3 place, Reflector reflector) {
-    vec4 sent = vec4(0.0);
+    vec4 sum = vec4(0.0);
     if (reflector.kind != FACE)
         place.y += LIT_AT * OF(crown, kind_index(reflector.kind)) * lodged(reflector.bend);
-    ivec2 listed = lamps_range(place.xz);
-    for (int number = listed.x; number < listed.y; number++)
-        add_light(sent, lamp_at(number, place), place, reflector);
-    return vec4(sent.rgb, sent.w / max(brightness(sent.rgb), DARKEST));
+    ivec2 range = lamps_range(place.xz);
+    for (int index = range.x; index < range.y; index++)
+        add_light(sum, lamp_at(index, place), place, reflector);
+    return vec4(sum.rgb, sum.w / max(brightness(sum.rgb), DARKEST));
 }
 
 // The light at a place with that of lamps added; `suns` is the sun's part of the sum.
@@ -200,8 +200,8 @@ vec3 packed_extra(mat4 light) {
 // The radiance of a surface in some light.
 vec3 shade(Surface surface, Light light) {
     vec3 albedo = surface.pigment * surface.pigment;
-    float over = max(leaf_area_above(surface.height, light.leaves), 0.0);  // below 0 for flat grass, which is lower than its cut
-    vec2 seen = transmittance(vec2(light.extinction, OPEN_SKY) * over);
-    vec3 received = light.sun * seen.x + light.sky * seen.y + albedo * light.sun * (surface.scattering * seen.y);
-    return albedo * received + sunlight * (light.gloss * seen.x) + light.haze;
+    float area_above = max(leaf_area_above(surface.height, light.leaves), 0.0);  // below 0 for flat grass, which is lower than its cut
+    vec2 left = transmittance(vec2(light.extinction, OPEN_SKY) * area_above);
+    vec3 received = light.sun * left.x + light.sky * left.y + albedo * light.sun * (surface.scattering * left.y);
+    return albedo * received + sunlight * (light.gloss * left.x) + light.haze;
 }
