@@ -1,4 +1,4 @@
-"""How different two pictures look: their FLIP, and the mean colours of parts of them."""
+"""Differences of two pictures: their FLIP, and the mean colours of regions."""
 
 from typing import Any
 
@@ -33,7 +33,7 @@ def evaluator() -> Any:
 
 
 def mean_light(picture: Picture, inside: Mask, /) -> NDArray[np.float64]:
-    """Return the linear light (3,) of the mean colour in display space of those pixels."""
+    """Return the linear light (3,) of the mean colour in display space of the pixels in a mask."""
     return np.asarray(decoded(picture[inside].mean(axis=0) / 255.0))
 
 

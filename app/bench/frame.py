@@ -1,4 +1,4 @@
-"""`tallgrass bench frame`: what a frame costs, and what it is made of."""
+"""`tallgrass bench frame`: the cost of a frame, and of its parts."""
 
 import os
 import tempfile
@@ -24,22 +24,22 @@ from .still import FRAMES, Still
 from .viewers import side_by_side
 
 EVERY = 12
-"""Frames between two draws of every blade: taken in turn, since such machines change their speed."""
+"""Frames between two draws of every blade: they alternate, as a machine's speed varies over time."""
 
 PARTS = {"growing": 6.0, "drawing": 60.0, "without drawing": 6.0}
-"""What there is to do, and how long it takes [s], about."""
+"""Names of the steps, with their approximate durations [s]."""
 
 MOVING = ("press", "wind")
-"""The systems that are animation (paper, section 5); the others choose what is shown, and plant it."""
+"""Systems that animate (paper, section 5); the others choose what is shown, and plant it."""
 
 TURN = 6
-"""Frames between two draws of the rivals."""
+"""Number of frames between two draws of the rivals."""
 
 
 def frame_measured(take: Take, /, *, viewers: int = 1) -> dict[str, object]:
-    """Return what the benchmark tells of a scene's frame from its fixed camera.
+    """Return the benchmark's figures of a scene's frame from its fixed camera.
 
-    Of more than one viewer, each one's part of a frame is measured besides.
+    With several `viewers`, each viewer's part of a frame is measured too.
     """
     first = {"cold": 0.0, "cached": 0.0}
     with course("a frame", PARTS | ({"viewers": 30.0} if viewers > 1 else {})) as way:
@@ -78,7 +78,7 @@ def _first_frame(take: Take) -> float:
 
 @dataclass(slots=True)
 class Samples:
-    """Times of every frame measured [ms]."""
+    """Times of all measured frames [ms]."""
 
     frame: list[float] = field(default_factory=list)
     draw: list[float] = field(default_factory=list)
@@ -87,14 +87,14 @@ class Samples:
     seen_3d: list[float] = field(default_factory=list)
     floor: list[float] = field(default_factory=list)
     heard: list[float] = field(default_factory=list)
-    """Those of the passes in which all receivers hear the winds, by themselves."""
+    """Times of the passes in which all receivers hear the winds."""
 
     card: list[float] = field(default_factory=list)
-    """Those that the graphics card measured itself, where there is one."""
+    """Times measured by the graphics card; empty without one."""
 
 
 class _Blades:
-    """Every blade of the terrain, and every one in view, each in one draw; what the prairie drew last lies below."""
+    """Every blade of the terrain, and every blade in view, each in one draw, over the ground of the last frame."""
 
     def __init__(self, still: Still) -> None:
         self._still, prairie = still, still.studio.prairie
@@ -104,10 +104,10 @@ class _Blades:
         ground, viewer = prairie.site.ground, self._every.outlook.viewer
         stand_all(prairie, terrain_cells(ground), self._all)
         stand_all(prairie, cells_within(ground, viewer.eye, viewer.cone, sway=prairie.site.sway), self._seen)
-        self.add_to(Samples())  # the first draw of a program takes longer
+        self.add_to(Samples())  # warms up: a program's first draw takes longer
 
     def add_to(self, samples: Samples) -> None:
-        """Measure them, and the floor, once."""
+        """Measure all blades, those in view, and the bare floor once."""
         samples.all_3d.append(self._timed([self._all]))
         samples.seen_3d.append(self._timed([self._seen]))
         samples.floor.append(self._timed([]))
@@ -125,7 +125,7 @@ class _Blades:
 
 
 def sample(still: Still, rivals: Rivals) -> Samples:
-    """Draw the frames, and now and then the blades in one draw, the floor, and the rivals: all from the same place."""
+    """Draw the frames, and in between every blade in one draw, the bare floor, and the rivals, all from one camera."""
     prairie, samples, timer = still.studio.prairie, Samples(), card_timer(still.studio.ctx)
     blades = _Blades(still)
     for number in counted(range(FRAMES), total=FRAMES, doing="frames"):
@@ -139,7 +139,7 @@ def sample(still: Still, rivals: Rivals) -> Samples:
         if number % EVERY == EVERY - 1:
             blades.add_to(samples)
         if number % TURN == TURN - 1:
-            rivals.measure()  # after the blades, which stand on what the frame itself has laid
+            rivals.measure()  # after the blades, which need the carpet that the frame has laid
     blades.release()
     return samples
 
@@ -181,7 +181,7 @@ def _figures(studio: Studio, take: Take, first: dict[str, float], samples: Sampl
 
 
 def _animation(samples: Samples) -> dict[str, float]:
-    """Return what moving the grass takes of a frame: the systems that blow and tread, and the passes that hear them."""
+    """Return the time of animation, and its fraction of a frame: wind and press systems, and the receivers' passes."""
     moving = np.sum([samples.heard, *(samples.systems[name] for name in MOVING if name in samples.systems)], axis=0)
     took = float(np.median(moving))
     return {"animation_ms": _ms(took), "animation_part": round(took / float(np.median(samples.frame)), 3)}
@@ -199,14 +199,14 @@ def _against_every_blade(samples: Samples) -> dict[str, float]:
 
 
 def _on_processor(take: Take) -> dict[str, object]:
-    """Return what the frames cost on the CPU alone, each figure None where that cannot be measured."""
-    told = on_processor(take)
-    if told is None:
+    """Return the cost of frames on the CPU alone; figures are None where it cannot be measured."""
+    measured = on_processor(take)
+    if measured is None:
         return {"cpu_ms": None, "cpu_by_system_ms": None, "cpu_over_yardstick": None}
     return {
-        "cpu_ms": told["cpu_ms"],
-        "cpu_by_system_ms": told["cpu_by_system_ms"],
-        "cpu_over_yardstick": round(told["cpu_ms"]["p50"] / told["yardstick_ms"], 3),
+        "cpu_ms": measured["cpu_ms"],
+        "cpu_by_system_ms": measured["cpu_by_system_ms"],
+        "cpu_over_yardstick": round(measured["cpu_ms"]["p50"] / measured["yardstick_ms"], 3),
     }
 
 

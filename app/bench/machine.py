@@ -1,4 +1,4 @@
-"""What every benchmark says of the machine it ran on, and how fast that was at the time."""
+"""What every benchmark reports of its machine, and of the machine's speed at the time."""
 
 import json
 import os
@@ -16,14 +16,14 @@ from ...systems.prairie import Prairie
 from ..studio.take import Take
 
 TIMINGS = 5
-"""Times the yardstick's arithmetic is done; the least counts."""
+"""Number of timings of the yardstick, of which the least counts."""
 
 ROUNDS = 10
-"""Rounds of arithmetic each time."""
+"""Number of rounds of arithmetic in each timing."""
 
 
 def head(ctx: moderngl.Context, prairie: Prairie, take: Take, /) -> dict[str, object]:
-    """Return what every benchmark tells first: the machine, and the prairie of which take is measured."""
+    """Return the first figures of every benchmark: the machine, the scene, the preset and the size."""
     quality = prairie.scene.quality
     preset = take.preset or (quality if isinstance(quality, str) else "custom")
     return {"machine": machine(ctx), "scene": take.scene, "preset": preset, "size": list(take.size)}
@@ -51,7 +51,7 @@ def _processor() -> str:
 
 
 def resident_mb() -> float | None:
-    """Return the memory that this process holds [MB]; on macOS the most it ever held, and on Windows None."""
+    """Return the resident memory of this process [MB]; on macOS its peak, on Windows None."""
     statm = Path("/proc/self/statm")
     if statm.is_file():
         return round(int(statm.read_text("ascii").split()[1]) * PAGESIZE / 1e6, 1)
@@ -79,7 +79,7 @@ def tell(result: Mapping[str, object], *, as_json: bool) -> None:
 
 
 def yardstick_ms() -> float:
-    """Return how long fixed arithmetic takes now [ms]: sines and roots of 200,000 places, ten times."""
+    """Return the time of fixed arithmetic [ms]: sines and roots of 200,000 pairs of numbers, ten times."""
     places = np.random.default_rng(0).random((200_000, 2), np.float32)
     times = []
     for _ in range(TIMINGS):

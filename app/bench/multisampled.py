@@ -1,11 +1,11 @@
-"""A framebuffer of several samples a pixel: the smooth edges that a graphics card has by brute force."""
+"""A multisampled framebuffer: the graphics card's own antialiasing."""
 
 import moderngl
 
 from ...engine.gl.stream import release_all
 
 FINE = 4
-"""Samples of a pixel where edges are smooth."""
+"""Number of samples a pixel that makes edges smooth."""
 
 
 class Multisampled:

@@ -1,6 +1,6 @@
-"""The child process that measures what frames cost on the CPU alone, and prints it as a line of JSON.
+"""The child process that measures the cost of frames on the CPU alone, and prints it as a line of JSON.
 
-Run as `python -m tallgrass.app.bench.noop`. It tells null unless the driver draws nothing, as Mesa's does with
+Run as `python -m tallgrass.app.bench.noop`. It prints null unless the driver draws nothing, as Mesa's does with
 GALLIUM_NOOP=1.
 """
 
@@ -15,11 +15,11 @@ from .machine import yardstick_ms
 from .still import FRAMES, Still
 from .walk import paces
 
-Told = dict[str, object]
+Result = dict[str, object]
 
 
 def draws_nothing() -> bool:
-    """Return whether the driver only takes commands."""
+    """Return whether the driver only accepts commands."""
     ctx = standalone_context()
     try:
         return str(ctx.info["GL_RENDERER"]).startswith("NOOP")
@@ -27,8 +27,8 @@ def draws_nothing() -> bool:
         ctx.release()
 
 
-def still_frames(take: Take) -> Told:
-    """Return what the frames of `bench frame` take here, the systems in them, and the yardstick [ms]."""
+def still_frames(take: Take) -> Result:
+    """Return the times of `bench frame`'s frames, of their systems, and of the yardstick [ms]."""
     times: list[float] = []
     systems: dict[str, list[float]] = {}
     with Studio(take) as studio:
@@ -44,22 +44,22 @@ def still_frames(take: Take) -> Told:
     }
 
 
-def walked_frames(take: Take) -> Told:
-    """Return what the frames of `bench walk` take here [ms]."""
+def walked_frames(take: Take) -> Result:
+    """Return the times of `bench walk`'s frames [ms]."""
     with Studio(take) as studio:
         return {"cpu_ms": spread([pace.frame_ms for pace in paces(studio)], 50, 95, 99)}
 
 
 def main() -> None:
-    """Measure what the command line says."""
+    """Measure the take on the command line, and print the result."""
     parser = ArgumentParser()
     parser.add_argument("scene")
     parser.add_argument("--size", type=parse_size, required=True)
     parser.add_argument("--preset")
     parser.add_argument("--walk", action="store_true")
-    told = parser.parse_args()
-    take = Take(told.scene, told.size, preset=told.preset)
-    measure = walked_frames if told.walk else still_frames
+    options = parser.parse_args()
+    take = Take(options.scene, options.size, preset=options.preset)
+    measure = walked_frames if options.walk else still_frames
     print(json.dumps(measure(take) if draws_nothing() else None))
 
 

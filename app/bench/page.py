@@ -1,4 +1,4 @@
-"""The page of `bench all`: plots and all figures, of one time of measuring or of two, in a file that needs no other."""
+"""The page of `bench all`: plots and all figures of one or two measurements, in a self-contained file."""
 
 from base64 import b64encode
 from collections.abc import Iterator, Sequence
@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from ..figures.page import STYLE, document
 from ..figures.plot import look
 from .plots import PLOTS, Plot, color
-from .sent import Told
+from .sent import Result
 
 TABLE = """\
 table { border-collapse: collapse; font-size: 0.92rem; font-variant-numeric: tabular-nums; }
@@ -21,44 +21,44 @@ th:first-child, td:first-child { text-align: left; }
 """
 
 
-def page(told: Told, before: Told | None = None, /) -> str:
-    """Return the HTML page of what `bench all` has told, beside what it told `before`."""
-    times = [told] if before is None else [before, told]
-    plots = "\n".join(_shown(plot, times) for plot in PLOTS)
-    title = f"tallgrass {told['version']}: {told['scene']}, {told['preset']}"
+def page(result: Result, before: Result | None = None, /) -> str:
+    """Return the HTML page of a result of `bench all`, compared with an earlier one."""
+    results = [result] if before is None else [before, result]
+    plots = "\n".join(_shown(plot, results) for plot in PLOTS)
+    title = f"tallgrass {result['version']}: {result['scene']}, {result['preset']}"
     body = f"""\
 <header>
 <h1>{escape(title)}</h1>
-{_machines(times)}
+{_machines(results)}
 </header>
 <main>
 {plots}
 <details>
 <summary>All figures</summary>
-{_table(times)}
+{_table(results)}
 </details>
 </main>
 <footer>Made by <code>tallgrass bench all</code>.</footer>"""
     return document(title, STYLE + TABLE, body)
 
 
-def _machines(times: Sequence[Told]) -> str:
+def _machines(results: Sequence[Result]) -> str:
     lines = []
-    for number, each in enumerate(times):
-        machine, when = each["machine"], "now" if number == len(times) - 1 else "before"
+    for number, each in enumerate(results):
+        machine, when = each["machine"], "now" if number == len(results) - 1 else "before"
         what = f"{each['version']}, {each['scene']}, {each['preset']}; {machine['renderer']}, {machine['cpu']}"
         rule = f"yardstick {each['frame']['yardstick_ms']} ms"
-        key = f'<span class="key" style="background: {color(number, len(times))}"></span>'
+        key = f'<span class="key" style="background: {color(number, len(results))}"></span>'
         lines.append(f"<p>{key} {when}: {escape(what)}; {rule}</p>")
     return "\n".join(lines)
 
 
-def _shown(plot: Plot, times: Sequence[Told]) -> str:
-    told = [{"limits": each["limits"], **each[plot.part]} for each in times if each[plot.part] is not None]
-    if not told or times[-1][plot.part] is None:
+def _shown(plot: Plot, results: Sequence[Result]) -> str:
+    parts = [{"limits": each["limits"], **each[plot.part]} for each in results if each[plot.part] is not None]
+    if not parts or results[-1][plot.part] is None:
         return ""
     with look():
-        picture = _embedded(plot.draw(told))
+        picture = _embedded(plot.draw(parts))
     return f"""\
 <figure>
 <img src="{picture}" alt="{escape(plot.title)}">
@@ -72,9 +72,9 @@ def _embedded(figure: Figure) -> str:
     return f"data:image/png;base64,{b64encode(file.getvalue()).decode('ascii')}"
 
 
-def _table(times: Sequence[Told]) -> str:
-    columns = [dict(figures(each)) for each in times]
-    head = "<th>now</th>" if len(times) == 1 else "<th>before</th><th>now</th><th>now / before</th>"
+def _table(results: Sequence[Result]) -> str:
+    columns = [dict(figures(each)) for each in results]
+    head = "<th>now</th>" if len(results) == 1 else "<th>before</th><th>now</th><th>now / before</th>"
     rows = []
     for name, value in columns[-1].items():
         cells = [column.get(name) for column in columns]
@@ -85,12 +85,12 @@ def _table(times: Sequence[Told]) -> str:
     return f"<table>\n<tr><th></th>{head}</tr>\n" + "\n".join(rows) + "\n</table>"
 
 
-def figures(told: Any, name: str = "", /) -> Iterator[tuple[str, float]]:
-    """Yield every number in a result with its name, as `frame.frame_ms.p50` or `scale.rows.0.rss_mb`."""
-    if isinstance(told, bool):
+def figures(value: Any, name: str = "", /) -> Iterator[tuple[str, float]]:
+    """Yield every number in a result with its path, such as `frame.frame_ms.p50` or `scale.rows.0.rss_mb`."""
+    if isinstance(value, bool):
         return
-    if isinstance(told, int | float):
-        yield name, float(told)
-    inner = told.items() if isinstance(told, dict) else enumerate(told) if isinstance(told, list) else ()
-    for key, value in inner:
-        yield from figures(value, f"{name}.{key}".lstrip("."))
+    if isinstance(value, int | float):
+        yield name, float(value)
+    inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, item in inner:
+        yield from figures(item, f"{name}.{key}".lstrip("."))

@@ -1,4 +1,4 @@
-"""`tallgrass bench picture`: how true a picture is to every blade in 3D, supersampled."""
+"""`tallgrass bench picture`: the fidelity of a picture to every blade in 3D, supersampled."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -29,47 +29,47 @@ from .flip import MOMENT, evaluator, flip, hue_between, mean_light
 from .machine import head
 from .many import Survey
 from .multisampled import Multisampled
-from .trees import Behind, trees_told
+from .trees import Behind, tree_figures
 
 OTHER_SEED = 7919
-"""Added to the scene's seed for unrelated grass of the same look."""
+"""Offset of the scene's seed that gives unrelated grass of the same look."""
 
 PARTS = {"every blade": 3.0, "the reference": 4.0, "unrelated grass": 6.0}
-"""What there is to draw, and how long it takes in terms of one another, about."""
+"""Names of the steps, with their approximate relative durations."""
 
 FEWEST = 400
-"""Pixels that a band must have to be told of."""
+"""Least number of pixels in a band that is reported."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pictures:
-    """The same view at the same instant, drawn in several ways, and what each pixel shows."""
+    """One view at one instant, drawn in several ways."""
 
     lod: Picture
     all_3d: Picture
 
     msaa: Picture | None
-    """Every blade, several samples a pixel; None where the driver has not so many."""
+    """Every blade with several samples a pixel; None where the driver has too few."""
 
     truth: Truth
     other_seed: Picture
     distance: NDArray[np.int32]
-    """Discrete distance, -1 for the sky, shape (height, width)."""
+    """Discrete distance of what each pixel shows, -1 for the sky, shape (height, width)."""
 
     behind: Behind | None = None
-    """What is behind trees; None in a scene without any."""
+    """Background of the trees; None in a scene without trees."""
 
 
 def measured(take: Take, output: str | None = None, /) -> dict[str, Any]:
-    """Return what the benchmark tells of a scene; into the folder `output` goes its picture beside its reference."""
+    """Return the benchmark's figures of a scene; write its picture beside the reference into the folder `output`."""
     with course("a picture", PARTS) as way, Studio(take) as studio:
         pictures = _draw(studio, way)
-        told = head(studio.ctx, studio.prairie, take) | {"frames": 1}
+        common = head(studio.ctx, studio.prairie, take) | {"frames": 1}
         if output is not None:
             beside = np.concatenate([pictures.lod, pictures.truth.picture], axis=1)
             name = str(Path(output) / f"{Path(take.scene).stem}.png")
             picture_writer(name)(beside, about(studio.prairie.scene, take, time=studio.prairie.time))
-        return told | compare(pictures, studio.prairie.site.quality)
+        return common | compare(pictures, studio.prairie.site.quality)
 
 
 def _draw(studio: Studio, way: Course) -> Pictures:
@@ -96,7 +96,7 @@ def _draw(studio: Studio, way: Course) -> Pictures:
 
 
 def _behind(studio: Studio, view: object, projection: object, distance: NDArray[np.int32]) -> Behind:
-    """Return what trees hide in a picture that shows things at such discrete distances."""
+    """Return the background of trees in a picture; `distance` (height, width) is the discrete distance with trees."""
     with without_trees(studio.prairie):
         studio.begin()
         studio.prairie.draw(view, projection)
@@ -106,7 +106,7 @@ def _behind(studio: Studio, view: object, projection: object, distance: NDArray[
 
 
 def _every_blade(studio: Studio, view: View) -> tuple[Picture, Picture | None]:
-    """Return every blade with one sample a pixel, and with several where the driver has so many."""
+    """Return pictures of every blade with one sample a pixel, and with several or None where the driver has too few."""
     prairie, every = studio.prairie, EveryBlade(studio.prairie)
     viewer = every.outlook.viewer
     cells = cells_within(prairie.site.ground, viewer.eye, viewer.cone, sway=prairie.site.sway)
@@ -138,16 +138,16 @@ def compare(pictures: Pictures, quality: Quality) -> dict[str, object]:
         "score_msaa": score(flips, "msaa"),
         "contrast": None if kept is None else round(kept, 4),
         "bands": bands(pictures.lod, pictures.truth.picture, pictures.distance, quality),
-        "trees": None if pictures.behind is None else trees_told(pictures.lod, pictures.truth, pictures.behind),
+        "trees": None if pictures.behind is None else tree_figures(pictures.lod, pictures.truth, pictures.behind),
     }
 
 
 def score(flips: Mapping[str, float], rival: str, /) -> float | None:
-    """Return where `lod` lies between its rival and unrelated grass, by their FLIP against the reference.
+    """Return the position of `lod` between its rival and unrelated grass, by their FLIP against the reference.
 
-    It is 0 where the levels of detail are as true as the rival and 1 where they are as far off as unrelated grass. In
-    pictures so small that the rival is farther off than that, its sign still tells which of the two is truer. It is
-    None where there is no such rival, or both are as far off.
+    0: the levels of detail are as true as the rival. 1: they are as far off as unrelated grass. In pictures so small
+    that the rival is farther off than unrelated grass, the sign still says whether `lod` or the rival is truer. None
+    without a rival, or where rival and unrelated grass are equally far off.
     """
     span = abs(flips["other_seed"] - flips.get(rival, flips["other_seed"]))
     return round((flips["lod"] - flips[rival]) / span, 4) if span else None
@@ -156,11 +156,11 @@ def score(flips: Mapping[str, float], rival: str, /) -> float | None:
 def bands(
     picture: Picture, reference: Picture, distance: NDArray[np.int32], quality: Quality
 ) -> list[dict[str, object]]:
-    """Return how brightness and hue of each ring of distance compare with the reference's.
+    """Return luminance ratio and hue difference of each band of distance, against the reference.
 
     `distance` (height, width) is the discrete distance of what each pixel shows, -1 for the sky. A band's
-    colour is the mean of its pixels in display space, where all averages of pixels are taken; its luminance and hue are
-    those of the linear light of that colour.
+    colour is the mean of its pixels in display space, as for all averages of pixels. Its luminance and hue are taken
+    from the linear light of that colour.
     """
     edges = [ring.to for ring in quality.blade_rings] + [ring.to for ring in quality.strip_rings]
     edges += [quality.carpet_to, int(distance.max())]
@@ -185,19 +185,19 @@ def _representation(number: int, quality: Quality) -> str:
     return NAMES[(number >= blades) + (number >= blades + strips)]
 
 
-def _cells(told: dict[str, Any]) -> dict[str, object]:
-    """Return what a table tells of a scene: of its bands the luminance ratio and hue that are farthest off."""
-    ratios = [band["luminance_ratio"] for band in told["bands"]]
+def _cells(result: dict[str, Any]) -> dict[str, object]:
+    """Return the table's cells for a scene; of its bands, the worst luminance ratio and hue difference."""
+    ratios = [band["luminance_ratio"] for band in result["bands"]]
     return {
         "luminance": max(ratios, key=lambda ratio: abs(ratio - 1.0), default=None),
-        "hue": max((band["hue_degrees"] for band in told["bands"]), default=None),
-        "contrast": told["contrast"],
-        "flip": told["flip"]["lod"],
-        "flip_msaa": told["flip"]["msaa"],
-        "score": told["score"],
-        "score_msaa": told["score_msaa"],
+        "hue": max((band["hue_degrees"] for band in result["bands"]), default=None),
+        "contrast": result["contrast"],
+        "flip": result["flip"]["lod"],
+        "flip_msaa": result["flip"]["msaa"],
+        "score": result["score"],
+        "score_msaa": result["score_msaa"],
     }
 
 
 SURVEY = Survey(measured, "drawing every blade", _cells, kept=("bands", "trees"), need=evaluator)
-"""Pictures of many scenes."""
+"""The benchmark for many scenes."""

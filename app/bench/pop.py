@@ -1,4 +1,4 @@
-"""`tallgrass bench pop`: whether a change of representation can be seen while the wind blows and the viewer walks."""
+"""`tallgrass bench pop`: whether changes of representation are visible while the wind blows and the viewer walks."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
@@ -15,13 +15,13 @@ from ..studio.progress import counted, course
 from ..studio.studio import Studio, about
 from ..studio.take import Take
 from .crew import by_many, cores, ticked
-from .drift import Change, mean_drift, mean_ghosting, taken_together
+from .drift import Change, grouped, mean_drift, mean_ghosting
 from .flicker import MARGIN, TILE
 from .flip import evaluator, flip
 from .machine import head
 from .many import Survey
-from .sent import Asked
-from .steps import TOLD, Record, frames_of, merged, walked
+from .sent import Job
+from .steps import WORST, Record, frames_of, merged, walked
 from .stroll import Leg, climb, legs
 from .verdict import Step, Verdict
 
@@ -29,36 +29,35 @@ HARD = Transitions(morph=False, fade=False, growth=False)
 """Patches switch at once."""
 
 WHOLE = "nothing"
-"""What is left out where nothing is."""
+"""Name of the walk with complete transitions."""
 
 PARTS = ("morph", "fade", "growth", "hysteresis")
-"""What each is worth is found by leaving it out."""
+"""Parts of the transitions whose contributions are measured, each by a walk without it."""
 
 SMALLEST = TILE + 2 * MARGIN + 2
-"""Least side of a picture [pixels]."""
+"""Least side of a picture, which must have room for a tile [pixels]."""
 
 MOST_PROCESSES = 8
-"""Most processes that walk at a time, each with a prairie of its own: one for each core, up to so many."""
+"""Most processes that walk at a time, one per core, each with a prairie of its own."""
 
-KEPT = ("judged", "error", "drift", "ghosting", "over", "changing", "changes", "worst")
-"""What JSON tells of each scene in a folder, besides what a table does."""
+JSON_KEYS = ("judged", "error", "drift", "ghosting", "over", "changing", "changes", "worst")
+"""Figures of each scene in a folder that JSON has in addition to the table's."""
 
 LIMITS = {"flicker": 1.15, "drift": 0.03, "ghosting": 0.5}
-"""What is not to be seen at all stays below: the flicker's ratio, the drift of patches together, and ghosting."""
-
+"""Visibility thresholds: of the flicker ratio, of the mean drift, and of the ghosting."""
 
 AMPLIFIED = 8
-"""How many times a step is shown as large as it is."""
+"""Factor by which differences are amplified in pictures."""
 
 RED = (255, 0, 0)
 
 
 def pop_survey(*, parts: bool, hold: float | None, rising: bool) -> Survey:
-    """Return the walks through many scenes, with the options of `pop_measured`."""
+    """Return the survey of walks through many scenes, with the options of `pop_measured`."""
     measure = partial(pop_measured, parts=parts, hold=hold, rising=rising)
-    kept = KEPT + ("contributions",) * parts
-    asked = Asked(partial(measure, crew=False))
-    return Survey(measure, "walking", _cells, kept, asked, folders=True, need=evaluator)
+    keys = JSON_KEYS + ("contributions",) * parts
+    job = Job(partial(measure, crew=False))
+    return Survey(measure, "walking", _cells, keys, job, folders=True, need=evaluator)
 
 
 def must_be_large(size: tuple[int, int]) -> None:
@@ -77,29 +76,29 @@ def pop_measured(
     rising: bool = False,
     crew: bool = True,
 ) -> dict[str, Any]:
-    """Return what the benchmark tells of a walk through a scene, or when `rising` of the climb over it.
+    """Return the benchmark's figures of a walk through a scene, or if `rising` of the climb over it.
 
-    With `parts` the walk is repeated with each part of the transitions left out. Pictures of the frames that show the
-    most go into the folder `output`. With `hold`, so many frames a second are held. Without a `crew` this process walks
-    alone, to the same figures.
+    With `parts` the walk is repeated without each part of the transitions. Pictures of the worst frames go into the
+    folder `output`. `hold` is the frame rate that the governor holds [1/s]. Without a `crew` this process walks alone,
+    with the same result.
     """
     with Studio(take) as studio:
-        told = head(studio.ctx, studio.prairie, take)
+        common = head(studio.ctx, studio.prairie, take)
         walk = climb(studio.prairie) if rising else legs(studio.prairie)
-        return told | _measure(studio, walk, parts=parts, output=output, hold=hold, crew=crew)
+        return common | _measure(studio, walk, parts=parts, output=output, hold=hold, crew=crew)
 
 
 def _measure(
     studio: Studio, walk: list[Leg], *, parts: bool, output: str | None, hold: float | None, crew: bool
 ) -> dict[str, object]:
-    left_out = {WHOLE: SEAMLESS, "morph, fade, growth": HARD}
+    variants = {WHOLE: SEAMLESS, "morph, fade, growth": HARD}
     for part in PARTS if parts else ():
-        left_out[part] = replace(SEAMLESS, **{part: False})
-    records = _walks(studio, walk, left_out, hold=hold, crew=crew)
+        variants[part] = replace(SEAMLESS, **{part: False})
+    records = _walks(studio, walk, variants, hold=hold, crew=crew)
     whole = records[WHOLE]
     if output is not None:
         _save(whole.worst, output, about(studio.prairie.scene, studio.take, time=studio.prairie.time))
-    result = _told(records)
+    result = _summary(records)
     if parts:
         result["contributions"] = [
             {"without": name, **_figures(record.worst[0]), "changing": _changing(record)["mean"]}
@@ -109,47 +108,47 @@ def _measure(
 
 
 def _walks(
-    studio: Studio, walk: list[Leg], left_out: Mapping[str, Transitions], *, hold: float | None, crew: bool
+    studio: Studio, walk: list[Leg], variants: Mapping[str, Transitions], *, hold: float | None, crew: bool
 ) -> dict[str, Record]:
-    """Return the record of each walk; where frame times are to be held, nothing else goes on meanwhile."""
-    steps = {name: sum(frames_of(leg, less) for leg in walk) for name, less in left_out.items()}
-    jobs = [(name, number) for name in left_out for number in reversed(range(len(walk)))]
+    """Return the record of each variant's walk, by what it leaves out; with `hold`, one process walks alone."""
+    steps = {name: sum(frames_of(leg, transitions) for leg in walk) for name, transitions in variants.items()}
+    jobs = [(name, number) for name in variants for number in reversed(range(len(walk)))]
     workers = min(cores(), MOST_PROCESSES, len(jobs)) if crew and not hold else 1
     if workers > 1:
-        asked = [(studio.take, walk, left_out[name], number, _kept(name)) for name, number in jobs]
-        found = by_many(leg_walked, asked, workers=workers, steps=sum(steps.values()), doing="walking")
+        arguments = [(studio.take, walk, variants[name], number, _kept(name)) for name, number in jobs]
+        found = by_many(leg_walked, arguments, workers=workers, steps=sum(steps.values()), doing="walking")
         by_job = dict(zip(jobs, found, strict=True))
-        return {name: merged(by_job[name, number] for number in range(len(walk))) for name in left_out}
+        return {name: merged(by_job[name, number] for number in range(len(walk))) for name in variants}
     records = {}
     with course("walking", steps) as way:
-        for name, less in left_out.items():
+        for name, transitions in variants.items():
             with way.part(name):
                 watch = partial(_counted, doing=f"without {name}")
-                held = 1.0 / hold if hold else None
-                records[name] = walked(studio, walk, less, watch=watch, hold=held, told=_kept(name))
+                frame_time = 1.0 / hold if hold else None
+                records[name] = walked(studio, walk, transitions, watch=watch, hold=frame_time, kept=_kept(name))
     return records
 
 
 def _kept(name: str) -> int:
-    """Return how many of the worst frames are told of."""
-    return TOLD if name == WHOLE else 1
+    """Return the number of worst frames to keep."""
+    return WORST if name == WHOLE else 1
 
 
 def _counted(steps: Iterator[Step], total: int, *, doing: str) -> Iterator[Step]:
     return counted(steps, total=total, doing=doing)
 
 
-def leg_walked(take: Take, walk: list[Leg], transitions: Transitions, number: int, told: int, /) -> Record:
-    """Return the record of one leg of a walk, in a process of a crew."""
+def leg_walked(take: Take, walk: list[Leg], transitions: Transitions, number: int, kept: int, /) -> Record:
+    """Walk a single leg in a process of a crew, and return its record."""
     with Studio(take) as studio:
-        return walked(studio, walk, transitions, watch=lambda steps, _: ticked(steps), only=number, told=told)
+        return walked(studio, walk, transitions, watch=lambda steps, _: ticked(steps), only=number, kept=kept)
 
 
-def _told(records: Mapping[str, Record]) -> dict[str, object]:
+def _summary(records: Mapping[str, Record]) -> dict[str, object]:
     whole = records[WHOLE]
     errors = [flip(picture, reference) for picture, reference in whole.stills]
     flicker, drift, ghosting = _figures(whole.worst[0]), _drift(whole.changes), _ghosting(whole.changes)
-    most = {"flicker": flicker["ratio"], "drift": drift["mean"], "ghosting": ghosting["max"]}
+    measured = {"flicker": flicker["ratio"], "drift": drift["mean"], "ghosting": ghosting["max"]}
     return {
         "frames": len(whole.changing),
         "judged": whole.judged,
@@ -158,7 +157,7 @@ def _told(records: Mapping[str, Record]) -> dict[str, object]:
         "hard_switch_ratio": _figures(records["morph, fade, growth"].worst[0])["ratio"],
         "drift": drift,
         "ghosting": ghosting,
-        "over": [name for name, limit in LIMITS.items() if most[name] > limit],
+        "over": [name for name, limit in LIMITS.items() if measured[name] > limit],
         "changing": _changing(whole),
         "changes": _changes(whole.changes),
         "worst": [_row(verdict) for verdict in whole.worst],
@@ -197,11 +196,11 @@ def _ghosting(changes: list[Change]) -> dict[str, Any]:
 
 
 def _groups(changes: list[Change]) -> list[list[Change]]:
-    return [group for those in _by_name(changes).values() for group in taken_together(those)]
+    return [group for those in _by_name(changes).values() for group in grouped(those)]
 
 
 def _changes(changes: list[Change]) -> list[dict[str, object]]:
-    """Return a row for each change that patches made: how many did, and what that did to them at most."""
+    """Return a row for each change: the number of patches that made it, and its largest effects."""
     rows: list[dict[str, object]] = []
     for name, those in sorted(_by_name(changes).items()):
         drift = _drift(those)
@@ -227,14 +226,14 @@ def _changing(record: Record) -> dict[str, float]:
     return {"mean": round(float(np.mean(record.changing)), 2), "max": max(record.changing)}
 
 
-def _cells(told: dict[str, Any]) -> dict[str, object]:
-    """Return what a table tells of a walk through a scene."""
+def _cells(result: dict[str, Any]) -> dict[str, object]:
+    """Return the table's cells for a walk through a scene."""
     return {
-        "flicker": told["flicker"]["ratio"],
-        "hard": told["hard_switch_ratio"],
-        "drift": told["drift"]["mean"],
-        "ghosting": told["ghosting"]["max"],
-        "over": " ".join(told["over"]) or None,
+        "flicker": result["flicker"]["ratio"],
+        "hard": result["hard_switch_ratio"],
+        "drift": result["drift"]["mean"],
+        "ghosting": result["ghosting"]["max"],
+        "over": " ".join(result["over"]) or None,
     }
 
 
@@ -259,13 +258,13 @@ def _save(verdicts: list[Verdict], folder: str, about: Mapping[str, str], /) -> 
 
 
 def _evidence(verdict: Verdict, /) -> Picture:
-    """Return the frame with its tile framed, and beside it its changes of representation, (height, 2 * width, 3).
+    """Return the frame with its tile outlined, beside its difference from the held frame, (height, 2 * width, 3).
 
-    They are shown `AMPLIFIED`.
+    The difference is multiplied by `AMPLIFIED`.
     """
     now, held = verdict.step.now, verdict.step.held
-    step = np.minimum(np.abs(now.astype(np.int16) - held) * AMPLIFIED, 255).astype(np.uint8)
+    difference = np.minimum(np.abs(now.astype(np.int16) - held) * AMPLIFIED, 255).astype(np.uint8)
     framed, (left, top) = now.copy(), verdict.corner
     framed[[top, top + TILE - 1], left : left + TILE] = RED
     framed[top : top + TILE, [left, left + TILE - 1]] = RED
-    return np.concatenate([framed, step], axis=1)
+    return np.concatenate([framed, difference], axis=1)

@@ -1,4 +1,4 @@
-"""What frames cost on the CPU alone: measured in a child process whose driver draws nothing."""
+"""The cost of frames on the CPU alone, measured in a child process whose driver draws nothing."""
 
 import json
 import os
@@ -9,14 +9,14 @@ from typing import Any
 from ..studio.take import Take, words_of
 
 NOOP = {"GALLIUM_NOOP": "1"}
-"""What tells Mesa to take every command and draw nothing; other drivers do not know it."""
+"""Environment by which Mesa accepts every command and draws nothing; other drivers ignore it."""
 
 LONGEST = 900.0
-"""How long the child may take [s]."""
+"""Timeout of the child process [s]."""
 
 
 def on_processor(take: Take, /, *, walk: bool = False) -> dict[str, Any] | None:
-    """Return what the module `noop` tells of a take, or None where no driver does without drawing, or it fails."""
+    """Return the figures of the module `noop` for a take, or None where the driver always draws or the child fails."""
     command = [sys.executable, "-m", f"{__package__}.noop", *["--walk"] * walk, *words_of(take)]
     try:
         done = subprocess.run(  # noqa: S603 - it is our own module
@@ -31,5 +31,5 @@ def on_processor(take: Take, /, *, walk: bool = False) -> dict[str, Any] | None:
     except (OSError, subprocess.TimeoutExpired):
         return None
     lines = done.stdout.splitlines()
-    told: dict[str, Any] | None = json.loads(lines[-1]) if done.returncode == 0 and lines else None
-    return told
+    result: dict[str, Any] | None = json.loads(lines[-1]) if done.returncode == 0 and lines else None
+    return result

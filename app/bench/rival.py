@@ -1,4 +1,4 @@
-"""A rival to measure against: the same scene, drawn the way one would by hand without what this engine does."""
+"""A rival to measure against: the same scene, drawn by common techniques, without this engine's."""
 
 from math import ceil, cos, radians, sin
 
@@ -22,23 +22,23 @@ from ...systems.tile import patch_models
 from ...systems.wind.breeze import Breeze
 
 NEAR, MIDDLE = 10.0, 30.0
-"""Distances at which a level ends [m]; the third level is the rest."""
+"""Distances at which the first two of three levels end [m]."""
 
 FULL = 12.0
-"""Distance up to which every blade stands [m]. One is about a pixel wide there: beyond stand fewer, wider ones."""
+"""Distance up to which every blade is drawn [m]. Blades are about a pixel wide there: beyond are fewer, wider ones."""
 
 CHUNK = 32
-"""Blades that are drawn or left out together."""
+"""Number of blades that are drawn or left out together."""
 
 WIDTH = 2048
-"""Texels along a row of the textures that hold numbers."""
+"""Width of the data textures [texels]."""
 
 
 class ByHand:
-    """Grass on tiles culled to the frustum: three levels of segments, thinned by distance, each one instanced draw.
+    """Grass on tiles culled to the frustum and thinned by distance: three levels of segments, an instanced draw each.
 
-    It has the same blades, light and ground. They sway in the first breeze of the scene, worked out by the graphics
-    card. Nothing is blended: edges are as smooth as the framebuffer's samples make them.
+    Blades, light and ground are the engine's. Blades sway in the scene's first breeze, computed by the graphics card.
+    Nothing is blended: edges are as smooth as the framebuffer's samples make them.
     """
 
     def __init__(self, painter: Painter, site: Site) -> None:
@@ -68,7 +68,7 @@ class ByHand:
         return made
 
     def _lay_tiles(self) -> None:
-        """Work out once where tiles are, which blades stand on them, and how they are bounded."""
+        """Compute the tiles once: places, patch models, and bounding spheres."""
         site, patch = self._site, self._site.ground.patch
         cells = terrain_cells(site.ground)
         model, turn = patch_models(cells, seed=site.scene.seed, models=site.quality.models)
@@ -86,7 +86,7 @@ class ByHand:
         self._tile[:, 1] = heights
 
     def cull(self, view: View) -> None:
-        """Choose the tiles that are seen, and how many blades of each, and send them."""
+        """Choose the visible tiles and their numbers of blades, and upload them."""
         eye = np.array(view.eye)
         planes = picture_sides(view, ends=True).astype(np.float32)
         seen = np.flatnonzero(outside_planes(self._middle, planes) <= self._radius)
@@ -103,7 +103,7 @@ class ByHand:
         self._chunks = _packed(self._ctx, texels.reshape(-1, 4), self._chunks)
 
     def draw(self, view: View, *, time: float) -> None:
-        """Draw the frame of an instant [s] into the framebuffer that is bound, on the ground that was laid last."""
+        """Draw the frame of an instant [s] into the bound framebuffer, on the carpet that was laid last."""
         self.cull(view)
         self._painter.draw(view, blades=[])
         self._ctx.enable_only(moderngl.DEPTH_TEST)
@@ -124,7 +124,7 @@ class ByHand:
 
 
 def _blade_texels(stock: BladeStock, order: NDArray[np.intp]) -> Floats:
-    """Return the blades of all tiles in the order in which thinning leaves them out last, shape (n, 4)."""
+    """Return the texels of all tiles' blades, shape (n, 4), in the `order` in which thinning keeps them longest."""
     turns = np.repeat(order, 4, axis=0)
     records = np.take_along_axis(stock.records, turns, axis=1)
     texels = np.zeros((*records.shape, 3, 4), np.float32)
@@ -137,7 +137,7 @@ def _blade_texels(stock: BladeStock, order: NDArray[np.intp]) -> Floats:
 
 
 def _packed(ctx: moderngl.Context, texels: Floats, texture: moderngl.Texture | None = None) -> moderngl.Texture:
-    """Return a texture that holds texels (n, 4) row after row: the one that there is, or a larger one in its place."""
+    """Write texels (n, 4) row by row into `texture`, or into a larger one that replaces it; return the texture."""
     rows = max(1, ceil(len(texels) / WIDTH))
     if texture is None or texture.height < rows:
         release_all(texture)

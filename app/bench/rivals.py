@@ -1,4 +1,4 @@
-"""The rivals before the same camera: what their frames take, and how true their pictures are."""
+"""The rivals before the same camera: their frame times, and the fidelity of their pictures."""
 
 from collections.abc import Sequence
 
@@ -15,11 +15,11 @@ from .still import Still
 HARD, SMOOTH = "by hand", "by hand, 4 samples a pixel"
 
 WARM_UP = 3
-"""Draws of each that are not measured."""
+"""Number of unmeasured draws of each."""
 
 
 class Rivals:
-    """What one would draw by hand, with hard edges, and with smooth ones where the driver has samples for them."""
+    """Grass drawn by hand, with hard edges, and with smooth ones where the driver has enough samples."""
 
     def __init__(self, still: Still) -> None:
         self._still, self._ctx = still, still.studio.ctx
@@ -34,7 +34,7 @@ class Rivals:
         self.times = {name: [] for name in self.times}
 
     def measure(self) -> None:
-        """Draw this instant once in each way, and keep how long that takes."""
+        """Draw this instant once in each way, and keep the times."""
         self._carpet.lay(self._outlook, None)
         self._add(HARD, timed(self._ctx, self._draw_hard))
         if self._fine.smooth:
@@ -55,9 +55,9 @@ class Rivals:
         self._fine.resolve(target)
 
     def rows(self, ours: Sequence[float]) -> list[dict[str, object]]:
-        """Return a row for each; `ours` are the times of our own frames [ms].
+        """Return a row for each rival; `ours` are the times of the engine's frames [ms].
 
-        The prairie moves on to the instant of `bench picture`, so that `flip` compares with that one's.
+        The prairie moves on to the instant of `bench picture`, so that the values of `flip` compare with its values.
         """
         taken = {name: float(np.median(times)) for name, times in self.times.items()}
         flips = self._flips()
@@ -72,7 +72,7 @@ class Rivals:
         ]
 
     def _flips(self) -> dict[str, float]:
-        """Return how far each one's picture is from the reference; nothing where pictures cannot be compared."""
+        """Return the FLIP of each rival's picture against the reference; empty where pictures cannot be compared."""
         from .flip import MOMENT, evaluator, flip
 
         try:

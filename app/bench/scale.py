@@ -20,34 +20,36 @@ from ..studio.take import Take, words_of
 from ..studio.walker import MARGIN
 from .machine import head, resident_mb
 from .many import Survey
-from .sent import Asked
+from .sent import Job
 from .stroll import RATE, SECONDS, legs
 from .walk import paced
 
 Row = dict[str, float | None]
 
 BAD_INPUT = 2
-"""The exit status of a command that was told something wrong."""
+"""Exit status of a command with bad input."""
 
 SIDES = (100.0, 1000.0, 10000.0)
 """Sides of the terrains [m]."""
 
 
 def scale_measured(take: Take, output: str | None = None, /) -> dict[str, Any]:
-    """Return what the benchmark tells of a scene on larger and larger terrains, each in a process of its own.
+    """Return the benchmark's figures of a scene on larger and larger terrains, each in a process of its own.
 
-    It draws no pictures: nothing goes to `output`. Raises InputError where the scene's terrain is not made from noise.
+    It writes no pictures to `output`. Raises InputError where the scene's terrain is not made from noise.
     """
     del output
     if read_scene(take.scene).scene.terrain.heights is not None:
         raise InputError(f"{take.scene}: its terrain comes from a file; only one from noise can be stretched")
-    with Studio(take) as studio:  # that grows the scene's grass: no row pays for it
-        told = head(studio.ctx, studio.prairie, take)
-    rows = list(counted(map(partial(_alone, take), SIDES), total=len(SIDES), doing="larger and larger terrains"))
-    return {**told, "frames": round(SECONDS * RATE), "rows": rows}
+    with Studio(take) as studio:  # this grows and caches the grass, so that no row includes it
+        common = head(studio.ctx, studio.prairie, take)
+    rows = list(
+        counted(map(partial(_in_new_process, take), SIDES), total=len(SIDES), doing="larger and larger terrains")
+    )
+    return {**common, "frames": round(SECONDS * RATE), "rows": rows}
 
 
-def _alone(take: Take, side: float) -> Row:
+def _in_new_process(take: Take, side: float) -> Row:
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
         return pool.submit(_measured, take, side).result()
 
@@ -67,9 +69,9 @@ def _measured(take: Take, side: float) -> Row:
 
 
 def measured_apart(take: Take, output: str | None = None, /) -> dict[str, Any]:
-    """Return what `scale_measured` tells, by a process begun for it: a worker's own may not begin others.
+    """Return the result of `scale_measured` from a new process: a worker's process may not start others.
 
-    Raises InputError and MachineError with what that process says of its own.
+    Raises InputError and MachineError with that process's message.
     """
     del output
     command = [sys.executable, "-m", "tallgrass", "bench", "scale", "--json", *words_of(take)]
@@ -78,27 +80,27 @@ def measured_apart(take: Take, output: str | None = None, /) -> dict[str, Any]:
     )  # fmt: skip
     if done.returncode:
         raise (InputError if done.returncode == BAD_INPUT else MachineError)(done.stderr.strip())
-    told: dict[str, Any] = loads(done.stdout)
-    return told
+    result: dict[str, Any] = loads(done.stdout)
+    return result
 
 
-def _cells(told: dict[str, Any]) -> dict[str, object]:
-    """Return what a table tells of a scene: its frames by the sides of the terrains, and the largest one's memory."""
-    frames = {f"ms_{row['terrain_m']:.0f}_m": row["frame_ms"] for row in told["rows"]}
-    return {**frames, "rss_mb": told["rows"][-1]["rss_mb"], "first_ms": told["rows"][-1]["first_frame_ms"]}
+def _cells(result: dict[str, Any]) -> dict[str, object]:
+    """Return the table's cells for a scene: frame times by terrain side, memory and first frame of the largest."""
+    frames = {f"ms_{row['terrain_m']:.0f}_m": row["frame_ms"] for row in result["rows"]}
+    return {**frames, "rss_mb": result["rows"][-1]["rss_mb"], "first_ms": result["rows"][-1]["first_frame_ms"]}
 
 
 SURVEY = Survey(
-    scale_measured, "larger and larger terrains", _cells, kept=("rows",), asked=Asked(measured_apart, timed=True)
+    scale_measured, "larger and larger terrains", _cells, kept=("rows",), job=Job(measured_apart, timed=True)
 )
-"""Larger and larger terrains of many scenes."""
+"""The benchmark for many scenes."""
 
 
 def stretched(loaded: LoadedScene, side: float, /) -> LoadedScene:
-    """Return a scene on a square terrain of this side [m], its camera on it."""
+    """Return a scene on a square terrain of this side [m], with its camera moved onto it."""
     scene = loaded.scene
     half = side / 2.0 - MARGIN
-    place = [min(max(part, -half), half) for part in scene.camera.position]
+    place = [min(max(coordinate, -half), half) for coordinate in scene.camera.position]
     return replace(
         loaded,
         scene=scene.model_copy(

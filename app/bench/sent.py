@@ -17,72 +17,71 @@ from ..studio.encode import make_folder
 from ..studio.progress import unseen
 from ..studio.take import Take
 
-Told = dict[str, Any]
+Result = dict[str, Any]
+"""Figures of a benchmark, as its JSON has them."""
 
-Measure = Callable[[Take, str | None], Told]
-"""Returns what a benchmark tells of a take; where a folder is given, its pictures go there."""
+Measure = Callable[[Take, str | None], Result]
+"""Measures a take; if a folder is given, writes the benchmark's pictures there."""
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
-    """What workers are asked for each scene."""
+class Job:
+    """A benchmark that workers run for each scene."""
 
     measure: Measure
-    """It is a function of a module, or a part of one: by its name workers find it."""
+    """A function of a module, or a `partial` of one: workers import it by name."""
 
     timed: bool = False
-    """Whether it tells of time: then no machine does it for two scenes at once."""
+    """Whether it measures time: then no machine runs it for two scenes at once."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Found:
-    """What a worker found out about a scene."""
+class Finding:
+    """A worker's result for a scene."""
 
-    told: dict[str, Any]
-    """The benchmark's figures."""
+    result: Result
+    """Figures of the benchmark."""
 
     pictures: Mapping[str, bytes]
-    """Its pictures as files, by their names, where they were asked for."""
+    """Contents of its picture files by name; empty unless they were asked for."""
 
 
-def measured_on(
-    on: str, asked: Asked, takes: Sequence[Take], outputs: Sequence[str | None], /
-) -> Iterator[dict[str, Any]]:
-    """Yield what a benchmark tells of each scene, in their order, as the workers of a place find it out.
+def measured_on(on: str, job: Job, takes: Sequence[Take], outputs: Sequence[str | None], /) -> Iterator[Result]:
+    """Yield the result of each scene, in the order of `takes`, measured by workers.
 
-    `on` is a place as `hired` takes it. Into the folders `outputs`, one for each scene, go its pictures; None is
-    nowhere. Raises what `hired` raises, and InputError where a scene names a file outside its folder.
+    `on` is a place as `hired` takes it. `outputs` are the folders for each scene's pictures, None for no pictures.
+    Raises what `hired` raises, and InputError where a scene names a file outside its folder.
     """
     parcels = [packed(take, read_scene(take.scene)) for take in takes]
-    with hired(on, most=1 if asked.timed else len(takes)) as hands:
-        pieces = ((parcel, asked, output is not None) for parcel, output in zip(parcels, outputs, strict=True))
-        for take, output, each in zip(takes, outputs, hands.in_order(found, pieces), strict=True):
+    with hired(on, most=1 if job.timed else len(takes)) as hands:
+        pieces = ((parcel, job, output is not None) for parcel, output in zip(parcels, outputs, strict=True))
+        for take, output, finding in zip(takes, outputs, hands.in_order(measured_here, pieces), strict=True):
             if output is not None:
                 make_folder(Path(output))
-                for name, data in each.pictures.items():
+                for name, data in finding.pictures.items():
                     (Path(output) / name).write_bytes(data)
-            yield {**each.told, "scene": take.scene}
+            yield {**finding.result, "scene": take.scene}
 
 
-def found(parcel: Parcel, asked: Asked, pictures: bool, /) -> Found:  # noqa: FBT001 - Dask hands on what it is given in order
-    """Do a benchmark for the scene of a parcel, in a worker of Dask's."""
+def measured_here(parcel: Parcel, job: Job, pictures: bool, /) -> Finding:  # noqa: FBT001 - Dask hands on what it is given in order
+    """Run a benchmark for the scene of a parcel, in a Dask worker."""
     scratch = str(need_distributed().get_worker().local_directory)
-    with _alone() if asked.timed else nullcontext():
-        return in_drawing_thread(lambda: _found(parcel, asked.measure, scratch, pictures=pictures))
+    with _machine_lock() if job.timed else nullcontext():
+        return in_drawing_thread(lambda: _measured(parcel, job.measure, scratch, pictures=pictures))
 
 
-def _alone() -> AbstractContextManager[Any]:
-    """Return what no two workers of a machine are in at a time; of one that is lost, it is taken away."""
-    turn: AbstractContextManager[Any] = need_distributed().Semaphore(max_leases=1, name=f"tallgrass on {node()}")
-    return turn
+def _machine_lock() -> AbstractContextManager[Any]:
+    """Return a lock that one worker of a machine holds at a time; a lost worker loses it."""
+    lock: AbstractContextManager[Any] = need_distributed().Semaphore(max_leases=1, name=f"tallgrass on {node()}")
+    return lock
 
 
-def _found(parcel: Parcel, measure: Measure, scratch: str, *, pictures: bool) -> Found:
+def _measured(parcel: Parcel, measure: Measure, scratch: str, *, pictures: bool) -> Finding:
     with TemporaryDirectory(prefix="scene-", dir=scratch) as folder, told_in_lines(), unseen():
         take = unpack(parcel, Path(folder))
         drawn = Path(folder) / "pictures"
         if not pictures:
-            return Found(measure(take, None), {})
+            return Finding(measure(take, None), {})
         drawn.mkdir()
-        told = measure(take, str(drawn))
-        return Found(told, {path.name: path.read_bytes() for path in sorted(drawn.iterdir())})
+        result = measure(take, str(drawn))
+        return Finding(result, {path.name: path.read_bytes() for path in sorted(drawn.iterdir())})

@@ -1,8 +1,7 @@
-"""A walk: the frames in which changes of representation show the most, and what patches look like on their way.
+"""A walk: the frames in which changes of representation are most visible, and the patches during their changes.
 
 Every frame is drawn twice: as it is, and held, that is with every patch and tree shown as in the frame before. The two
-differ by that frame's changes of representation and by nothing else; changes of orientation and of sub-levels are among
-them.
+differ by nothing but the frame's changes of representation, those of orientation and sub-level included.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -23,42 +22,42 @@ from .truth import Truth
 from .verdict import Step, Verdict, judge
 
 Watch = Callable[[Iterator[Step], int], Iterator[Step]]
-"""Passes the steps of a walk on, and knows how many there are."""
+"""Passes the steps of a walk on, given their number; it may show progress."""
 
-TOLD = 6
-"""Frames that are told of."""
+WORST = 6
+"""Number of worst frames in the result."""
 
-AT_ONCE = 0.25
-"""How much of a leg is walked where patches switch at once: they do it at its border [s]."""
+SWITCHING = 0.25
+"""Time walked of a leg where patches switch at once, which happens at its border [s]."""
 
 SETTLING = 90
-"""Frames before each leg in which a frame time comes to be held."""
+"""Number of frames before each leg in which the governor adapts."""
 
 CHANGING = ("tile", "cull", "lod", "transition", "see", "plant")
-"""The systems that decide what is shown, and how."""
+"""Systems that decide what is shown, and how."""
 
 DECIDING = CHANGING[:4]
-"""Those that say how far patches are on their way."""
+"""Systems that choose representations and advance their changes."""
 
 
 @dataclass(slots=True, eq=False)
 class Record:
-    """What a walk has shown."""
+    """Measurements of a walk, or of one leg."""
 
     worst: list[Verdict] = field(default_factory=list)
-    """The frames whose changes show the most, the worst first."""
+    """Verdicts on the frames with the most visible changes, the worst first."""
 
     judged: int = 0
-    """Frames that were held against the reference; in all others changes show less than in the last of the worst."""
+    """Number of frames compared with the reference; in all others changes are less visible than in those of `worst`."""
 
     changing: list[int] = field(default_factory=list)
-    """Patches in transition, by frame."""
+    """Number of patches in transition, by frame."""
 
     stills: list[tuple[Picture, Picture]] = field(default_factory=list)
-    """The frame in the middle of each leg, and its reference, where nothing is left out of the transitions."""
+    """Middle frame of each leg, and its reference; empty unless transitions are complete."""
 
     changes: list[Change] = field(default_factory=list)
-    """What patches looked like on their way from one representation or sub-level to another, where nothing is."""
+    """Changes of representation or sub-level, as patches looked in them; empty unless transitions are complete."""
 
 
 def walked(
@@ -70,13 +69,13 @@ def walked(
     watch: Watch,
     hold: float | None = None,
     only: int | None = None,
-    told: int = TOLD,
+    kept: int = WORST,
 ) -> Record:
-    """Walk through the studio's scene with these transitions, and return what has been seen.
+    """Walk through the studio's scene with these transitions, and return the measurements.
 
-    `watch` is told of the steps and of how many there are. With `hold`, frames are held to a time [s]. Of the leg
-    `only` the frames are drawn; those before are followed, so that the records of all legs are that of the walk. `told`
-    frames are kept of the worst.
+    `watch` gets the steps and their number. With `hold`, the governor holds this frame time [s]. With `only`, just the
+    leg of this index is drawn; the legs before are followed without drawing, so that `merged` records of single legs
+    equal the record of the walk. `kept` is the number of worst frames in the record.
     """
     take = studio.take
     prairie = Prairie.load(
@@ -88,16 +87,16 @@ def walked(
     try:
         with Truth(studio, walk) as truth:
             _follow(studio, prairie, frames[: only or 0])
-            seen = {leg.name: _Seen(studio, prairie, truth, told) for leg in walk}
+            judges = {leg.name: _Judge(studio, prairie, truth, kept) for leg in walk}
             for step in watch(_steps(studio, prairie, drawn), sum(len(leg) - 1 for leg in drawn)):
-                seen[step.moment.leg.name].see(step)
+                judges[step.moment.leg.name].judge(step)
     finally:
         prairie.release()
-    return merged((each.record for each in seen.values()), told=told)
+    return merged((each.record for each in judges.values()), kept=kept)
 
 
-def merged(records: Iterable[Record], /, *, told: int = TOLD) -> Record:
-    """Return the record of a walk from those of its legs, in their order, with `told` frames of the worst."""
+def merged(records: Iterable[Record], /, *, kept: int = WORST) -> Record:
+    """Return the record of a walk from the records of its legs, in their order, with the `kept` worst frames."""
     whole = Record()
     for each in records:
         whole.worst.extend(each.worst)
@@ -105,39 +104,39 @@ def merged(records: Iterable[Record], /, *, told: int = TOLD) -> Record:
         whole.changing.extend(each.changing)
         whole.stills.extend(each.stills)
         whole.changes.extend(each.changes)
-    whole.worst.sort(key=lambda one: -one.ratio)
-    del whole.worst[told:]
+    whole.worst.sort(key=lambda verdict: -verdict.ratio)
+    del whole.worst[kept:]
     return whole
 
 
 def frames_of(leg: Leg, transitions: Transitions, /) -> int:
-    """Return how many frames of a leg are judged with these transitions."""
-    seconds = AT_ONCE if leg.by_border and not transitions.gradual else stroll.SECONDS
+    """Return the number of frames of a leg that are judged with these transitions."""
+    seconds = SWITCHING if leg.by_border and not transitions.gradual else stroll.SECONDS
     return round(seconds * stroll.RATE)
 
 
-class _Seen:
-    """What is made of the frames of a leg, one after the other."""
+class _Judge:
+    """Judges the frames of a leg, in their order."""
 
-    def __init__(self, studio: Studio, prairie: Prairie, truth: Truth, told: int) -> None:
-        self._studio, self._prairie, self._truth, self._told = studio, prairie, truth, told
+    def __init__(self, studio: Studio, prairie: Prairie, truth: Truth, kept: int) -> None:
+        self._studio, self._prairie, self._truth, self._kept = studio, prairie, truth, kept
         self.record = Record()
         self._samples: list[Sample] = []
         whole = prairie.site.transitions == SEAMLESS
         self._due = sampled_frames() if whole else []
         self._still = round(stroll.SECONDS * stroll.RATE) // 2 if whole else 0
 
-    def see(self, step: Step) -> None:
-        """Judge a frame, and keep what is to be told of it."""
+    def judge(self, step: Step) -> None:
+        """Judge a frame, and add it to the record."""
         record, truth = self.record, self._truth
         record.changing.append(step.changing)
-        least = max(1.0, record.worst[-1].ratio) if len(record.worst) == self._told else 0.0
+        least = max(1.0, record.worst[-1].ratio) if len(record.worst) == self._kept else 0.0
         verdict = judge(step, truth, unless_below=least)
         if verdict is not None:
             record.judged += 1
             record.worst.append(verdict)
-            record.worst.sort(key=lambda one: -one.ratio)
-            del record.worst[self._told :]
+            record.worst.sort(key=lambda each: -each.ratio)
+            del record.worst[self._kept :]
         if step.moment.number in self._due:
             self._sample(step)
         if step.moment.number == self._still:
@@ -156,18 +155,18 @@ class _Seen:
 def _steps(studio: Studio, prairie: Prairie, frames: Iterable[list[Moment]]) -> Iterator[Step]:
     for leg in frames:
         _settle(studio, prairie, leg[0])
-        _go(studio, prairie, leg[0], time=leg[0].time - REST / 2)
-        earlier, before = leg[0], _go(studio, prairie, leg[0])
+        _draw(studio, prairie, leg[0], time=leg[0].time - REST / 2)
+        earlier, before = leg[0], _draw(studio, prairie, leg[0])
         for moment in leg[1:]:
             with held(prairie):
-                without = _go(studio, prairie, moment)
-            now = _go(studio, prairie, moment)
+                without = _draw(studio, prairie, moment)
+            now = _draw(studio, prairie, moment)
             yield Step(earlier, moment, before, now, without, prairie.statistics.transitions)
             earlier, before = moment, now
 
 
 def _follow(studio: Studio, prairie: Prairie, frames: Iterable[list[Moment]]) -> None:
-    """Let the prairie go through legs as `_steps` does, without a picture."""
+    """Take the prairie through legs as `_steps` does, without drawing."""
     for leg in frames:
         begin = replace(leg[0], time=leg[0].time - REST / 2)
         for moment in (begin, *leg):
@@ -176,13 +175,13 @@ def _follow(studio: Studio, prairie: Prairie, frames: Iterable[list[Moment]]) ->
 
 
 def _settle(studio: Studio, prairie: Prairie, moment: Moment) -> None:
-    """Let what holds the frame time find out what frames take before any counts."""
+    """Let the governor adapt before frames are judged, where it holds a frame time."""
     if prairie.governor.hold is not None:
         for part in np.linspace(1.0, 0.5, SETTLING):
-            _go(studio, prairie, moment, time=moment.time - REST * part)
+            _draw(studio, prairie, moment, time=moment.time - REST * part)
 
 
-def _go(studio: Studio, prairie: Prairie, moment: Moment, *, time: float | None = None) -> Picture:
+def _draw(studio: Studio, prairie: Prairie, moment: Moment, *, time: float | None = None) -> Picture:
     prairie.advance(max(0.0, (moment.time if time is None else time) - prairie.time))
     studio.begin()
     prairie.draw(*studio.matrices(moment.camera))
@@ -191,10 +190,10 @@ def _go(studio: Studio, prairie: Prairie, moment: Moment, *, time: float | None 
 
 @contextmanager
 def held(prairie: Prairie, *, systems: tuple[str, ...] = CHANGING) -> Iterator[None]:
-    """Let all patches and trees be shown as the frame before showed them, seen from where the viewer is, in that wind.
+    """Show all patches and trees meanwhile as in the frame before, from the current viewpoint and in the current wind.
 
-    What is drawn meanwhile is the next frame without its changes of representation. Afterwards it never was: the next
-    frame follows the one before. `systems` are those that rest meanwhile, of what decides what is shown.
+    A frame drawn inside is the next frame without its changes of representation. It leaves no trace: the next frame
+    drawn outside follows the one before. `systems` are disabled meanwhile.
     """
     stopped = [system.name for system in prairie.systems if system.enabled and system.name in systems]
     outlook = prairie.viewers["main"]

@@ -10,17 +10,17 @@ from ..studio.studio import Studio
 from ..studio.timing import timed
 
 FRAMES = 60
-"""Frames measured."""
+"""Number of frames measured."""
 
 WARM_UP = 40
-"""Frames drawn before, not measured: until the entities of all patches are there."""
+"""Number of frames drawn before, unmeasured, until all patches have their entities."""
 
 STEP = 1.0 / 60.0
 """Time between frames [s]."""
 
 
 class Still:
-    """The scene of a studio as its fixed camera sees it; the first frames have been drawn."""
+    """A studio's scene before its fixed camera, warmed up."""
 
     def __init__(self, studio: Studio) -> None:
         self.studio = studio
@@ -36,13 +36,13 @@ class Still:
         self.studio.prairie.draw(*self.matrices)
 
     def hear(self) -> float:
-        """Let all receivers hear the winds of this instant once more, and return how long that takes [ms]."""
+        """Let all receivers hear the winds of this instant once more, and return the time that takes [ms]."""
         painter = self.studio.prairie.painter
         assert painter is not None
         return timed(self.studio.ctx, partial(painter.hear, self.view))
 
     def step(self, timer: moderngl.Query | None = None) -> float:
-        """Draw the next frame, and return how long that takes [ms]; a `timer` times the graphics card meanwhile."""
+        """Draw the next frame, and return the time that takes [ms]; `timer` measures the graphics card meanwhile."""
         self.studio.prairie.advance(STEP)
 
         def frame() -> None:

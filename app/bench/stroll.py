@@ -1,4 +1,4 @@
-"""The walk and the climb that changes are measured on: the same every time, and laid out in any scene."""
+"""The walk and the climb on which changes of representation are measured: planned for a scene, the same every time."""
 
 import math
 from collections.abc import Iterator
@@ -13,40 +13,40 @@ from ...systems.wind.gust import Gust
 from ..studio.walker import EYE, FLY, MARGIN
 
 RATE = 30
-"""Frames per second: what pops, pops from one frame to the next, however short a frame is."""
+"""Frames per second. The rate matters little: popping happens between two frames, however short they are."""
 
 PACE = 1.6
-"""How fast the walker goes [m/s]."""
+"""Walking speed [m/s]."""
 
 TURN = math.radians(20.0)
-"""How fast it turns its head where it does [rad/s]."""
+"""Rate of turning and of tilting the head [rad/s]."""
 
 PITCH = math.radians(-5.0)
-"""Where it looks."""
+"""Camera pitch on the walk [rad]."""
 
 LEAD = 0.12
-"""When each leg comes to the first border between patches [s]: between two frames, never on one."""
+"""Time in a leg at which it crosses the first border between patches [s]: between two frames, never on one."""
 
 SECONDS = 1.4
-"""How long a leg lasts: its patches change, and are done [s]."""
+"""Duration of a leg, in which its patches change and finish changing [s]."""
 
 REST = 4.0
-"""Time between two legs, in which everything settles [s]."""
+"""Pause between two legs, in which everything settles [s]."""
 
 BEHIND = 12.0
-"""How far before and behind a crest the ground must be lower [m]."""
+"""Distance before and behind a crest at which the ground must be lower [m]."""
 
 RISE = 0.5
-"""By how much it must be [m]."""
+"""Least height of a crest above the ground there [m]."""
 
 SEARCHED = 90.0
-"""How far from the camera a crest is looked for [m]."""
+"""Half the side of the square around the camera in which a crest is searched [m]."""
 
 TOP = 60.0
-"""How high above the ground the climb ends [m]."""
+"""Height above the ground at which the climb ends [m]."""
 
 DOWN = math.radians(90.0)
-"""How far below the horizon it looks in the end [rad]."""
+"""Angle below the horizon to which the climb tilts in the end [rad]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,47 +56,47 @@ class Leg:
     name: str
 
     start: float
-    """When it begins [s]."""
+    """Instant at which it begins [s]."""
 
     place: tuple[float, float]
     """Ground position (x, z) where it begins [m]."""
 
     heading: float
-    """Where the walker goes, as a camera's yaw [rad]."""
+    """Direction of motion, as a camera's yaw [rad]."""
 
     yaw: float
-    """Where it looks at first [rad]."""
+    """Camera yaw at the beginning [rad]."""
 
     turn: float = 0.0
-    """How fast it turns to the right [rad/s]."""
+    """Rate of the yaw, positive to the right [rad/s]."""
 
     back: bool = False
-    """Whether it goes back again at half time."""
+    """Whether the walker turns back at half time."""
 
     pace: float = PACE
-    """How fast it goes [m/s]."""
+    """Speed over ground [m/s]."""
 
     height: float = EYE
-    """How high above the ground its eyes are at first [m]."""
+    """Height of the eye above the ground at the beginning [m]."""
 
     rise: float = 0.0
-    """How fast they rise [m/s]."""
+    """Speed at which the eye rises [m/s]."""
 
     pitch: float = PITCH
-    """Where it looks at first, as a camera's pitch [rad]."""
+    """Camera pitch at the beginning [rad]."""
 
     tilt: float = 0.0
-    """How fast it comes to look down [rad/s]."""
+    """Rate at which the pitch falls [rad/s]."""
 
     @property
     def by_border(self) -> bool:
-        """Whether patches change where it comes to its border, and not all along it."""
+        """Whether patches change at its first border only, and not all along it."""
         return not (self.rise or self.tilt)
 
     def camera(self, time: float, view: float, height_at: Heights) -> Camera:
         """Return the camera `time` [s] after the beginning, with a vertical angle of view [rad]."""
-        way = min(time, SECONDS - time) if self.back else time
-        x, z = np.array(self.place) + self.pace * way * ahead(self.heading)
+        walked = min(time, SECONDS - time) if self.back else time
+        x, z = np.array(self.place) + self.pace * walked * ahead(self.heading)
         y = float(height_at(np.array([[x, z]], np.float32))[0]) + self.height + self.rise * time
         return Camera((float(x), y, float(z)), self.yaw + self.turn * time, self.pitch - self.tilt * time, view)
 
@@ -107,7 +107,7 @@ class Moment:
 
     leg: Leg
     number: int
-    """Frame of its leg, from 0."""
+    """Index of the frame in its leg, from 0."""
 
     time: float
     """Instant of the prairie [s]."""
@@ -121,17 +121,17 @@ def ahead(yaw: float, /) -> Doubles:
 
 
 def first_border(place: Doubles, heading: float, /, *, patch: float) -> float:
-    """Return how far it is to the first border between patches [m] from a ground position (2,) along a heading."""
-    way = ahead(heading)
-    border = (np.floor(place / patch) + (way > 0.0)) * patch
-    moving = np.abs(way) > 1e-9
-    return float(((border - place)[moving] / way[moving]).min())
+    """Return the distance to the first border between patches [m] from a ground position (2,) along a heading."""
+    direction = ahead(heading)
+    border = (np.floor(place / patch) + (direction > 0.0)) * patch
+    moving = np.abs(direction) > 1e-9
+    return float(((border - place)[moving] / direction[moving]).min())
 
 
 def legs(prairie: Prairie, /) -> list[Leg]:
-    """Return the walk through a prairie: ahead, aside and back, turning, and towards and over a crest if it has one.
+    """Return the walk through a prairie: ahead, aside and back, turning, and towards and over a crest if there is one.
 
-    It begins at the scene's camera, and each leg comes to a border between patches after `LEAD` seconds.
+    It begins at the scene's camera. Each leg crosses a border between patches after `LEAD` seconds.
     """
     camera = camera_at(prairie.scene.camera, None, prairie.height_at)
     place, yaw = np.array([camera.position[0], camera.position[2]]), camera.yaw
@@ -157,9 +157,9 @@ def _leg(prairie: Prairie, number: int, name: str, place: Doubles, heading: floa
 
 
 def find_crest(prairie: Prairie, place: Doubles, /) -> tuple[Doubles, float] | None:
-    """Return a crest's place (2,) and the heading that leads over it, or None where the terrain has none.
+    """Return a crest's ground position (2,) and the heading [rad] that leads over it, or None without a crest.
 
-    Of the places within `SEARCHED` it is the one from which the ground falls the most, before and behind.
+    Within `SEARCHED` it is the place from which the ground falls the most, before and behind.
     """
     half = np.asarray(prairie.site.ground.terrain.size) / 2.0 - BEHIND
     low, high = np.maximum(place - SEARCHED, -half), np.minimum(place + SEARCHED, half)
@@ -190,7 +190,7 @@ def moments(prairie: Prairie, leg: Leg, /) -> Iterator[Moment]:
 
 
 def raise_gusts(prairie: Prairie, walk: list[Leg], /) -> None:
-    """Let a gust cross what is seen on each leg."""
+    """Add a gust to each leg that crosses the camera's view."""
     for leg in walk:
         side = leg.yaw + math.pi / 3
         x, z = np.array(leg.place) + 12.0 * ahead(leg.yaw) - 14.0 * ahead(side)
@@ -204,10 +204,10 @@ def raise_gusts(prairie: Prairie, walk: list[Leg], /) -> None:
 
 
 def climb(prairie: Prairie, /) -> list[Leg]:
-    """Return the climb over a prairie, at its camera's place: legs on which it rises, and then legs on which it tilts.
+    """Return the climb at the place of the scene's camera: legs that rise, and then legs that tilt down.
 
-    Each begins where the one before ended, and all take as long as those of a walk; it is no faster than a flyer, and
-    turns its head no faster than a walker.
+    Each begins where the one before ended, and lasts as long as a leg of the walk. It rises no faster than `FLY` and
+    tilts no faster than `TURN`.
     """
     rising = math.ceil((TOP - EYE) / (FLY * SECONDS))
     tilting = math.ceil((DOWN + PITCH) / (TURN * SECONDS))

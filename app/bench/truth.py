@@ -1,4 +1,4 @@
-"""The reference along a walk: drawn where it is asked for, whole or a tile of it alone."""
+"""The reference along a walk, drawn on demand: a whole picture, or a single tile."""
 
 from typing import Self
 
@@ -14,18 +14,18 @@ from .flicker import TILE
 from .stroll import Leg, Moment, moments, raise_gusts
 
 TINY = (16, 9)
-"""Size of the picture by which the prairie comes to an instant; nobody sees it [pixels]."""
+"""Size of the picture that brings the prairie to an instant; it is thrown away [pixels]."""
 
 
 class Truth:
-    """Every blade of a studio's scene at the moments of a walk, which have to be asked for in their order.
+    """Every blade of a studio's scene at the moments of a walk; they must be asked for in their order.
 
-    A context manager. It has a prairie of its own.
+    A context manager, with a prairie of its own.
     """
 
     def __init__(self, studio: Studio, walk: list[Leg]) -> None:
         self._studio, ctx, take = studio, studio.ctx, studio.take
-        # Nothing but carpet is drawn to come to an instant: a reference stands its own blades on it.
+        # Carpet alone brings the prairie to an instant: a reference plants its own blades on it.
         self._prairie = Prairie.load(take.scene, ctx=ctx, preset=take.preset, lod="carpet", live=False)
         raise_gusts(self._prairie, walk)
         self._color, self._depth = ctx.texture(TINY, 4), ctx.depth_renderbuffer(TINY)
@@ -40,19 +40,19 @@ class Truth:
         release_all(self._target, self._color, self._depth)
 
     def whole(self, moment: Moment) -> Picture:
-        """Return every blade there is, as `--reference` draws it."""
+        """Return a picture of every blade, as `--reference` draws it."""
         view, projection = self._go(moment)
         return draw_truth(self._prairie, view, projection, self._studio.take.size, samples=SAMPLES).picture
 
     def near(self, moment: Moment) -> Picture:
-        """Return what may change on the leg: every blade up to where strips end, and every leaf of trees that do.
+        """Return a reference of what changes on the leg: blades up to where strips end, and leaves of changing trees.
 
-        Beyond lies the prairie's own carpet, and other trees are its own pictures of them.
+        Beyond lies the prairie's own carpet; other trees are its own imposters.
         """
         return self._near(moment, self._go(moment), self._studio.take.size)
 
     def tile(self, moment: Moment, corner: tuple[int, int]) -> Picture:
-        """Return what `near` shows of a tile, and of a pixel around it: shape (TILE + 2, TILE + 2, 3).
+        """Return a tile of the picture `near`, and one pixel around it, shape (TILE + 2, TILE + 2, 3).
 
         `corner` is the column and row of the tile's first pixel, from the top left.
         """

@@ -1,4 +1,4 @@
-"""Verdicts: how much a frame's changes of representation show, where they are the most prominent."""
+"""Verdicts: how visible a frame's changes of representation are, in the tile where they are most prominent."""
 
 from dataclasses import dataclass
 
@@ -12,7 +12,7 @@ from .truth import Truth
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Step:
-    """A frame of the walk, the one before it, and what it would be without its changes of representation."""
+    """A frame of the walk (`now`), the one `before`, and `held`: the frame without its changes of representation."""
 
     earlier: Moment
     moment: Moment
@@ -21,12 +21,12 @@ class Step:
     held: Picture
 
     changing: int
-    """Patches in transition."""
+    """Number of patches in transition."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Verdict:
-    """The tile of a frame in which changes of representation are the most prominent."""
+    """The tile of a frame in which changes of representation are most prominent."""
 
     step: Step
 
@@ -34,38 +34,37 @@ class Verdict:
     """Column and row of the tile's first pixel, from the top left."""
 
     flicker: float
-    """How far the frame's change is from the reference's [steps of 255]."""
+    """Difference between the frame's change and the reference's change [steps of 255]."""
 
     steady: float
-    """The same for the frame held: what it would be without its changes of representation; `LEAST` at least."""
+    """Flicker of the held frame, which has no changes of representation; `LEAST` at least [steps of 255]."""
 
     jump: float
-    """How much those changed the frame [steps of 255]."""
+    """Difference between the frame and the held frame [steps of 255]."""
 
     @property
     def ratio(self) -> float:
-        """How many times the flicker is what it would be without them."""
+        """Flicker relative to the held frame's."""
         return self.flicker / self.steady
 
 
-def judge(one: Step, truth: Truth, /, *, unless_below: float = 0.0) -> Verdict | None:
+def judge(frame: Step, truth: Truth, /, *, unless_below: float = 0.0) -> Verdict | None:
     """Return a verdict on a frame, or None where its ratio cannot be larger than `unless_below`.
 
-    The frame differs from the held one by its step. So its flicker exceeds the held one's by no more than that,
-    wherever the reference may be.
+    Whatever the reference is, the flicker exceeds the held frame's by no more than the difference between both frames.
     """
-    kept = low_passed(one.held)
-    jumps = step(low_passed(one.now), kept)
+    held_low = low_passed(frame.held)
+    jumps = step(low_passed(frame.now), held_low)
     if 1.0 + float(jumps.max()) / LEAST <= unless_below:
         return None
-    found = prominence(jumps, kept, low_passed(one.before))
+    found = prominence(jumps, held_low, low_passed(frame.before))
     row, column = divmod(int(np.argmax(found)), found.shape[1])
     corner = MARGIN + 1 + TILE * column, MARGIN + 1 + TILE * row
-    true_before, true_now = truth.tile(one.earlier, corner), truth.tile(one.moment, corner)
-    before, now, held = (_around(picture, corner) for picture in (one.before, one.now, one.held))
+    true_before, true_now = truth.tile(frame.earlier, corner), truth.tile(frame.moment, corner)
+    before, now, held = (_around(picture, corner) for picture in (frame.before, frame.now, frame.held))
     flicker = change_of_tile(now, before, true_now, true_before)
     steady = max(change_of_tile(held, before, true_now, true_before), LEAST)
-    return Verdict(one, corner, flicker, steady, float(jumps[row, column]))
+    return Verdict(frame, corner, flicker, steady, float(jumps[row, column]))
 
 
 def _around(picture: Picture, corner: tuple[int, int]) -> Picture:

@@ -1,4 +1,4 @@
-"""What a second viewer in a frame costs: each viewer's part of it, and what the same view costs alone."""
+"""The cost of several viewers in a frame: each viewer's part, against the same view alone."""
 
 from dataclasses import replace
 from math import cos, sin
@@ -12,17 +12,17 @@ from ..studio.timing import timed
 from .still import STEP, WARM_UP
 
 FRAMES = 40
-"""Frames measured."""
+"""Number of frames measured in each way."""
 
 ASIDE = 5.0
-"""How far each viewer stands to the right of the one before [m]."""
+"""Distance of each viewer to the right of the one before [m]."""
 
 
 def side_by_side(studio: Studio, count: int, /) -> list[dict[str, object]]:
-    """Return a row for each viewer, who stands beside the others and looks the same way: all in every frame.
+    """Measure frames of `count` viewers, side by side and with one direction of view; return a row for each.
 
-    `frame_ms` is the median of its part of a frame, `ratio` that over the first viewer's, and `ratio_to_alone` that
-    over what it costs where nobody else looks, taken in turn.
+    `frame_ms` is the median time of its part of a frame. `ratio` is relative to the first viewer, `ratio_to_alone`
+    relative to a frame without other viewers, measured alternately.
     """
     cameras = [_beside(studio.camera(None), number) for number in range(count)]
     together: list[list[float]] = [[] for _ in cameras]
@@ -32,7 +32,7 @@ def side_by_side(studio: Studio, count: int, /) -> list[dict[str, object]]:
         measured, by_turns = frame >= WARM_UP, frame % 2
         for number, camera in enumerate(cameras):
             took = _part(studio, camera, f"viewer {number + 1}")
-            if by_turns:  # once more at once: then nobody else has looked in between
+            if by_turns:  # again at once, so that no other viewer has looked in between
                 took_alone = _part(studio, camera, f"viewer {number + 1}")
             if measured:
                 (alone if by_turns else together)[number].append(took_alone if by_turns else took)

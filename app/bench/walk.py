@@ -16,36 +16,36 @@ from .processor import on_processor
 from .stroll import REST, Leg, Moment, legs, moments, raise_gusts
 
 PARTS = {"drawing": 10.0, "without drawing": 1.0}
-"""What there is to do, and how long it takes in terms of one another, about."""
+"""Names of the steps, with their approximate relative durations."""
 
 MANY = 12
-"""Patches in transition from which a frame counts as busy."""
+"""Number of patches in transition from which a frame counts as busy."""
 
 
 @dataclass(frozen=True, slots=True)
 class Pace:
-    """What one frame of the walk took."""
+    """Time and changes of one frame of the walk."""
 
     frame_ms: float
 
     changing: int
-    """Patches in transition."""
+    """Number of patches in transition."""
 
     begun: int
-    """Patches in view that got another representation to come to."""
+    """Number of patches in view that began a change of representation."""
 
     refined: int
-    """Patches in view that kept their representation and got another of its sub-levels to come to."""
+    """Number of patches in view that began a change of sub-level alone."""
 
 
 def walk_measured(take: Take, /) -> dict[str, object]:
-    """Return what the benchmark tells of a walk through a scene."""
+    """Return the benchmark's figures of a walk through a scene."""
     with course("a walk", PARTS) as way:
         with way.part("drawing"), Studio(take) as studio:
             result = head(studio.ctx, studio.prairie, take) | _measure(studio)
         with way.part("without drawing"):
-            told = on_processor(take, walk=True)
-            return result | {"cpu_ms": told and told["cpu_ms"], "yardstick_ms": yardstick_ms()}
+            on_cpu = on_processor(take, walk=True)
+            return result | {"cpu_ms": on_cpu and on_cpu["cpu_ms"], "yardstick_ms": yardstick_ms()}
 
 
 def _measure(studio: Studio) -> dict[str, object]:
@@ -68,7 +68,7 @@ def _measure(studio: Studio) -> dict[str, object]:
 
 
 def paces(studio: Studio, /) -> Iterator[Pace]:
-    """Walk all legs through a prairie, in gusts, and yield what each frame took."""
+    """Walk all legs through a prairie, in gusts, and yield the pace of each frame."""
     prairie = studio.prairie
     walk = legs(prairie)
     raise_gusts(prairie, walk)
@@ -77,7 +77,7 @@ def paces(studio: Studio, /) -> Iterator[Pace]:
 
 
 def paced(studio: Studio, leg: Leg, /) -> Iterator[Pace]:
-    """Yield what each frame of a leg took but the first, to which the viewer leaps."""
+    """Yield the pace of each frame of a leg, without the first, to which the viewer leaps."""
     prairie = studio.prairie
     first, *others = moments(prairie, leg)
     _draw(studio, first, time=first.time - REST / 2)
@@ -88,14 +88,14 @@ def paced(studio: Studio, leg: Leg, /) -> Iterator[Pace]:
         taken = _draw(studio, moment)
         stayed = table.alive & table.visible & (table.cell == cell).all(axis=1)
         begun = stayed & (table.representation != representation)
-        refined = stayed & ~begun & another(table.representation, sublevel, table.sublevel)
+        refined = stayed & ~begun & sublevel_changed(table.representation, sublevel, table.sublevel)
         yield Pace(taken, prairie.statistics.transitions, int(begun.sum()), int(refined.sum()))
 
 
-def another(representation: Levels, before: Levels, now: Levels) -> NDArray[np.bool_]:
-    """Return which patches have another sub-level of their representation (rows,) than before, shape (rows,).
+def sublevel_changed(representation: Levels, before: Levels, now: Levels) -> NDArray[np.bool_]:
+    """Return the mask of patches with another sub-level of their `representation` (rows,) than before, shape (rows,).
 
-    Sub-levels have shape (representations, rows); from none at all to the first one counts as no change.
+    Sub-levels have shape (representations, rows). A patch's first sub-level is no change.
     """
     rows = np.arange(len(representation))
     had, has = before[representation, rows], now[representation, rows]

@@ -1,4 +1,4 @@
-"""`tallgrass bench all`: every benchmark of a scene, in one file, and on one page beside an earlier one."""
+"""`tallgrass bench all`: every benchmark of a scene in one file, and on a page that compares it with an earlier one."""
 
 import json
 from collections.abc import Callable, Mapping
@@ -18,16 +18,16 @@ from .machine import tell
 from .picture import measured
 from .pop import LIMITS, pop_measured
 from .scale import scale_measured
-from .sent import Told
+from .sent import Result
 from .walk import walk_measured
 
 Size = tuple[int, int]
 
 LARGE, SMALL = (1280, 720), (640, 360)
-"""Size of pictures in the benchmarks [pixels]; the small one is that of `bench pop`."""
+"""Picture sizes of the benchmarks [pixels]; the small one is for `bench pop`."""
 
 SHARES = {"frame": 60.0, "walk": 120.0, "scale": 60.0, "picture": 20.0, "pop": 70.0}
-"""The benchmarks, and how long they take in terms of one another, about."""
+"""Names of the benchmarks, with their approximate relative durations."""
 
 
 def bench_all(
@@ -35,28 +35,28 @@ def bench_all(
 ) -> None:
     """Run every benchmark of a scene, and write `bench.json` and `bench.html` into a folder.
 
-    Without `size` each has the size that it has alone. `against` is the `bench.json` of another time, to be shown
-    beside. Before anything is drawn it raises InputError where that is none or the folder cannot be written,
-    `SceneError` where the scene is wrong, MachineError where pictures cannot be compared or plots not be drawn.
+    Without `size` each benchmark uses its own. `against` is an earlier `bench.json` to compare with. Before anything is
+    drawn it raises InputError where that file is no such file or the folder cannot be written, `SceneError` where the
+    scene is wrong, MachineError where pictures cannot be compared or plots cannot be drawn.
     """
     need_matplotlib()
     evaluator()
-    before = None if against is None else read_told(against)
+    before = None if against is None else read_result(against)
     folder = Path(output)
     make_folder(folder)
-    told = all_measured(scene, preset=preset, size=size)
+    result = all_measured(scene, preset=preset, size=size)
     from .page import page
 
-    write_whole(as_text(told), folder / "bench.json")
-    write_whole(page(told, before), folder / "bench.html")
+    write_whole(as_text(result), folder / "bench.json")
+    write_whole(page(result, before), folder / "bench.html")
     if json:
-        tell(told, as_json=True)
+        tell(result, as_json=True)
     else:
         print(f"{folder / 'bench.json'}\n{folder / 'bench.html'}")
 
 
-def all_measured(scene: str, *, preset: str | None, size: Size | None) -> Told:
-    """Return what every benchmark tells of a scene; `scale` is None where its terrain comes from a file."""
+def all_measured(scene: str, *, preset: str | None, size: Size | None) -> Result:
+    """Return the results of all benchmarks of a scene; `scale` is None where its terrain comes from a file."""
     large, small = Take(scene, size or LARGE, preset), Take(scene, size or SMALL, preset)
     noise = read_scene(scene).scene.terrain.heights is None
     work: dict[str, Callable[[], Mapping[str, object] | None]] = {
@@ -66,7 +66,7 @@ def all_measured(scene: str, *, preset: str | None, size: Size | None) -> Told:
         "picture": lambda: measured(large),
         "pop": lambda: pop_measured(small),
     }
-    found: Told = {}
+    found: Result = {}
     took: dict[str, float] = {}
     with course("every benchmark", SHARES) as way:
         for name, measure in work.items():
@@ -78,19 +78,19 @@ def all_measured(scene: str, *, preset: str | None, size: Size | None) -> Told:
     return head | {"preset": found["frame"]["preset"], "took_s": took, "limits": LIMITS} | found
 
 
-def as_text(told: Told, /) -> str:
+def as_text(result: Result, /) -> str:
     """Return a result as the text of its file."""
-    return json.dumps(told, indent=1) + "\n"
+    return json.dumps(result, indent=1) + "\n"
 
 
-def read_told(file: str, /) -> Told:
-    """Return what `bench all` has written; raises InputError where a file is not of that kind."""
+def read_result(file: str, /) -> Result:
+    """Return the result in a file of `bench all`; raises InputError where the file is another one."""
     try:
-        told = json.loads(Path(file).read_text("utf-8"))
+        result = json.loads(Path(file).read_text("utf-8"))
     except OSError as error:
         raise InputError(f"--against: {file}: {error.strerror}") from None
     except ValueError:
-        told = None
-    if not isinstance(told, dict) or not {"version", "machine", *SHARES} <= told.keys():
+        result = None
+    if not isinstance(result, dict) or not {"version", "machine", *SHARES} <= result.keys():
         raise InputError(f"--against: {file}: this is no bench.json of `tallgrass bench all`")
-    return told
+    return result

@@ -19,7 +19,7 @@ from tallgrass.app.bench.flip import MOMENT
 from tallgrass.app.bench.rivals import Rivals
 from tallgrass.app.bench.scale import stretched
 from tallgrass.app.bench.still import Still
-from tallgrass.app.bench.walk import another
+from tallgrass.app.bench.walk import sublevel_changed
 from tallgrass.app.cli import run
 from tallgrass.app.studio import timing
 from tallgrass.app.studio.studio import Studio
@@ -208,7 +208,7 @@ def test_only_a_patch_that_keeps_its_representation_changes_its_sub_level() -> N
     representation = np.array([0, 0, 1, 1, -1], np.int8)
     before = np.array([[0, 0, 3, 3, 0], [2, 2, -1, 4, 2]], np.int8)
     now = np.array([[1, 0, 4, 4, 1], [3, 2, 4, 5, 3]], np.int8)
-    assert another(representation, before, now).tolist() == [True, False, False, True, False]
+    assert sublevel_changed(representation, before, now).tolist() == [True, False, False, True, False]
 
 
 @pytest.mark.slow

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tallgrass.app.bench.trees import Behind, trees_told
+from tallgrass.app.bench.trees import Behind, tree_figures
 from tallgrass.systems.reference import Truth
 
 pytest.importorskip("flip_evaluator")
@@ -24,7 +24,7 @@ def scene(*, teeth: int, leaf: np.ndarray = LEAF, grain: int = 20) -> np.ndarray
 def told(picture: np.ndarray, true: np.ndarray) -> dict[str, object] | None:
     bare = np.tile(SKY, (72, 128, 1))
     behind = Behind(bare, np.ones((72, 128), bool), (true != bare).any(axis=-1))
-    return trees_told(picture, Truth(true, np.zeros((72, 128, 3), np.float32)), behind)
+    return tree_figures(picture, Truth(true, np.zeros((72, 128, 3), np.float32)), behind)
 
 
 def test_n3_a_picture_that_is_its_reference_is_told_to_be_true() -> None:

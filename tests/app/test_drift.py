@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tallgrass.app.bench import stroll
-from tallgrass.app.bench.drift import ENOUGH, Change, ghosted, mean_drift, mean_ghosting, sampled_frames, taken_together
+from tallgrass.app.bench.drift import ENOUGH, Change, ghosted, grouped, mean_drift, mean_ghosting, sampled_frames
 from tallgrass.components.arrays import Doubles
 
 
@@ -41,7 +41,7 @@ def test_n3_legs_on_which_few_patches_change_are_taken_together() -> None:
     brighter = change([[1.0], [1.06], [1.0]], time, [0.0, 0.6, 0.0])
     darker = change([[1.0] * 2, [0.97] * 2, [1.0] * 2], time, [0.0, 0.3, 0.0])
     many = change([[1.0] * ENOUGH, [1.02] * ENOUGH, [1.0] * ENOUGH], time)
-    groups = taken_together([brighter, many, darker])
+    groups = grouped([brighter, many, darker])
     assert list(map(mean_drift, groups)) == pytest.approx([0.02, 0.0], abs=1e-9)
     assert list(map(mean_ghosting, groups)) == pytest.approx([0.0, 0.4])
 

@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tallgrass.app.bench import pop, stroll
-from tallgrass.app.bench.sent import Asked, found
+from tallgrass.app.bench.sent import Job, measured_here
 from tallgrass.app.cli import run
 from tallgrass.app.farm.dask import need_distributed
 from tallgrass.app.farm.film import LONGEST, MOST_BYTES, ranges, shot_on
@@ -135,7 +135,7 @@ def test_a_walk_by_a_worker_has_the_figures_of_one_process(
     folder.mkdir()
     take = Take(str(scene), (64, 64))
     alone = on_one_leg(take, str(folder))
-    ((there),) = two.in_order(found, [(packed(take, read_scene(take.scene)), Asked(on_one_leg), True)])
+    ((there),) = two.in_order(measured_here, [(packed(take, read_scene(take.scene)), Job(on_one_leg), True)])
     assert {**there.told, "scene": take.scene} == alone
     assert there.pictures == {path.name: path.read_bytes() for path in folder.iterdir()}
     assert there.pictures
@@ -150,7 +150,7 @@ def test_what_is_timed_is_alone_on_its_machine(two: Hands, scene: Path) -> None:
     parcel = packed(take_of(scene), read_scene(scene))
     one, other = sorted(
         (each.told["from"], each.told["to"])
-        for each in two.in_order(found, [(parcel, Asked(timed, timed=True), False)] * 2)
+        for each in two.in_order(measured_here, [(parcel, Job(timed, timed=True), False)] * 2)
     )
     assert one[1] <= other[0]
 

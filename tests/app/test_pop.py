@@ -135,7 +135,7 @@ def test_n3_legs_that_are_walked_alone_are_those_of_the_whole_walk(scene: Path) 
 
 def test_n3_frames_that_are_not_held_against_the_reference_show_less_than_those_that_are_told_of(scene: Path) -> None:
     with Studio(Take(str(scene), (192, 108))) as studio:
-        hard = walked(studio, legs(studio.prairie)[:1], HARD, watch=unwatched, told=1)
+        hard = walked(studio, legs(studio.prairie)[:1], HARD, watch=unwatched, kept=1)
     assert len(hard.worst) <= hard.judged < len(hard.changing)
 
 
