@@ -12,7 +12,7 @@ from ...engine.scene import read_scene
 from ..farm.dask import need_distributed
 from ..farm.hire import hired
 from ..farm.parcel import Parcel, packed, unpack
-from ..farm.worker import in_drawing_thread, told_in_lines
+from ..farm.worker import in_drawing_thread, problems_as_lines
 from ..studio.encode import make_folder
 from ..studio.progress import unseen
 from ..studio.take import Take
@@ -77,7 +77,7 @@ def _machine_lock() -> AbstractContextManager[Any]:
 
 
 def _measured(parcel: Parcel, measure: Measure, scratch: str, *, pictures: bool) -> Finding:
-    with TemporaryDirectory(prefix="scene-", dir=scratch) as folder, told_in_lines(), unseen():
+    with TemporaryDirectory(prefix="scene-", dir=scratch) as folder, problems_as_lines(), unseen():
         take = unpack(parcel, Path(folder))
         drawn = Path(folder) / "pictures"
         if not pictures:

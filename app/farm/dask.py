@@ -1,4 +1,4 @@
-"""Finding Dask, and keeping it quiet: it is needed only where work is handed out. And what has to be alike there."""
+"""Importing Dask, which only distributed work needs; keeping it quiet; and the versions that must agree."""
 
 import importlib
 import logging
@@ -15,11 +15,10 @@ SETTINGS = {
     "distributed.admin.large-graph-warning-threshold": "4GiB",  # maps are large, and sent once
     "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": None,  # trimmed, memory is asked for in every frame
 }
-"""What is not as Dask has it."""
-
+"""Settings that differ from Dask's defaults."""
 
 SILENT = logging.CRITICAL + 1
-"""The level of a log that says nothing."""
+"""Level at which a log is silent."""
 
 
 def need_distributed() -> Any:
@@ -28,19 +27,19 @@ def need_distributed() -> Any:
 
 
 def versions() -> str:
-    """Return the versions here of what pictures depend on."""
+    """Return the versions on this machine of the packages that pictures depend on."""
     return f"tallgrass {__version__} with numpy {np.__version__}"
 
 
 def cores() -> int:
-    """Return how many cores this process may use."""
+    """Return the number of cores that this process may use."""
     return int(importlib.import_module("dask.system").CPU_COUNT)
 
 
 @contextmanager
 def quiet() -> Iterator[None]:
-    """Let Dask say nothing of workers that come and go: what matters of it is raised."""
-    need_distributed()  # as it is imported it says how loud each of its parts is
+    """Silence Dask's logs of workers that come and go; errors are raised anyway."""
+    need_distributed()  # importing it sets the levels of its logs
     names = [name for name in logging.root.manager.loggerDict if name.partition(".")[0] == "distributed"]
     before = {name: logging.getLogger(name).level for name in names}
     for name in names:

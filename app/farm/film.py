@@ -15,13 +15,13 @@ from .parcel import Parcel, packed
 from .worker import Footage, Order, codec, footage, let_go
 
 LONGEST = 8
-"""Most frames of a range: so much is drawn again where a worker is lost."""
+"""Most frames of a range, which is drawn again when its worker is lost."""
 
 MOST_BYTES = 1 << 26
-"""What the pixels of a range take at most, if it has more than one frame."""
+"""Most bytes of pixels in a range of more than one frame."""
 
 RANGES = 8
-"""How many ranges each worker gets at least, if there are so many frames: so all are done at about the same time."""
+"""Least number of ranges per worker, given enough frames, so that all workers finish at about the same time."""
 
 
 @contextmanager
@@ -30,11 +30,11 @@ def shot_on(
 ) -> Iterator[Iterator[Shot]]:
     """Yield the shots of a film in their order, drawn by the workers of a place, as `hired` takes it.
 
-    `files` is what the film says of itself where its frames are wanted as PNG files. Raises what `hired` raises,
+    `files` is the film's metadata if its frames are wanted as PNG files, else None. Raises what `hired` raises,
     InputError where the scene names a file outside its folder, SceneError where a map is wrong.
     """
     parcel = packed(take, loaded)
-    load_maps(loaded)  # what is wrong with them is told here, once, with the names that they have here
+    load_maps(loaded)  # reports their problems once, with this machine's file names
     with hired(on, most=span.end - span.first) as hands:
         try:
             yield _shots(hands, parcel, span, Order(span.fps, files, codec()))
@@ -43,7 +43,7 @@ def shot_on(
 
 
 def ranges(span: Span, workers: int, size: tuple[int, int], /) -> Iterator[tuple[int, int]]:
-    """Yield the ranges of frames that a film is cut into: of each the first, and the one after the last."""
+    """Yield the ranges of frames that a film is cut into, each as its first frame and the one after its last."""
     count = span.end - span.first
     most = max(1, min(LONGEST, MOST_BYTES // (3 * size[0] * size[1])))
     step = min(most, -(-count // (RANGES * max(1, workers))))
@@ -69,7 +69,7 @@ def _shots(hands: Hands, parcel: Parcel, span: Span, order: Order) -> Iterator[S
 
 
 def must_be_alike(done: Footage, other: Footage | None, /) -> Footage:
-    """Return what others are held against; raises MachineError where they were not made by the same."""
+    """Return `done` for the next comparison; raises MachineError where versions or renderers differ."""
     if done.versions != versions():
         raise MachineError(f"--on: a worker has {done.versions}, and this machine {versions()}")
     if other is not None and done.shots[0].renderer != other.shots[0].renderer:

@@ -1,4 +1,4 @@
-"""Hands: the workers of a Dask scheduler, on this machine or on others, and what is asked of them."""
+"""Hands: the workers of a Dask scheduler, on this machine or on others, and the work given to them."""
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
@@ -12,63 +12,63 @@ from .dask import need_distributed
 Result = TypeVar("Result")
 
 LISTEN = 2.0
-"""How often it is looked whether there are workers, while none has anything to hand over [s]."""
+"""Interval at which the workers are counted while a result is awaited [s]."""
 
 PATIENCE = 60.0
-"""How long one waits where all workers are gone, for another to come [s]."""
+"""Longest wait for a new worker when all are gone [s]."""
 
 AHEAD = 2
-"""Pieces of work that each worker has at hand: one to do, one to go on with."""
+"""Number of pieces of work submitted per worker: one in progress, one waiting."""
 
 
 class LostError(MachineError):
-    """Those who did the work are gone."""
+    """The scheduler or all workers are gone."""
 
 
 class Hands:
-    """Workers that do what they are asked, in any order; what they make comes back in the order of asking."""
+    """Workers that do pieces of work in any order; results come back in the order of submission."""
 
     def __init__(self, client: Any, place: str) -> None:
         self._client, self._place = client, place
 
     @property
     def count(self) -> int:
-        """How many things they do at a time."""
-        with self._reached():
+        """Number of pieces that all workers do at a time."""
+        with self._connected():
             return sum(self._client.nthreads().values())
 
     def keep(self, thing: object, /) -> object:
-        """Return what stands for a thing among the arguments of work; it is sent once, and again where it was lost."""
-        with self._reached():
-            return self._client.submit(_itself, thing, pure=False)
+        """Return a future that stands for an object in arguments; it is sent once, and again where it was lost."""
+        with self._connected():
+            return self._client.submit(_identity, thing, pure=False)
 
     def in_order(self, work: Callable[..., Result], pieces: Iterable[tuple[object, ...]], /) -> Iterator[Result]:
-        """Yield what `work` makes of the arguments of each piece, in their order.
+        """Call `work` with the arguments of each piece; yield the results in the order of the pieces.
 
-        What a lost worker had is done by another one. Raises what `work` raises, MachineError where workers cannot
+        Another worker does the pieces of a lost one. Raises what `work` raises, MachineError where workers cannot
         import it, LostError where the scheduler is gone, or all workers for long.
         """
         waiting: deque[Any] = deque()
         for piece in pieces:
             if len(waiting) >= AHEAD * max(1, self.count):
                 yield self._result(waiting.popleft())
-            with self._reached():
+            with self._connected():
                 waiting.append(self._client.submit(work, *piece, pure=False))
         while waiting:
             yield self._result(waiting.popleft())
 
     def everywhere(self, work: Callable[[], object], /) -> None:
-        """Let every worker do something; those that are gone need not."""
-        with suppress(LostError), self._reached():
+        """Run `work` in every worker that still exists."""
+        with suppress(LostError), self._connected():
             self._client.run(work, on_error="ignore")
 
     def _result(self, future: Any) -> Any:
-        with self._reached():
+        with self._connected():
             self._wait(future)
             failure = future.exception()
             if failure is None:
                 return future.result()
-        raise self._told(failure)
+        raise self._translated(failure)
 
     def _wait(self, future: Any) -> None:
         distributed, alone = need_distributed(), 0.0
@@ -81,13 +81,13 @@ class Hands:
                 raise LostError(f"{self._place}: all workers are gone")
 
     @contextmanager
-    def _reached(self) -> Iterator[None]:
+    def _connected(self) -> Iterator[None]:
         try:
             yield
         except (CancelledError, OSError) as error:
             raise LostError(f"{self._place}: the scheduler is gone") from error
 
-    def _told(self, error: Exception) -> Exception:
+    def _translated(self, error: Exception) -> Exception:
         if isinstance(error, ImportError | AttributeError):
             return MachineError(f"{self._place}: a worker lacks what this takes: {error}")
         if isinstance(error, need_distributed().KilledWorker):
@@ -95,5 +95,5 @@ class Hands:
         return error
 
 
-def _itself(thing: object) -> object:
+def _identity(thing: object) -> object:
     return thing

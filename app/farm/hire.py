@@ -1,4 +1,4 @@
-"""Hiring: where the workers are, on this machine or at a scheduler's address."""
+"""Hiring: starting workers on this machine, or connecting to a scheduler's address."""
 
 import asyncio
 import os
@@ -15,7 +15,7 @@ from .dask import SILENT, cores, need_distributed, quiet, versions
 from .hands import Hands
 
 ANSWER = 4.0
-"""How long a scheduler may take to answer [s]."""
+"""Timeout of a scheduler's answer [s]."""
 
 _LOCAL = re.compile(r"local(?::([1-9][0-9]{0,2}))?")
 _ADDRESS = re.compile(r"(?:[a-z]+://)?(?:[^\s:/]+|\[[0-9a-fA-F:]+\]):[0-9]{1,5}")
@@ -25,9 +25,9 @@ _ADDRESS = re.compile(r"(?:[a-z]+://)?(?:[^\s:/]+|\[[0-9a-fA-F:]+\]):[0-9]{1,5}"
 def hired(on: str, /, *, most: int) -> Iterator[Hands]:
     """Yield the workers of a place, and let them go at the end.
 
-    `on` is `local`, a worker for each core of this machine; `local:4`, so many; but no more than `most`; or the address
-    of a Dask scheduler. Raises InputError where it is none of these, MachineError without Dask, and where nobody
-    answers.
+    `on` is `local` for a worker per core of this machine, `local:4` for four workers, at most `most` of them; or the
+    address of a Dask scheduler. Raises InputError where it is none of these, MachineError without Dask, and where no
+    scheduler answers.
     """
     here = _LOCAL.fullmatch(on)
     if not here and (on.startswith("local:") or not _ADDRESS.fullmatch(on)):
@@ -40,7 +40,7 @@ def hired(on: str, /, *, most: int) -> Iterator[Hands]:
                 client = stack.enter_context(_here(distributed, count))
         else:
             with busy(f"looking for {on}"):
-                client = stack.enter_context(_at(distributed, on))
+                client = stack.enter_context(_connected(distributed, on))
         yield Hands(client, f"--on: {on}")
 
 
@@ -49,19 +49,19 @@ def _here(distributed: Any, count: int) -> Iterator[Any]:
     with TemporaryDirectory(prefix="tallgrass-", ignore_cleanup_errors=True) as scratch:
         cluster = distributed.LocalCluster(
             n_workers=count, threads_per_worker=1, dashboard_address="127.0.0.1:0", silence_logs=SILENT,
-            local_directory=scratch, env=shared_out(count), preload=worker.__name__,
+            local_directory=scratch, env=shared_cores(count), preload=worker.__name__,
         )  # fmt: skip
         with cluster, distributed.Client(cluster) as client:
             yield client
 
 
-def shared_out(count: int, /) -> dict[str, str]:
-    """Return what lets so many workers share the cores where Mesa draws in software, unless the user has said it."""
+def shared_cores(count: int, /) -> dict[str, str]:
+    """Return the environment in which workers share the cores where Mesa draws in software; empty if set already."""
     return {} if "LP_NUM_THREADS" in os.environ else {"LP_NUM_THREADS": str(max(1, cores() // count))}
 
 
 @contextmanager
-def _at(distributed: Any, address: str) -> Iterator[Any]:
+def _connected(distributed: Any, address: str) -> Iterator[Any]:
     try:
         asyncio.run(_greet(distributed, address))
         client = distributed.Client(address, timeout=ANSWER)
@@ -77,24 +77,24 @@ def _at(distributed: Any, address: str) -> Iterator[Any]:
 
 
 def _must_be_alike(client: Any, address: str) -> None:
-    """Ask scheduler and workers what they have; raises MachineError where that is not what this machine has."""
-    for who, told in told_of(client).items():
-        if told != versions():
-            has = told if isinstance(told, str) else f"not the tallgrass that this machine has ({told})"
+    """Raise MachineError where the scheduler or a worker has other versions than this machine."""
+    for who, found in versions_at(client).items():
+        if found != versions():
+            has = found if isinstance(found, str) else f"not the tallgrass that this machine has ({found})"
             raise MachineError(f"--on: {address}: {who} has {has}; install {versions()} there, as here")
 
 
-def told_of(client: Any, /) -> dict[str, object]:
-    """Return the versions of everybody at a scheduler, or what came of asking for them."""
-    told = {f"the worker {worker}": had for worker, had in client.run(versions, on_error="return").items()}
+def versions_at(client: Any, /) -> dict[str, object]:
+    """Return the versions of a scheduler and its workers by name, or the errors of asking for them."""
+    by_worker = {f"the worker {worker}": found for worker, found in client.run(versions, on_error="return").items()}
     try:
-        return {"the scheduler": client.run_on_scheduler(versions), **told}
+        return {"the scheduler": client.run_on_scheduler(versions), **by_worker}
     except ImportError as error:
         return {"the scheduler": error}
 
 
 async def _greet(distributed: Any, address: str) -> None:
-    """Ask a scheduler who it is, and wait no longer than `ANSWER`, whatever it is that listens there."""
+    """Ask a scheduler for its identity, with the timeout `ANSWER` even where something else listens there."""
     settings = distributed.Security().get_connection_args("client")
     scheduler = distributed.rpc(address, timeout=ANSWER, connection_args=settings)
     try:

@@ -1,4 +1,4 @@
-"""A parcel: a take with all its files, as it is sent to workers who have nothing of it."""
+"""A parcel: a take with all its files, for workers that have none of them."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -15,13 +15,13 @@ class Parcel:
     """A take with the bytes of its scene and of all files that the scene names."""
 
     take: Take
-    """What is to be seen; its scene is a name among the files."""
+    """The take; its scene is a name in `files`."""
 
     files: Mapping[str, bytes]
-    """Contents of files by their names, relative to the scene's folder."""
+    """Contents of files by name, relative to the scene's folder."""
 
     mark: str
-    """What tells it from other parcels."""
+    """Hash of the take and its files."""
 
 
 def packed(take: Take, loaded: LoadedScene, /) -> Parcel:
@@ -30,13 +30,13 @@ def packed(take: Take, loaded: LoadedScene, /) -> Parcel:
         if not _is_inside(loaded.folder, name):
             raise InputError(f"--on: {take.scene}: '{name}' lies outside the scene's folder: workers get no such file")
     files = {name: path.read_bytes() for name, path in loaded.paths.items()}
-    told = replace(take, scene=loaded.file.name)
-    mark = sha256(repr((told, [(name, sha256(data).digest()) for name, data in sorted(files.items())])).encode())
-    return Parcel(told, files, mark.hexdigest())
+    sent = replace(take, scene=loaded.file.name)
+    mark = sha256(repr((sent, [(name, sha256(data).digest()) for name, data in sorted(files.items())])).encode())
+    return Parcel(sent, files, mark.hexdigest())
 
 
 def unpack(parcel: Parcel, folder: Path, /) -> Take:
-    """Write a parcel's files into a folder, and return the take of the scene that lies there now.
+    """Write a parcel's files into a folder, and return the take of the scene in that folder.
 
     Raises InputError where the scene names a file that was not sent, though this machine has one of that name.
     """

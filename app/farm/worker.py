@@ -1,7 +1,7 @@
-"""What a worker does: it keeps the prairie of one film, and draws the frames that it is asked for.
+"""The code of a worker: it keeps the prairie of one film, and draws the ranges of frames that are submitted.
 
-All of it happens in one thread, however many Dask gives a worker: a GL context belongs to a thread, and a prairie's
-entities to their world.
+It draws in one thread, however many Dask gives a worker: a GL context belongs to a thread, and a prairie's entities to
+their world.
 """
 
 import signal
@@ -30,30 +30,30 @@ _THREAD = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """How the frames of a film are wanted."""
+    """The form of a film's frames."""
 
     fps: int
     """Frames per second."""
 
     files: Mapping[str, str] | None
-    """Where they are wanted as PNG files, what the film says of itself."""
+    """Metadata of the film if frames are wanted as PNG files, else None."""
 
     codec: str
-    """What makes PNG files where the film is put together: only the same one makes the same bytes."""
+    """PNG encoder of the machine that assembles the film: only the same one makes the same bytes."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Footage:
-    """Some frames in a row, drawn by a worker."""
+    """Consecutive frames, drawn by a worker."""
 
     shots: list[Shot]
 
     versions: str
-    """What the worker has of what pictures depend on."""
+    """Versions on the worker, as `versions` returns them."""
 
 
 class _Kept:
-    """A film that this process draws; it stays until another one is wanted."""
+    """The film that this process draws, until it is asked for another one."""
 
     def __init__(self, parcel: Parcel, fps: int, scratch: str) -> None:
         self.mark = (parcel.mark, fps)
@@ -72,36 +72,36 @@ _kept: list[_Kept] = []
 
 
 def dask_setup(_: object) -> None:
-    """Get a worker of this machine ready, as Dask calls it: the key that stops a command is for the command alone."""
+    """Set up a worker on this machine, called by Dask: it ignores Ctrl C, which is for the command alone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def codec() -> str:
-    """Return what makes PNG files here."""
+    """Return the PNG encoder of this machine, with versions."""
     return f"Pillow {PIL.__version__}, zlib {features.version('zlib')}, zlib-ng {features.version_feature('zlib_ng')}"
 
 
 def footage(parcel: Parcel, order: Order, first: int, end: int, /) -> Footage:
     """Return the frames from `first` to the one before `end` of a film.
 
-    Raises InputError for what is wrong with the scene here, MachineError where this worker cannot draw.
+    Raises InputError for problems of the scene on this machine, MachineError where this worker cannot draw.
     """
     scratch = str(import_module("distributed").get_worker().local_directory)
     return in_drawing_thread(lambda: _footage(parcel, order, first, end, scratch))
 
 
 def in_drawing_thread(work: Callable[[], Result], /) -> Result:
-    """Do something in the thread that draws, and return what comes of it."""
+    """Call `work` in the thread that draws, and return its result."""
     return _THREAD.submit(work).result()
 
 
 def let_go() -> None:
-    """Give back what this process keeps of a film, once it has done what it is doing."""
+    """Release the film that this process keeps, after its current work."""
     _THREAD.submit(_let_go)
 
 
 def _footage(parcel: Parcel, order: Order, first: int, end: int, scratch: str) -> Footage:
-    with told_in_lines():
+    with problems_as_lines():
         held = _kept_for(parcel, order.fps, first, scratch)
     files = order.files if order.codec == codec() else None
     return Footage(list(held.shooting.shots(first, end, files=files)), versions())
@@ -121,8 +121,8 @@ def _let_go() -> None:
 
 
 @contextmanager
-def told_in_lines() -> Iterator[None]:
-    """Send the problems of a scene on their way as lines: an error of many parts does not come through."""
+def problems_as_lines() -> Iterator[None]:
+    """Raise a scene's problems as an InputError of lines: a SceneError of many parts is not transported."""
     try:
         yield
     except SceneError as error:

@@ -34,20 +34,20 @@ class Reel:
     """Frames of one size, `count` of them."""
 
     count: int
-    """How many frames there are."""
+    """Number of frames."""
 
     fps: int
     """Frames per second."""
 
     about: Mapping[str, str]
-    """What the film says of itself: `seed`, `scene`, `version` and the like."""
+    """Metadata of the film: `seed`, `scene`, `version` and the like."""
 
     first: int = 0
-    """The number of its first frame, which shows the time `first / fps` [s]."""
+    """Index of its first frame, which shows the time `first / fps` [s]."""
 
 
 def picture_writer(output: str, /) -> Callable[[Picture, Mapping[str, str]], None]:
-    """Return what writes a picture to `output` as PNG, with text entries that say how it was made.
+    """Return a function that writes a picture to `output` as PNG, with its metadata as text entries.
 
     Raises InputError where `output` does not end in .png or cannot be written.
     """
@@ -59,13 +59,14 @@ def picture_writer(output: str, /) -> Callable[[Picture, Mapping[str, str]], Non
 
 
 ENDINGS = (".webp", ".gif", ".mp4")
-"""What a film's name ends with that is one file."""
+"""Endings of films in a single file."""
 
 
 def film_writer(output: str, size: tuple[int, int], fps: int, /) -> Callable[[Reel], None]:
-    """Return what writes a film of this size to `output`, by its ending; a folder takes numbered PNG files.
+    """Return a function that writes a film to `output`, in the format of its ending; a folder takes numbered PNG files.
 
-    What is no folder yet becomes one if it ends in /, and what ends as a file does is one only then.
+    `size` is (width, height) [pixels]. A name that ends in / becomes a folder; a name with one of `ENDINGS` is a folder
+    only with that /.
     Raises InputError where `output` cannot be written or hold such a film, MachineError where its encoder is missing.
     """
     path = Path(output)
@@ -99,7 +100,7 @@ def is_folder(output: str, /) -> bool:
 
 
 class _Animation(Image.Image):
-    """An image of many frames that draws the next one when an encoder seeks it, so that they are never all kept."""
+    """An image of many frames that draws a frame when an encoder seeks it, so that only one is in memory."""
 
     def __init__(self, reel: Reel) -> None:
         super().__init__()
@@ -153,7 +154,7 @@ def png(picture: Picture, about: Mapping[str, str], /) -> bytes:
 
 
 def at_frame(about: Mapping[str, str], number: int, fps: int, /) -> dict[str, str]:
-    """Return what the picture of a film's frame says of itself."""
+    """Return the metadata of a film's frame."""
     return {**about, "time": f"{number / fps:.6g}"}
 
 

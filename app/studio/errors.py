@@ -1,4 +1,4 @@
-"""What goes wrong at the doors."""
+"""Errors of commands."""
 
 import importlib
 from typing import Any

@@ -39,13 +39,13 @@ class Offscreen:
         self._target.clear(0.0, 0.0, 0.0, 1.0, depth=1.0)
 
     def read(self) -> NDArray[np.uint8]:
-        """Return what has been drawn, top row first, shape (height, width, 3)."""
+        """Return the picture in the framebuffer, top row first, shape (height, width, 3)."""
         width, height = self.size
         data = self._target.read(components=3, alignment=1)
         return np.ascontiguousarray(np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1])
 
     def make_current(self) -> None:
-        """Make an own context current: what is deleted in another would be that one's, by the same numbers."""
+        """Make an own context current: in another, deleting would hit that one's objects of the same ids."""
         if self._host is None:
             self.ctx.__enter__()  # type: ignore[no-untyped-call]
 

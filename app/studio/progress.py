@@ -1,6 +1,6 @@
-"""Progress: what is being done and how long it will take, shown on a terminal and nowhere else.
+"""Progress bars: the current work and its remaining time, on a terminal only.
 
-Bars nest: one that is shown while another is moves that one on too, as far as what is being done counts in it.
+Bars nest: an inner bar also moves the outer bar, through the part of the outer work that the inner one stands for.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -13,7 +13,7 @@ from rich.progress import BarColumn, Progress, TaskID, TaskProgressColumn, TextC
 Item = TypeVar("Item")
 
 _shown: list["_Bar"] = []
-"""The bars that are shown, each one for a part of the one before."""
+"""Bars that are shown, each for a part of the one before."""
 
 
 def counted(items: Iterable[Item], /, *, total: int, doing: str) -> Iterator[Item]:
@@ -26,7 +26,7 @@ def counted(items: Iterable[Item], /, *, total: int, doing: str) -> Iterator[Ite
 
 @contextmanager
 def busy(doing: str, /) -> Iterator[None]:
-    """Show on a terminal's standard error that something is being done, where nobody knows how long it takes."""
+    """Show work of unknown length on a terminal's standard error."""
     with _bar(doing, None):
         yield
 
@@ -39,7 +39,7 @@ class Course:
 
     @contextmanager
     def part(self, name: str, /) -> Iterator[None]:
-        """Do a part of the work; what is counted meanwhile moves the bar on from the part's beginning to its end."""
+        """Do a part of the work; bars inside it move this bar from the part's beginning to its end."""
         self._bar.worth = self._parts[name]
         self._bar.say(f"{self._doing}: {name}")
         yield
@@ -48,32 +48,32 @@ class Course:
 
 @contextmanager
 def course(doing: str, parts: Mapping[str, float], /) -> Iterator[Course]:
-    """Yield a course through `parts`, each with how long it takes in terms of the others."""
+    """Yield a course through `parts`, which have relative durations."""
     with _bar(doing, sum(parts.values())) as bar:
         yield Course(bar, doing, parts)
 
 
 class _Bar:
-    """A bar for so much work, or for who knows how much."""
+    """A bar for an amount of work, or for an unknown amount."""
 
     def __init__(self, progress: Progress, doing: str, total: float | None) -> None:
         self.progress, self._total = progress, total
         self._task: TaskID = progress.add_task(doing, total=total)
         self._done, self._furthest = 0.0, 0.0
         self.worth = 1.0
-        """How much of the work the next part of it is."""
+        """Amount of work in the next part."""
 
     def say(self, doing: str) -> None:
-        """Say what is being done now."""
+        """Set the description of the current work."""
         self.progress.update(self._task, description=doing)
 
     def move(self, worth: float) -> None:
-        """Have so much more of the work done."""
+        """Move the bar on by an amount of work."""
         self._done += worth
         self.show(0.0)
 
     def show(self, share: float) -> None:
-        """Show how far the work is, with a share of its next part; a bar never goes back."""
+        """Show the work done, including a fraction `share` of the next part; a bar never goes back."""
         if self._total is not None:
             self._furthest = max(self._furthest, self._done + share * self.worth)
             self.progress.update(self._task, completed=self._furthest)
@@ -82,7 +82,7 @@ class _Bar:
             _shown[_shown.index(self) - 1].show(min(1.0, share))
 
     def end(self) -> None:
-        """Take it away."""
+        """Remove the bar."""
         self.progress.remove_task(self._task)
 
 
@@ -100,7 +100,7 @@ def _bar(doing: str, total: float | None) -> Iterator[_Bar]:
 
 @contextmanager
 def unseen() -> Iterator[None]:
-    """Let nothing be shown meanwhile: who does this for another shows it to nobody."""
+    """Show no bars meanwhile, as in a worker."""
     bar = _Bar(Progress(disable=True), "", None)
     _shown.append(bar)
     try:
@@ -110,7 +110,7 @@ def unseen() -> Iterator[None]:
 
 
 def display() -> Progress:
-    """Return where bars are shown: on a terminal's standard error, and otherwise nowhere."""
+    """Return a display of bars: on a terminal's standard error, or disabled where that is no terminal."""
     console = Console(stderr=True)
     columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
     return Progress(*columns, console=console, transient=True, disable=not console.is_terminal)

@@ -1,4 +1,4 @@
-"""Shooting a film: frame k of a scene shows the time k / fps, and is the same whoever draws it."""
+"""Shooting a film: frame k of a scene shows the time k / fps, and is the same in every process."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -22,19 +22,19 @@ class Shot:
     """Hash of its pixels: sRGB, three bytes each, top row first."""
 
     renderer: str
-    """What drew it, as GL tells it."""
+    """GL_RENDERER of the context that drew it."""
 
 
 class Shooting:
-    """A film that is being shot, from frame to frame and never back; a context manager.
+    """A film that is drawn frame by frame, never backwards; a context manager.
 
-    Frames that are not drawn are followed, since what a frame shows depends on those before. Raises what `Studio` does.
+    Skipped frames are followed without drawing, since a frame depends on those before. Raises what `Studio` does.
     """
 
     def __init__(self, take: Take, fps: int) -> None:
         self._studio, self._fps = Studio(take), fps
         self.following = 0
-        """Number of the frame that may be drawn next, or one after it."""
+        """Index of the earliest frame that can still be drawn."""
 
     def __enter__(self) -> Self:
         return self
@@ -45,7 +45,7 @@ class Shooting:
     def shots(self, first: int, end: int, /, *, files: Mapping[str, str] | None = None) -> Iterator[Shot]:
         """Yield the frames from `first` to the one before `end`, drawn as they are asked for.
 
-        Where `files` says what a film says of itself, each is a PNG file's bytes. Raises ValueError for a frame that
+        With the film's metadata in `files`, each frame is a PNG file's bytes. Raises ValueError for a frame that
         has gone by.
         """
         if first < self.following:
@@ -53,18 +53,18 @@ class Shooting:
         renderer = str(self._studio.ctx.info["GL_RENDERER"])
         for number in range(first, end):
             picture = self._picture(number)
-            told = sha256(np.ascontiguousarray(picture).data).hexdigest()
+            pixel_hash = sha256(np.ascontiguousarray(picture).data).hexdigest()
             frame = picture if files is None else png(picture, at_frame(files, number, self._fps))
-            yield Shot(frame, told, renderer)
+            yield Shot(frame, pixel_hash, renderer)
 
     def _picture(self, number: int) -> Picture:
         studio = self._studio
         while self.following < number:
-            studio.follow(studio.camera(self._go()))
-        return studio.picture(studio.camera(self._go()))
+            studio.follow(studio.camera(self._advance()))
+        return studio.picture(studio.camera(self._advance()))
 
-    def _go(self) -> float:
-        """Let the prairie come to the next frame's instant, and return that [s]."""
+    def _advance(self) -> float:
+        """Advance the prairie to the next frame's instant, and return the instant [s]."""
         time = self.following / self._fps
         self._studio.prairie.advance(time - self._studio.prairie.time)
         self.following += 1

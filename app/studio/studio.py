@@ -1,4 +1,4 @@
-"""A prairie before a camera, without a window: what stills and films are made with."""
+"""A prairie before a camera, without a window, for stills and films."""
 
 import math
 from pathlib import Path
@@ -25,13 +25,13 @@ Matrix = NDArray[np.float32]
 class Studio:
     """A prairie, and a framebuffer to draw it into; a context manager.
 
-    The scene is that of the take, or else one that is `loaded`. Raises `SceneError` where the scene is wrong,
+    The scene is `loaded` if given, else the take's. Raises `SceneError` where the scene is wrong,
     RuntimeError where there is no OpenGL.
     """
 
     def __init__(self, take: Take, loaded: LoadedScene | None = None) -> None:
         self.take = take
-        self._offscreen = Offscreen(take.size)  # first: where it cannot be had, nothing is grown in vain
+        self._offscreen = Offscreen(take.size)  # first: without it, nothing is grown in vain
         try:
             loaded = read_scene(take.scene) if loaded is None else loaded
             self.prairie = Prairie(loaded, preset=take.preset, lod=take.lod, live=False)
@@ -55,7 +55,7 @@ class Studio:
 
     @property
     def ctx(self) -> moderngl.Context:
-        """The context that is drawn in."""
+        """GL context of the framebuffer."""
         return self._offscreen.ctx
 
     def matrices(self, camera: Camera) -> tuple[Matrix, Matrix]:
@@ -68,15 +68,15 @@ class Studio:
         self._offscreen.begin()
 
     def read(self) -> Picture:
-        """Return what has been drawn."""
+        """Return the picture in the framebuffer."""
         return self._offscreen.read()
 
     def follow(self, camera: Camera) -> None:
-        """Let the prairie go through this instant as `picture` does, without one."""
+        """Let the prairie go through this instant as `picture` does, without drawing."""
         self.prairie.follow(*self.matrices(camera))
 
     def picture(self, camera: Camera) -> Picture:
-        """Return what the camera sees at this instant of the prairie."""
+        """Draw the prairie at this instant from a camera, and return the picture."""
         view, projection = self.matrices(camera)
         self.begin()
         self.prairie.draw(view, projection, depth="none")
@@ -87,7 +87,7 @@ class Studio:
 
 
 def about(scene: Scene, take: Take, *, time: float) -> dict[str, str]:
-    """Return what a file says of how it was made: a take of a scene, at an instant [s]."""
+    """Return the metadata of a picture's or film's file: scene, seed, version and instant [s]."""
     return {
         "Software": f"tallgrass {__version__}",
         "version": __version__,
@@ -98,6 +98,6 @@ def about(scene: Scene, take: Take, *, time: float) -> dict[str, str]:
 
 
 def written(camera: Camera) -> str:
-    """Return a camera as `tallgrass shot --camera` takes it."""
+    """Return a camera as text for `tallgrass shot --camera`."""
     looks = (*camera.position, math.degrees(camera.yaw), math.degrees(camera.pitch))
     return ",".join(f"{number:.10g}" for number in looks)

@@ -1,4 +1,4 @@
-"""What a picture or a film is asked to show."""
+"""A take: the scene and the settings of a picture or a film."""
 
 import re
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ from ...engine.declared.quality import LodName
 from ...systems.overlay.layers import Layer
 
 LARGEST = 16384
-"""Most pixels along a side of a picture."""
+"""Longest side of a picture [pixels]."""
 
 SAMPLES = 4
 """Width and height of a reference's supersampling, in samples per pixel."""
@@ -15,7 +15,7 @@ SAMPLES = 4
 
 @dataclass(frozen=True, slots=True)
 class Take:
-    """What is to be seen, and how."""
+    """A scene, and how it is drawn."""
 
     scene: str
     """Path or bundled name."""
@@ -24,20 +24,20 @@ class Take:
     """Width and height [pixels]."""
 
     preset: str | None = None
-    """Name of the quality; without it the scene's own."""
+    """Name of the quality preset; None for the scene's own quality."""
 
     lod: LodName = "auto"
-    """Which representation is drawn."""
+    """Representation that is drawn everywhere, or `auto`."""
 
     reference: bool = False
     """Whether every blade is drawn in 3D, supersampled."""
 
     overlay: frozenset[Layer] = frozenset()
-    """What is laid over the picture to show how it works."""
+    """Layers drawn over the picture that show how it works."""
 
 
 def words_of(take: Take, /) -> list[str]:
-    """Return the scene, size and preset of a take as a command line has them."""
+    """Return the scene, size and preset of a take as words of a command line."""
     preset = ["--preset", take.preset] if take.preset else []
     return ["--size", f"{take.size[0]}x{take.size[1]}", *preset, "--", take.scene]
 

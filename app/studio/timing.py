@@ -1,4 +1,4 @@
-"""Timing what is drawn."""
+"""Timing of drawing."""
 
 from collections.abc import Callable, Sequence
 from time import perf_counter
@@ -10,7 +10,7 @@ from ...engine.gl.rasteriser import draws_in_software
 
 
 def timed(ctx: moderngl.Context, work: Callable[[], object]) -> float:
-    """Return how long some work takes, up to its end on the graphics card [ms]."""
+    """Return the time of some work up to its end on the graphics card [ms]."""
     ctx.finish()
     start = perf_counter()
     work()
@@ -19,10 +19,10 @@ def timed(ctx: moderngl.Context, work: Callable[[], object]) -> float:
 
 
 def card_timer(ctx: moderngl.Context) -> moderngl.Query | None:
-    """Return what times the graphics card itself, or None where there is no card: there it would time the CPU."""
+    """Return a timer query of the graphics card, or None in software, where it would time the CPU."""
     return None if draws_in_software(ctx) else ctx.query(time=True)
 
 
 def spread(times: Sequence[float], /, *parts: int) -> dict[str, float]:
-    """Return percentiles of some times [ms] by name, such as `p50`."""
+    """Return percentiles of times [ms] by name, such as `p50`."""
     return {f"p{part}": round(float(np.percentile(times, part)), 3) for part in parts}

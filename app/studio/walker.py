@@ -1,4 +1,4 @@
-"""How the viewer of the window moves: pure functions from what is pressed to where it stands."""
+"""Motion of the window's viewer: pure functions from held keys to its position."""
 
 import math
 from collections.abc import Set as AbstractSet
@@ -10,7 +10,7 @@ import numpy as np
 from ...engine.camera import Camera, Heights, forward
 
 Move = Literal["ahead", "back", "left", "right", "up", "down", "run"]
-"""What a held key asks for."""
+"""Motion that a held key asks for."""
 
 EYE = 1.7
 """Height of a walker's eye above the ground [m]."""
@@ -22,13 +22,13 @@ WALK, RUN, FLY, FLY_FAST = 1.5, 5.0, 8.0, 32.0
 """Speeds [m/s]."""
 
 REACTION = 0.12
-"""Time in which the velocity comes within 1/e of what is asked for [s]."""
+"""Time constant with which the velocity approaches the one asked for [s]."""
 
 LANDING = 0.25
-"""Time in which a flyer who stops flying comes within 1/e of a walker's height [s]."""
+"""Time constant with which a landing flyer approaches a walker's height [s]."""
 
 MARGIN = 0.5
-"""How near the edge of the terrain one may go [m]."""
+"""Least distance from the edge of the terrain [m]."""
 
 STEEPEST = math.radians(89.0)
 """Steepest look up or down [rad]."""
@@ -39,37 +39,37 @@ class Walker:
     """The viewer, on foot or in flight."""
 
     position: tuple[float, float, float]
-    """Eye (x, y, z) [m]."""
+    """Position of the eye (x, y, z) [m]."""
 
     yaw: float = 0.0
-    """0 looks down -z, positive turns right [rad]."""
+    """Yaw: 0 looks down -z, positive turns right [rad]."""
 
     pitch: float = 0.0
-    """Positive looks up [rad]."""
+    """Pitch: positive looks up [rad]."""
 
     velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """(x, y, z) [m/s]; on foot y is not used."""
+    """Velocity (x, y, z) [m/s]; on foot y is not used."""
 
     flying: bool = False
-    """Whether the ground does not hold it."""
+    """Whether it flies instead of walking."""
 
     def camera(self, view: float) -> Camera:
-        """Return the camera that looks through its eyes with a vertical angle of view [rad]."""
+        """Return the camera at its eye with a vertical angle of view [rad]."""
         return Camera(self.position, self.yaw, self.pitch, view)
 
 
 @dataclass(frozen=True, slots=True)
 class Ground:
-    """What a walker walks on."""
+    """The ground of a walker."""
 
     height_at: Heights
-    """Heights [m] at ground positions."""
+    """Returns heights of the ground [m] at ground positions (n, 2)."""
 
     size: tuple[float, float]
     """Width (x) and depth (z) of the terrain, centred on the origin [m]."""
 
     top_at: Heights
-    """How high the top of the grass is at ground positions [m]."""
+    """Returns heights of the grass's top [m] at ground positions (n, 2)."""
 
     def height(self, x: float, z: float) -> float:
         """Return the height of the ground at one place [m]."""
@@ -108,7 +108,7 @@ def asked_velocity(walker: Walker, held: AbstractSet[Move], /) -> tuple[float, f
 
 
 def moved(walker: Walker, held: AbstractSet[Move], dt: float, ground: Ground, /) -> Walker:
-    """Return the walker after `dt` [s] of the held keys: eased in speed, on the ground, and on the terrain.
+    """Return the walker after `dt` [s] of the held keys, with eased speed, on the terrain.
 
     The result does not depend on how the time is cut into frames, as long as the keys and the look stay.
     """
@@ -134,7 +134,7 @@ def toggled(walker: Walker, /) -> Walker:
 
 
 def settled(walker: Walker, ground: Ground, /) -> Walker:
-    """Return the walker on another ground: at its place, but on the terrain and not below the ground."""
+    """Return the walker moved onto another ground, at the nearest place that is on the terrain and not below it."""
     x, z, _, _ = on_terrain(walker.position[0], walker.position[2], ground)
     floor = ground.height(x, z)
     y = max(walker.position[1], floor + LOWEST) if walker.flying else floor + EYE
@@ -142,14 +142,14 @@ def settled(walker: Walker, ground: Ground, /) -> Walker:
 
 
 def on_terrain(x: float, z: float, ground: Ground, /) -> tuple[float, float, bool, bool]:
-    """Return the place on the terrain nearest to (x, z) [m], and whether x and z were left as they are."""
+    """Return the place on the terrain nearest to (x, z) [m], and whether x and whether z are unchanged."""
     wide, deep = (max(0.0, side / 2.0 - MARGIN) for side in ground.size)
     inside_x, inside_z = max(-wide, min(wide, x)), max(-deep, min(deep, z))
     return inside_x, inside_z, inside_x == x, inside_z == z
 
 
 def _eased(velocity: float, asked: float, dt: float) -> tuple[float, float]:
-    """Return the way [m] and the velocity [m/s] after `dt` [s] of approaching the asked velocity exponentially."""
+    """Return displacement [m] and velocity [m/s] after `dt` [s] of exponential approach to the asked velocity."""
     left = math.exp(-dt / REACTION)
     return asked * dt + (velocity - asked) * REACTION * (1.0 - left), asked + (velocity - asked) * left
 

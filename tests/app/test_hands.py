@@ -148,7 +148,7 @@ def test_without_dask_it_is_said_what_installs_it(
 
 
 def test_workers_of_other_versions_are_refused_by_name(cluster: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(hire, "told_of", lambda _: {"the worker tcp://b:1": "tallgrass 9.9 with numpy 2.0"})
+    monkeypatch.setattr(hire, "versions_at", lambda _: {"the worker tcp://b:1": "tallgrass 9.9 with numpy 2.0"})
     here = re.escape(found_dask.versions())
     said = rf"the worker tcp://b:1 has tallgrass 9\.9 with numpy 2\.0; install {here} there, as here$"
     with pytest.raises(MachineError, match=said), hired(cluster.scheduler_address, most=1):
@@ -157,7 +157,7 @@ def test_workers_of_other_versions_are_refused_by_name(cluster: Any, monkeypatch
 
 def test_scheduler_and_workers_all_tell_their_versions(cluster: Any) -> None:
     with found_dask.need_distributed().Client(cluster) as client:
-        told = hire.told_of(client)
+        told = hire.versions_at(client)
     assert set(told) == {"the scheduler", *(f"the worker {each.address}" for each in cluster.workers.values())}
     assert set(told.values()) == {found_dask.versions()}
 
@@ -184,9 +184,9 @@ def test_workers_share_the_cores_out_unless_the_user_does(
 ) -> None:
     monkeypatch.delenv("LP_NUM_THREADS", raising=False)
     monkeypatch.setattr(hire, "cores", lambda: cores)
-    assert hire.shared_out(workers) == {"LP_NUM_THREADS": threads}
+    assert hire.shared_cores(workers) == {"LP_NUM_THREADS": threads}
     monkeypatch.setenv("LP_NUM_THREADS", "3")
-    assert hire.shared_out(workers) == {}
+    assert hire.shared_cores(workers) == {}
 
 
 def test_dasks_own_settings_of_tls_count(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tallgrass import Pose, Prairie, Tree
-from tallgrass.app.bench.trees import Behind, trees_told
+from tallgrass.app.bench.trees import Behind, tree_figures
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_truth, without_trees
 from tallgrass.systems.trees import kept, kind, standing
@@ -125,7 +125,7 @@ def test_a_bush_has_an_outline_and_grain_as_with_every_leaf(
     drawn = stage.shot(prairie, aim).astype(np.uint8)
     truth = draw_truth(prairie, *stage.matrices(aim), stage.size)
     hidden = np.abs(truth.picture.astype(np.int32) - bare).max(axis=-1) > 12
-    told = trees_told(drawn, truth, Behind(bare, np.ones_like(hidden), hidden))
+    told = tree_figures(drawn, truth, Behind(bare, np.ones_like(hidden), hidden))
     assert told is not None
     assert float(str(told["contrast"])) > 0.85
     assert float(str(told["roughness_ratio"])) > 0.87

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tallgrass import Prairie
-from tallgrass.app.bench.trees import Behind, trees_told
+from tallgrass.app.bench.trees import Behind, tree_figures
 from tallgrass.components.arrays import Bytes
 from tallgrass.systems.reference import draw_truth, without_trees
 from tallgrass.systems.trees import standing
@@ -151,7 +151,7 @@ def test_a_pictures_outline_is_as_rough_as_with_every_leaf(stage: Stage, prairie
     assert not any(each.streams[name].count for each in oak.models for name in CARDS)
     truth = draw_truth(prairie, *stage.matrices(aim), (SIZE, SIZE))
     hidden = np.abs(truth.picture.astype(np.int32) - bare).max(axis=-1) > 12
-    told = trees_told(drawn, truth, Behind(bare, np.ones_like(hidden), hidden))
+    told = tree_figures(drawn, truth, Behind(bare, np.ones_like(hidden), hidden))
     assert told is not None
     assert float(str(told["roughness_ratio"])) > 0.75
 
