@@ -1,4 +1,4 @@
-"""Where winds can be taken hold of: the places and headings that they declare."""
+"""Anchors of winds: the places and headings that they declare, by which they can be moved and turned."""
 
 from dataclasses import dataclass
 from math import atan2, cos, degrees, radians, sin
@@ -11,18 +11,18 @@ from .fields import Key, keys_of
 from .values import Way
 
 PLACE, PATH = "position", "path"
-"""The keys by which winds say where they are; a path comes before a place."""
+"""Keys of a wind's place; a path takes precedence."""
 
 HEADINGS = ("yaw", "direction")
-"""The keys by which they say where they head, in degrees as a camera's yaw."""
+"""Keys of a wind's heading, in degrees as a camera's yaw."""
 
 WHOLE = 1
-"""Decimals of a heading that was turned [degrees]."""
+"""Decimals of a turned heading [degrees]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Anchor:
-    """A place that a wind declares, and the key that says so."""
+    """A place that a wind declares, and the way to its key."""
 
     way: Way
     place: tuple[float, float]
@@ -30,7 +30,7 @@ class Anchor:
 
 
 def declared_anchors(wind: WindPrimitive, number: int, /) -> list[Anchor]:
-    """Return the places that the wind of a number declares: those of its path, or else its own."""
+    """Return the anchors of the wind with this index: those of its path, else its own place."""
     path = getattr(wind, PATH, None)
     if isinstance(path, list) and path:
         found = ((("wind", number, PATH, k), stop) for k, stop in enumerate(path) if isinstance(stop, BaseModel))
@@ -46,10 +46,10 @@ def _anchor(part: BaseModel, way: Way) -> list[Anchor]:
 
 
 def heading(wind: WindPrimitive, number: int, /) -> tuple[Way, float] | None:
-    """Return the key that says where the wind of a number heads, and the heading [rad].
+    """Return the way to the heading of the wind with this index, and the heading [rad].
 
-    None for one that is everywhere, whose heading has no place on the ground, and for one on a path, which says where
-    it leads.
+    None for a wind that is everywhere, whose heading has no place on the ground, and for a wind on a path, which has
+    its own headings.
     """
     if not declared_anchors(wind, number) or getattr(wind, PATH, None):
         return None
@@ -63,7 +63,7 @@ def turned_to(middle: tuple[float, float], place: tuple[float, float], /) -> flo
 
 
 def ahead(middle: tuple[float, float], yaw: float, away: float, /) -> tuple[float, float]:
-    """Return the ground position (x, z) [m] that is so far away [m] where a heading [rad] leads."""
+    """Return the ground position (x, z) [m] at a distance `away` [m] along a heading [rad]."""
     return middle[0] + away * sin(yaw), middle[1] - away * cos(yaw)
 
 

@@ -1,4 +1,4 @@
-"""Painting where grass grows: strokes on density maps, as pure functions of pixels."""
+"""Painting densities of grass: strokes on density maps, as pure functions of pixels."""
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -18,32 +18,32 @@ FINEST, LEAST, MOST = 0.5, 64, 1024
 
 @dataclass(frozen=True, slots=True)
 class Brush:
-    """What a stroke does."""
+    """The settings of a stroke."""
 
     kind: str
-    """The kind of grass that it is about."""
+    """The kind of grass that it paints."""
 
     radius: float = 4.0
-    """Radius of the disc that it paints [m]; it is soft from its middle on."""
+    """Radius of the painted disc, which fades out from its middle [m]."""
 
     density: float = 1.0
-    """The density that it leads to, in [0, 1]."""
+    """Density that it approaches, in [0, 1]."""
 
     pressure: float = 0.5
-    """How much of the way it goes where the disc passes, in (0, 1]."""
+    """Fraction of the difference that a dab applies in its middle, in (0, 1]."""
 
     alone: bool = True
-    """Whether other kinds that have maps make room for it."""
+    """Whether it lowers the densities of other kinds that have maps."""
 
     lowers: bool = False
-    """Whether it only ever takes grass away."""
+    """Whether it only lowers densities."""
 
     def making_room(self, kind: str) -> "Brush":
-        """Return the brush by which another kind makes room for what this one paints."""
+        """Return the brush that lowers the density of another kind in favour of this brush's kind."""
         return replace(self, kind=kind, density=1.0 - self.density, lowers=True)
 
     def erasing(self) -> "Brush":
-        """Return the brush that takes this grass away."""
+        """Return the brush that erases this kind."""
         return replace(self, density=0.0)
 
 
@@ -52,7 +52,7 @@ def stroked(
 ) -> Picture:
     """Return a map (rows, columns, 3 or 4) with a stroke along ground positions (n, 2) [m]; `size` is the terrain's.
 
-    Between two positions the disc is set down as often as needed for the stroke to have no gaps. Raises ValueError for
+    Between two positions there are as many dabs as a stroke without gaps needs. Raises ValueError for
     a channel that the map does not have.
     """
     number = CHANNELS.index(channel)
@@ -63,33 +63,33 @@ def stroked(
     x, z = _middles(size[0], columns), _middles(size[1], rows)
     for place in _dabs(line, 0.4 * brush.radius):
         across, down = _within(x, place[0], brush.radius), _within(z, place[1], brush.radius)
-        part = _disc(x[across] - place[0], z[down] - place[1], brush.radius) * np.float32(brush.pressure)
-        way = np.float32(255.0 * brush.density) - painted[down, across]
-        painted[down, across] += part * (np.minimum(way, 0.0) if brush.lowers else way)
+        weight = _disc(x[across] - place[0], z[down] - place[1], brush.radius) * np.float32(brush.pressure)
+        change = np.float32(255.0 * brush.density) - painted[down, across]
+        painted[down, across] += weight * (np.minimum(change, 0.0) if brush.lowers else change)
     result = picture.copy()
     result[..., number] = np.clip(np.rint(painted), 0.0, 255.0).astype(np.uint8)
     return result
 
 
 def _middles(length: float, count: int) -> NDArray[np.float64]:
-    """Return where the middles of pixels are along a side of the terrain [m], shape (count,)."""
+    """Return the coordinates of pixel centres along a side of the terrain [m], shape (count,)."""
     return np.asarray((np.arange(count) + 0.5) * (length / count) - length / 2, np.float64)
 
 
 def _within(middles: NDArray[np.float64], place: float, radius: float) -> slice:
-    """Return which pixels along a side are so near to a place [m]."""
+    """Return the slice of pixels within a radius of a coordinate [m]."""
     first, last = np.searchsorted(middles, [place - radius, place + radius]).tolist()
     return slice(first, last)
 
 
 def _disc(x: NDArray[np.float64], z: NDArray[np.float64], radius: float) -> NDArray[np.float32]:
-    """Return 1 in the middle of a disc, falling smoothly to 0 at its edge, shape (rows, columns)."""
+    """Return the weights of a disc: 1 in its middle, falling smoothly to 0 at its edge, shape (rows, columns)."""
     t = np.clip(1.0 - np.sqrt(x[None, :] ** 2 + z[:, None] ** 2) / radius, 0.0, 1.0)
     return (t * t * (3.0 - 2.0 * t)).astype(np.float32)
 
 
 def _dabs(line: NDArray[np.float64], step: float) -> NDArray[np.float64]:
-    """Return the places along a line at which the disc is set down, shape (m, 2): all but its first, or a lone one."""
+    """Return the places of dabs along a line, shape (m, 2), without its first place unless that is the only one."""
     if len(line) < 2:
         return line
     pieces = []
@@ -100,7 +100,7 @@ def _dabs(line: NDArray[np.float64], step: float) -> NDArray[np.float64]:
 
 
 def new_picture(density: Density, number: int, /) -> Picture:
-    """Return a map that says of one kind what is true now, in all of its channels: (rows, columns, 3)."""
+    """Return a new map with the current density of a kind in all channels, shape (rows, columns, 3)."""
     width, depth = density.size
     pixel = max(FINEST, max(width, depth) / MOST)
     columns, rows = (int(np.clip(round(side / pixel), 2, MOST)) for side in (width, depth))

@@ -1,4 +1,4 @@
-"""The editor of a scene: every change, its undoing and its saving, without any window."""
+"""The editor of a scene: changes, undo and saving, without a window."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -26,24 +26,24 @@ from .remake import Remaking
 from .values import NOTHING, Way, value_at, with_value
 
 CENTIMETRES = 2
-"""Decimals of a place that was dragged."""
+"""Decimals of a dragged place [m]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """A change that was not made."""
+    """A change that was refused."""
 
     way: Way
-    """The key that was to be changed."""
+    """Way to the key of the change."""
 
     reasons: tuple[str, ...]
-    """Why it was not, a sentence each."""
+    """Reasons, a sentence each."""
 
 
 class Editor:
-    """Changes the scene of a prairie while the prairie goes on.
+    """Changes the scene of a running prairie.
 
-    What cannot be is refused: then nothing changes, and `refusal` says why until something else is done.
+    An impossible change is refused: then nothing changes, and `refusal` has the reasons until the next change.
     """
 
     def __init__(self, prairie: Prairie) -> None:
@@ -54,21 +54,21 @@ class Editor:
         self.loaded: LoadedScene
         self.refusal: Refusal | None = None
         self.picked: int | None = None
-        """The number of the wind that is picked."""
+        """Index of the picked wind."""
         self.brush: Brush | None = None
-        """What a stroke paints; None while winds are picked."""
+        """The brush of strokes; None while the mouse picks winds."""
         self.spot: Place = (0.0, 0.0)
-        """Where a new wind is put, (x, z) [m]."""
+        """Ground position of a new wind, (x, z) [m]."""
         self._strokes = count()
         self._stroke: int | None = None
         self._shown: Draft
         self._unpainted: dict[str, Picture]
-        """What maps that are painted were before."""
+        """Painted maps as they were before, by name."""
         self._begin(prairie.loaded)
 
     @property
     def scene(self) -> Scene:
-        """The scene of the draft; what has to grow is seen later."""
+        """The scene of the draft; the prairie shows it once it has grown."""
         return self.loaded.scene
 
     @property
@@ -78,24 +78,24 @@ class Editor:
 
     @property
     def picked_wind(self) -> WindPrimitive | None:
-        """The wind that is picked, unless it has gone meanwhile."""
+        """The picked wind, None if it is gone."""
         return self.winds[self.picked] if self.picked is not None and self.picked < len(self.winds) else None
 
     @property
     def is_preset(self) -> bool:
-        """Whether the prairie is drawn at another quality than the scene's: that of the command line comes first."""
+        """Whether the command line's preset replaces the scene's quality."""
         return self.prairie.preset is not None
 
     def is_said(self, way: Way) -> bool:
-        """Return whether the file says anything at a way."""
+        """Return whether the file has a value at a way."""
         return value_at(self.history.now.values, way) is not NOTHING
 
     def set(self, way: Way, value: Any, *, subject: object = None) -> bool:
-        """Give a key another value; changes of one subject in a row are undone together. Return whether it was done."""
+        """Set a key's value; return whether it was accepted. Successive changes of one subject are undone together."""
         return self.set_all({way: value}, subject=subject)
 
     def set_all(self, values: dict[Way, Any], *, subject: object = None) -> bool:
-        """Give several keys other values in one step; NOTHING takes a key away."""
+        """Set the values of several keys in one step; NOTHING removes a key. Return whether they were accepted."""
         draft = self.history.now
         try:
             for way, value in values.items():
@@ -107,14 +107,14 @@ class Editor:
         return self._take(draft, way=next(iter(values)), subject=subject)
 
     def add_wind(self, values: dict[str, Any]) -> bool:
-        """Add a wind that is declared so, and pick it."""
+        """Add a wind with these values of its keys, and pick it; return whether it was accepted."""
         number = len(self.winds)
         done = self.set(("wind", number), values)
         self.picked = number if done else self.picked
         return done
 
     def add_wind_of(self, kind: str) -> bool:
-        """Add a wind of a kind: at `spot` where it has a place, and from now on where it would be over already."""
+        """Add a wind of a kind: at `spot` if it has a place, and starting now if it would be over already."""
         try:
             model = wind_kinds().find(kind)
         except ValueError as error:
@@ -132,9 +132,9 @@ class Editor:
         return True
 
     def remove(self, way: Way) -> bool:
-        """Take a key out of the file, or an item out of a list: what it was is its default again, or gone."""
+        """Remove a key, which returns to its default, or an item of a list."""
         if way[:1] == ("wind",):
-            self.picked = None  # those behind it are numbered anew
+            self.picked = None  # the indices of later winds change
         return self.set(way, NOTHING)
 
     def rest(self) -> None:
@@ -143,24 +143,24 @@ class Editor:
         self._stroke = None
 
     def undo(self) -> None:
-        """Take the last step back."""
+        """Undo the last step."""
         self._go(done=self.history.undo())
 
     def redo(self) -> None:
-        """Do again what was undone last."""
+        """Redo the step that was undone last."""
         self._go(done=self.history.redo())
 
     def drag(self, moved: Sequence[Anchor], by: Place) -> None:
-        """Put anchors elsewhere: each by so far [m] from where it was when they were taken hold of."""
-        there = {
+        """Move anchors `by` (x, z) [m] from their places at the beginning of the drag."""
+        places = {
             each.way: [round(each.place[0] + by[0], CENTIMETRES), round(each.place[1] + by[1], CENTIMETRES)]
             for each in moved
         }
-        if there:
-            self.set_all(there, subject=("drag", tuple(there)))
+        if places:
+            self.set_all(places, subject=("drag", tuple(places)))
 
     def paint(self, line: Sequence[Place]) -> None:
-        """Go on with a stroke of the brush along ground positions (x, z) [m]; `rest` ends it."""
+        """Continue a stroke of the brush along ground positions (x, z) [m]; `rest` ends the stroke."""
         if self.brush is None or not {self.brush.kind} <= self.scene.grass.keys() & self.prairie.scene.grass.keys():
             return
         if self._stroke is None:
@@ -177,11 +177,11 @@ class Editor:
             self._take(draft, way=way, subject=("stroke", self._stroke))
 
     def anchors(self) -> list[tuple[int, Anchor]]:
-        """Return the places of all winds, each with its wind's number."""
+        """Return the anchors of all winds, each with its wind's index."""
         return [(number, each) for number, wind in enumerate(self.winds) for each in declared_anchors(wind, number)]
 
     def step(self) -> None:
-        """Take over what has grown since the last frame; what could not is taken back."""
+        """Take over what has grown since the last frame; undo what could not grow."""
         try:
             self.remaking.step()
         except SceneError as error:
@@ -192,11 +192,11 @@ class Editor:
             self._shown = self.history.now
 
     def save(self) -> str:
-        """Write the scene and its maps back, and return what was written in a sentence; a refusal has none."""
+        """Write the scene and its maps, and return a sentence about the files written; it is empty on a refusal."""
         self.rest()
         try:
             if self.remaking.is_growing:
-                load_maps(self.loaded)  # what is not made yet may still be refused
+                load_maps(self.loaded)  # what has not grown yet may still be refused
             draft = self.history.now
             names = self.pen.write(draft.values, self._pictures(draft))
         except ValueError as error:
@@ -209,13 +209,13 @@ class Editor:
         return f"{' and '.join(names)} {'is' if len(names) == 1 else 'are'} written" if names else "nothing has changed"
 
     def read_again(self) -> None:
-        """Begin anew with what the files say now. Raises SceneError with every problem; then nothing has changed."""
+        """Read the files again, and discard the draft. Raises SceneError with every problem; then nothing changes."""
         self.prairie.reload(self.pen.path)
         self.remaking.forget()
         self._begin(self.prairie.loaded)
 
     def close(self) -> None:
-        """Let go of what is still growing."""
+        """Cancel what is still growing."""
         self.remaking.close()
 
     def _begin(self, loaded: LoadedScene) -> None:
@@ -249,11 +249,11 @@ class Editor:
         return load_document(document, self.pen.path, pictures=self._pictures(draft))
 
     def _pictures(self, draft: Draft) -> dict[str, Picture]:
-        """Return the maps of a draft that are not read from their files: those that any draft has painted."""
+        """Return the maps that any draft has painted, as they are in this draft; all others are read from files."""
         return {**self._unpainted, **draft.pictures}
 
     def _whole(self, values: dict[str, Any], way: Way) -> dict[str, Any]:
-        """Return values with the lists on a way that the file leaves to their defaults: an item needs the others."""
+        """Return values with the default lists on a way written out: an item needs the others in the file."""
         for number, step in enumerate(way):
             if isinstance(step, int) and not isinstance(value_at(values, way[:number]), list):
                 values = with_value(values, way[:number], _plain(self.scene, way[:number]))
@@ -265,9 +265,9 @@ class Editor:
         return replace(draft, pictures={**draft.pictures, name: stroked(picture, channel, brush, places, size)})
 
     def _canvas(self, draft: Draft, kind: str) -> tuple[Draft, str, str, Picture]:
-        """Return the draft in which a kind has a map, the map's name, its channel, and what is painted so far."""
+        """Return a draft in which a kind has a density map, the map's name, its channel, and its current pixels."""
         place = self.scene.grass[kind].place
-        if place is not None and isinstance(place.map, str):  # in a file, an array stands for `none` alone
+        if place is not None and isinstance(place.map, str):  # only `none` is read as an array
             name = place.map
             if name not in self._pictures(draft):
                 self._unpainted[name] = read_picture(self.loaded.folder / name)
@@ -280,7 +280,7 @@ class Editor:
 
 
 def _plain(scene: Scene, way: Way) -> Any:
-    """Return the list that a scene has at a way, as its file would say it; NOTHING where it has none."""
+    """Return the scene's list at a way in the form of a file; NOTHING where the value is no list."""
     found: Any = scene
     for step in way:
         found = getattr(found, str(step)) if isinstance(found, BaseModel) else found[step]

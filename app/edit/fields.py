@@ -1,4 +1,4 @@
-"""What the panel has to know of every key, taken from the models that scenes are read by: none is listed by hand."""
+"""The keys of scenes as the panel shows them, derived from the models that read scenes."""
 
 import re
 from collections.abc import Iterator
@@ -18,36 +18,36 @@ from .values import NOTHING, yaml_text
 Form = Literal[
     "number", "whole", "switch", "choice", "color", "text", "numbers", "part", "parts", "named", "fixed", "yaml"
 ]
-"""What a key takes: one value, some numbers, a part of the scene or several of them, or what only YAML can say."""
+"""The form of a key's value: a single value, numbers, a part of the scene, several parts, or any YAML."""
 
 UNIT = re.compile(r"\s*\[([A-Za-z/²%]+)\]")
 """The unit in a key's sentence."""
 
 PULLED, TYPED = 3, 7
-"""Digits of a number that a slider gives, and of one that is typed into it."""
+"""Significant digits of a number from a slider, and of a typed one."""
 
 EVERYWHERE = 1e6
-"""Numbers of lists have this bound at least, which says nothing."""
+"""Bound from which on a range is not worth showing."""
 
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """One key: what it takes and what is said of it."""
+    """One key: its form, its limits and its description."""
 
     name: str
 
     form: Form
 
     sentence: str
-    """What it is, without its unit."""
+    """Description, without its unit."""
 
     unit: str = ""
 
     default: Any = NOTHING
-    """Its value where a file says nothing; NOTHING where a file has to say it."""
+    """Default value; NOTHING where a file must give one."""
 
     optional: bool = False
-    """Whether it may have no value at all."""
+    """Whether its value may be null."""
 
     low: float | None = None
     """Least number."""
@@ -56,22 +56,22 @@ class Key:
     """Largest number."""
 
     above: bool = False
-    """Whether it has to be more than `low`."""
+    """Whether its number must exceed `low`."""
 
     below: bool = False
-    """Whether it has to be less than `high`."""
+    """Whether its number must be less than `high`."""
 
     choices: tuple[str, ...] = ()
-    """The texts that it may be."""
+    """Texts to choose from."""
 
     count: int = 1
-    """How many numbers it takes."""
+    """Number of numbers that it takes."""
 
     most: int | None = None
     """Most parts of a list or entries of a mapping."""
 
     model: type[BaseModel] | None = None
-    """What a part declares, and each of several; of a choice, what may stand in its place."""
+    """Model of a part, or of each of several parts; of a choice, the model of its alternative part."""
 
 
 @cache
@@ -81,7 +81,7 @@ def keys_of(model: type[BaseModel], /) -> tuple[Key, ...]:
 
 
 def item_key(key: Key, name: str, model: type[BaseModel] | None = None, /) -> Key:
-    """Return the key of one of several parts, called `name`, of a model or that of all of them."""
+    """Return the key, called `name`, of one of several parts; `model` is the part's, by default the common one."""
     return replace(key, name=name, form="part", default=NOTHING, optional=False, model=model or key.model)
 
 
@@ -90,24 +90,24 @@ def _key(name: str, info: FieldInfo) -> Key:
     sentence = " ".join((info.description or "").split())
     unit = UNIT.search(sentence)
     default = NOTHING if info.is_required() else info.get_default(call_default_factory=True)
-    taken, optional = _taken(field), NoneType in get_args(info.annotation)
-    if taken["form"] == "fixed" and optional:
-        taken["form"] = "choice"
+    attributes, optional = _form(field), NoneType in get_args(info.annotation)
+    if attributes["form"] == "fixed" and optional:
+        attributes["form"] = "choice"
     return Key(
         name=name,
         sentence=UNIT.sub("", sentence),
         unit=unit[1] if unit else "",
         default=NOTHING if default is PydanticUndefined else default,
         optional=optional,
-        **taken,
+        **attributes,
     )
 
 
 _PLAIN: dict[Any, Form] = {bool: "switch", int: "whole", float: "number", str: "text"}
 
 
-def _taken(field: Field) -> dict[str, Any]:
-    """Return the form of a field, and what goes with it."""
+def _form(field: Field) -> dict[str, Any]:
+    """Return the form of a field, and the attributes of `Key` that go with the form."""
     origin, limits = get_origin(field.annotation), field.limits
     choices = tuple(_literals(field.annotation))
     if LONG in limits.get("pattern", ""):
@@ -144,7 +144,7 @@ def _bounds(limits: dict[str, Any]) -> dict[str, Any]:
 
 
 def _literals(annotation: Any) -> Iterator[Any]:
-    """Yield what the literals in an annotation may be, those of parts aside."""
+    """Yield the values of the literals in an annotation, without the parts' own."""
     if get_origin(annotation) is Literal:
         yield from get_args(annotation)
     elif get_origin(annotation) is Annotated:
@@ -158,7 +158,7 @@ _FIRST: dict[Form, Any] = {"switch": False, "color": "#808080"}
 
 
 def first_value(key: Key, /) -> Any:
-    """Return a value to begin with for a key that has none yet; of a part, one that it accepts where there is one."""
+    """Return an initial value for a key without one; for a part, an accepted one if possible."""
     if key.form in ("number", "whole"):
         return _middle(key)
     if key.form == "numbers":
@@ -171,7 +171,7 @@ def first_value(key: Key, /) -> Any:
 
 
 def first_part(model: type[BaseModel], /, **given: Any) -> dict[str, Any]:
-    """Return values that a model accepts: what it has to be told beside what is given, and if need be one more."""
+    """Return values that a model accepts: the given ones, the required ones, and if needed an optional one."""
     needed = given | {
         key.name: first_value(key) for key in keys_of(model) if key.default is NOTHING and key.name not in given
     }
@@ -195,9 +195,9 @@ def _middle(key: Key) -> float:
 
 
 def tidied(key: Key, number: float, /, *, pulled: bool = True) -> float:
-    """Return what the number of a field is written as: with few digits where it was pulled there and not typed.
+    """Return a field's number rounded for the file: to fewer digits if it was pulled than if it was typed.
 
-    One that was pulled to a bound that has to be passed is a little beyond it.
+    A number pulled to an exclusive bound is moved a little beyond the bound.
     """
     if key.form == "whole":
         return round(number)
@@ -214,8 +214,8 @@ def _shortened(number: float, digits: int) -> float:
     return int(short) if short.is_integer() else short
 
 
-def told_of(key: Key, /) -> str:
-    """Return what is said of a key when one points at it: its sentence, its range and its default."""
+def tooltip(key: Key, /) -> str:
+    """Return the tooltip of a key: its description, range and default."""
     facts = [key.sentence]
     if key.low is not None and key.high is not None and key.high < EVERYWHERE:
         facts.append(f"{key.low:.12g} to {key.high:.12g}{' ' + key.unit if key.unit else ''}")

@@ -1,4 +1,4 @@
-"""What of a wind can be taken hold of on the ground, and what becomes of it as it is pulled."""
+"""Grips of winds on the ground, and the effect of pulling them."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -17,32 +17,32 @@ from .pick import Place
 from .values import Way
 
 SHORTEST, LONGEST, USUAL = 2.5, 12.0, 6.0
-"""How far from a wind's middle it is turned at least, at most, and where it has no extent [m]."""
+"""Least and largest distance of the turning grip from a wind's middle, and the one without an extent [m]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Grip:
-    """A place at which a wind is taken hold of."""
+    """A place at which the mouse takes hold of a wind."""
 
     kind: Literal["move", "turn"]
     number: int
-    """The wind's number in the scene."""
+    """Index of the wind in the scene."""
 
     place: Place
     """Ground position (x, z) [m]."""
 
     moved: tuple[Anchor, ...] = ()
-    """What goes along with it."""
+    """Anchors that move with it."""
 
     way: Way = ()
-    """The key of the heading that it turns."""
+    """Way to the heading that it turns."""
 
     middle: Place = (0.0, 0.0)
-    """What it turns about, (x, z) [m]."""
+    """Centre of the turning, (x, z) [m]."""
 
 
 def grips_of(editor: Editor) -> list[Grip]:
-    """Return the grips of all winds: one at each place that they declare, and where the picked one heads."""
+    """Return the grips of all winds: one at each anchor, and one that turns the picked wind."""
     found = [Grip("move", number, anchor.place, (anchor,)) for number, anchor in editor.anchors()]
     wind = editor.picked_wind
     if wind is not None and editor.picked is not None:
@@ -56,7 +56,7 @@ def grips_of(editor: Editor) -> list[Grip]:
 
 
 def grip_at(editor: Editor, place: Place, /) -> Grip | None:
-    """Return the grip on the strongest wind whose mask a ground position (x, z) [m] is on, with all of its places."""
+    """Return a grip on the strongest wind whose mask covers a ground position (x, z) [m], with all its anchors."""
     prairie, spot = editor.prairie, np.array([place], np.float32)
     for blown in prairie.winds.acting(prairie.time):
         number = number_of(editor, blown.source.primitive)
@@ -67,7 +67,7 @@ def grip_at(editor: Editor, place: Place, /) -> Grip | None:
 
 
 def pulled(editor: Editor, grip: Grip, to: Place, /) -> None:
-    """Move what a grip moves as far as it was pulled to a ground position (x, z) [m], or turn it to there."""
+    """Pull a grip to a ground position (x, z) [m]: move its anchors by that displacement, or turn its heading there."""
     if grip.kind == "turn":
         editor.set(grip.way, turned_to(grip.middle, to), subject=("turn", grip.way))
     else:
@@ -75,12 +75,12 @@ def pulled(editor: Editor, grip: Grip, to: Place, /) -> None:
 
 
 def blowing_of(prairie: Prairie, wind: WindPrimitive, /) -> list[Blowing]:
-    """Return what of a declared wind acts now, the strongest claim first."""
+    """Return the acting parts of a declared wind, the strongest claim first."""
     return [blown for blown in prairie.winds.acting(prairie.time) if blown.source.primitive == wind]
 
 
 def number_of(editor: Editor, wind: WindPrimitive, /) -> int | None:
-    """Return which of the scene's winds this is; None for one that a game or a key has added."""
+    """Return the index of a wind in the scene; None for a wind that a game or a key has added."""
     return next((number for number, each in enumerate(editor.winds) if each == wind), None)
 
 

@@ -1,4 +1,4 @@
-"""What is edited, and every state that it was in: undo and redo of everything."""
+"""The draft of a scene and its history: undo and redo."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -7,7 +7,7 @@ from typing import Any
 from ...engine.terrain.density import Picture
 
 MOST_STEPS = 500
-"""Most steps that can be undone."""
+"""Largest number of steps that can be undone."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -15,14 +15,14 @@ class Draft:
     """A scene as it is being edited; no part of it is ever changed in place."""
 
     values: dict[str, Any]
-    """What its file says."""
+    """Values of its file."""
 
     pictures: Mapping[str, Picture] = field(default_factory=dict)
-    """The density maps that have been painted, by the names that the scene calls them."""
+    """Painted density maps, by their names in the scene."""
 
 
 class History:
-    """The drafts of a scene one after the other, and which of them counts."""
+    """The drafts of a scene in their order, and the current one."""
 
     def __init__(self, draft: Draft) -> None:
         self._drafts = [draft]
@@ -32,26 +32,26 @@ class History:
 
     @property
     def now(self) -> Draft:
-        """The draft that counts."""
+        """The current draft."""
         return self._drafts[self._at]
 
     @property
     def is_saved(self) -> bool:
-        """Whether the draft that counts is what was saved last."""
+        """Whether the current draft was saved last."""
         return self.now is self._saved
 
     @property
     def can_undo(self) -> bool:
-        """Whether there is a draft before."""
+        """Whether there is an earlier draft."""
         return self._at > 0
 
     @property
     def can_redo(self) -> bool:
-        """Whether a draft was undone."""
+        """Whether there is an undone draft."""
         return self._at + 1 < len(self._drafts)
 
     def change(self, draft: Draft, *, subject: object) -> None:
-        """Go on with another draft; changes of one subject in a row are one step, until `rest`."""
+        """Make another draft the current one; successive changes of one subject are one step, until `rest`."""
         joins = subject is not None and subject == self._subject and self.can_undo and not self.can_redo
         kept = self._drafts[: self._at + (not joins)]
         self._drafts = [*kept[-MOST_STEPS:], draft]
@@ -66,15 +66,15 @@ class History:
         return self._go(-1, possible=self.can_undo)
 
     def redo(self) -> bool:
-        """Go on to what was undone; return whether there was something."""
+        """Go to the step that was undone; return whether there was one."""
         return self._go(1, possible=self.can_redo)
 
     def save(self) -> None:
-        """Remember that the draft that counts is saved."""
+        """Note that the current draft is saved."""
         self._saved = self.now
         self.rest()
 
-    def _go(self, way: int, *, possible: bool) -> bool:
+    def _go(self, step: int, *, possible: bool) -> bool:
         self.rest()
-        self._at += way * possible
+        self._at += step * possible
         return possible

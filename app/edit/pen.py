@@ -1,4 +1,4 @@
-"""Writing a draft back into the files that it came from, and nothing into them but what has changed."""
+"""Writing the changes of a draft back into its files."""
 
 import re
 import shutil
@@ -16,11 +16,11 @@ from ...engine.terrain.density import Picture
 from .rewrite import rewritten
 from .values import value_at
 
-_MARK = b"\xef\xbb\xbf"
+_BOM = b"\xef\xbb\xbf"
 
 
 class Pen:
-    """Writes drafts of one scene; a bundled one is written as a copy of its own, into the working folder."""
+    """Writes drafts of one scene; a bundled scene is copied into the working folder first."""
 
     def __init__(self, loaded: LoadedScene) -> None:
         self.path = loaded.file
@@ -28,34 +28,34 @@ class Pen:
         self._names = [*loaded.files]
         self._written: dict[str, Picture] = {}
         self._files: dict[str, bytes] = {}
-        """What was in the files of maps that are painted."""
+        """Contents of the painted maps' files, by name."""
 
     def know(self, name: str, picture: Picture) -> None:
-        """Remember a map's file as it is: it is not written again unchanged, and never over another's changes."""
+        """Remember a map and its file: an unchanged map is not written, nor a file that others have changed."""
         if name not in self._written:
             self._written[name], self._files[name] = picture, (self.path.parent / name).read_bytes()
 
     def write(self, values: dict[str, Any], pictures: Mapping[str, Picture]) -> list[str]:
-        """Write what has changed, and return the names of the files. Raises ValueError with a sentence if it cannot."""
+        """Write what has changed, and return the names of the files. Raises ValueError with a sentence on failure."""
         before = decode(self._bytes, file=str(self.path))
-        mark = _MARK if self._bytes.startswith(_MARK) else b""
-        after = mark + rewritten(before, values).encode()
+        bom = _BOM if self._bytes.startswith(_BOM) else b""
+        after = bom + rewritten(before, values).encode()
         maps = {name: each for name, each in pictures.items() if self._written.get(name) is not each}
         maps = {name: each for name, each in maps.items() if name in maps_of(values)}
         if after == self._bytes and not maps:
             return []
         painted = {name: picture_bytes(picture, name) for name, picture in maps.items()}
         try:
-            _must_be(self.path, self._bytes)
-            folder = self._moved()
+            _require(self.path, self._bytes)
+            folder = self._copied()
             for name in painted:
                 if (folder / name).exists():
-                    _must_be(folder / name, self._files.get(name))
+                    _require(folder / name, self._files.get(name))
             for name, data in painted.items():
-                _put(folder / name, data)
+                _write(folder / name, data)
             scene = [self.path.name] if after != self._bytes or folder != self.path.parent else []
             if scene:
-                _put(folder / self.path.name, after)
+                _write(folder / self.path.name, after)
         except OSError as error:
             raise ValueError(f"{error.filename}: {error.strerror}") from error
         self.path, self._bytes = folder / self.path.name, after
@@ -64,7 +64,7 @@ class Pen:
         return [*scene, *maps]
 
     def new_map(self, kind: str, taken: Container[str]) -> str:
-        """Return a name for the map of a kind of grass that neither a file nor a map has yet."""
+        """Return an unused file name for the map of a kind of grass."""
         stem = f"{self.path.stem}-{re.sub(r'[^A-Za-z0-9_-]+', '-', kind)}"
         names = (f"{stem}{'' if number == 1 else f'-{number}'}.png" for number in count(1))
         return next(name for name in names if name not in taken and not (self._folder / name).exists())
@@ -75,11 +75,11 @@ class Pen:
 
     @property
     def _folder(self) -> Path:
-        """The folder to write into: of a bundled scene it is the working folder."""
+        """Folder to write into: for a bundled scene the working folder, else the scene's own."""
         return Path.cwd() if self._is_bundled else self.path.parent
 
-    def _moved(self) -> Path:
-        """Return the folder to write into: a bundled scene is copied there, with what it names."""
+    def _copied(self) -> Path:
+        """Return the folder to write into, after copying a bundled scene's files there."""
         folder = self._folder
         if not self._is_bundled:
             return folder
@@ -95,14 +95,14 @@ class Pen:
 
 
 def maps_of(values: dict[str, Any], /) -> set[str]:
-    """Return the names of the density maps that the values of a scene name."""
+    """Return the names of the density maps in the values of a scene."""
     kinds = values.get("grass")
     places = [value_at(kind, ("place", "map")) for kind in kinds.values()] if isinstance(kinds, dict) else []
     return {name for name in places if isinstance(name, str)}
 
 
 def picture_bytes(picture: Picture, name: str, /) -> bytes:
-    """Return a density map as a file of its name's kind. Raises ValueError for one that loses what is painted."""
+    """Return a density map encoded by its name's ending. Raises ValueError for a lossy format."""
     ending = Path(name).suffix.lower()
     if ending not in (".png", ".bmp", ".tga", ".tif", ".tiff"):
         raise ValueError(f"{name}: a painted map is written as .png; let the scene name one")
@@ -111,16 +111,16 @@ def picture_bytes(picture: Picture, name: str, /) -> bytes:
     return stream.getvalue()
 
 
-def _must_be(path: Path, data: bytes | None) -> None:
-    """Raise ValueError where there is something else in a file than what is known of it."""
+def _require(path: Path, data: bytes | None) -> None:
+    """Raise ValueError where a file does not contain `data`."""
     if path.read_bytes() != data:
         raise ValueError(
             f"{path.name} has been changed by somebody else: F5 reads it again, and what is not saved is gone"
         )
 
 
-def _put(path: Path, data: bytes) -> None:
-    """Write a file in one step: nobody ever finds half of it. A link stays one, and who may read it."""
+def _write(path: Path, data: bytes) -> None:
+    """Write a file atomically. A link stays a link, and permissions stay."""
     path = path.resolve()
     part = path.with_name(path.name + ".part")
     try:

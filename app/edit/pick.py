@@ -16,15 +16,15 @@ Place = tuple[float, float]
 """Ground position (x, z) [m]."""
 
 NEAREST = 0.2
-"""Nearer to the eye than this nothing is a pixel [m]."""
+"""Depth of the near plane, behind which points have no pixel [m]."""
 
 FARTHEST = 3000.0
-"""How far away the ground is looked for [m]."""
+"""Largest distance at which the ground is searched [m]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sight:
-    """How a terrain is seen in one frame; pixels are counted from the lower left."""
+    """The view of a terrain in one frame; pixels are counted from the lower left."""
 
     size: tuple[int, int]
     """Width and height of the window [pixels]."""
@@ -39,40 +39,40 @@ class Sight:
 
     @property
     def eye(self) -> Doubles:
-        """Where it is seen from, shape (3,) [m]."""
+        """Position of the eye, shape (3,) [m]."""
         return np.asarray(np.linalg.inv(self.view.astype(np.float64))[:3, 3])
 
     def ground(self, pixel: tuple[float, float], /) -> Place | None:
-        """Return where the ray through a pixel first meets the ground; None where it meets none."""
+        """Return the first intersection of the ray through a pixel with the ground, None without one."""
         x, _, z = pick(self.terrain, self.eye[None], self.ray(pixel)[None], farthest=FARTHEST)[0].tolist()
         return None if isnan(x) else (x, z)
 
     def ray(self, pixel: tuple[float, float], /) -> Doubles:
         """Return the unit vector from the eye through a pixel, shape (3,)."""
         x, y = 2.0 * pixel[0] / self.size[0] - 1.0, 2.0 * pixel[1] / self.size[1] - 1.0
-        back = np.linalg.inv(self._onto)
+        back = np.linalg.inv(self._transform)
         near, far = (ends[:3] / ends[3] for ends in (back @ [x, y, -1.0, 1.0], back @ [x, y, 0.0, 1.0]))
         return np.asarray((far - near) / np.linalg.norm(far - near))
 
     def pixels(self, points: ArrayLike, /) -> Doubles:
-        """Return where points (n, 3) [m] are seen, shape (n, 2); NaN behind the eye."""
+        """Return the pixels of points (n, 3) [m], shape (n, 2); NaN behind the eye."""
         given = np.asarray(points, np.float64).reshape(-1, 3)
-        clip = np.concatenate([given, np.ones((len(given), 1))], axis=1) @ self._onto.T
+        clip = np.concatenate([given, np.ones((len(given), 1))], axis=1) @ self._transform.T
         depth = np.where(clip[:, 3] > NEAREST, clip[:, 3], np.nan)
         return np.asarray((clip[:, :2] / depth[:, None] + 1.0) / 2.0 * np.array(self.size, np.float64))
 
     def pixels_on_ground(self, places: Sequence[Place], /) -> Doubles:
-        """Return where ground positions are seen, shape (n, 2); NaN behind the eye."""
+        """Return the pixels of ground positions (n, 2) [m], shape (n, 2); NaN behind the eye."""
         flat = np.array(places, np.float32).reshape(-1, 2)
         return self.pixels(np.insert(flat, 1, height_at(self.terrain, flat), axis=1))
 
     @property
-    def _onto(self) -> Doubles:
+    def _transform(self) -> Doubles:
         return np.asarray(self.projection.astype(np.float64) @ self.view.astype(np.float64))
 
 
 def nearest(pixel: tuple[float, float], pixels: Doubles, within: float, /) -> int | None:
-    """Return the number of the place (n, 2) that is nearest to a pixel, None where none is so near [pixels]."""
+    """Return the index of the one of `pixels` (n, 2) nearest to a pixel, None if none is `within` [pixels]."""
     if not len(pixels):
         return None
     away = np.where(np.isnan(pixels[:, 0]), np.inf, np.hypot(*(pixels - np.array(pixel)).T))

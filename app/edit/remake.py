@@ -1,4 +1,4 @@
-"""A prairie that follows its draft: at once where nothing has to grow, and otherwise behind the frames."""
+"""A prairie that follows its draft: at once where nothing has to grow, else after growing in the background."""
 
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -10,43 +10,43 @@ from ...systems.prairie import Prairie
 from ...systems.site import Site, is_grown
 
 SLOW = ("terrain", "grass", "seed", "quality")
-"""The keys of a scene that may need something to grow."""
+"""Keys of a scene whose changes may need growing."""
 
 
 class Remaking:
-    """Lets a prairie become another reading of its scene while it goes on."""
+    """Brings new readings of a scene into its running prairie."""
 
     def __init__(self, prairie: Prairie) -> None:
         self._prairie = prairie
-        self._hand = ThreadPoolExecutor(1, thread_name_prefix="tallgrass-grow")
+        self._pool = ThreadPoolExecutor(1, thread_name_prefix="tallgrass-grow")
         self._growing: tuple[LoadedScene, Future[Site]] | None = None
         self._wanted: LoadedScene | None = None
 
     @property
     def is_growing(self) -> bool:
-        """Whether something is still to grow."""
+        """Whether a reading is still growing."""
         return self._wanted is not None
 
     def follow(self, loaded: LoadedScene) -> None:
-        """Turn to another reading; what it says of light and wind shows at once, what has to grow later.
+        """Turn to another reading: its light and winds show at once, whatever has to grow shows later.
 
-        Raises SceneError with every problem of its maps that can be told at once, and then nothing has changed.
+        Raises SceneError with the problems of its maps that are found at once; then nothing has changed.
         """
         if is_grown(self._prairie.site, loaded.scene, preset=self._prairie.preset):
             self._prairie.reload(loaded)
             self._wanted = None
             return
-        with suppress(SceneError):  # a camera that stands on the new terrain alone shows with it
+        with suppress(SceneError):  # a camera that fits only the new terrain waits for it
             self._prairie.reload(_meanwhile(loaded, self._prairie.loaded))
         self._wanted = loaded
         self._start()
 
     def forget(self) -> None:
-        """Let what is growing come to nothing: the prairie has become something else meanwhile."""
+        """Discard what is growing: the prairie has got another scene meanwhile."""
         self._wanted = None
 
     def step(self) -> None:
-        """Take over what has grown since the last frame; raises SceneError where it could not."""
+        """Take over what has grown since the last frame; raises SceneError where growing failed."""
         if self._growing is None or not self._growing[1].done():
             return
         loaded, future = self._growing
@@ -62,23 +62,23 @@ class Remaking:
         self.follow(wanted)
 
     def wait(self) -> None:
-        """Return when everything has grown; raises SceneError where it could not."""
+        """Wait until everything has grown; raises SceneError where growing failed."""
         while self._growing is not None:
             self._growing[1].exception()
             self.step()
 
     def close(self) -> None:
-        """Let go of what is still growing."""
-        self._hand.shutdown(wait=False, cancel_futures=True)
+        """Cancel what is still growing."""
+        self._pool.shutdown(wait=False, cancel_futures=True)
 
     def _start(self) -> None:
         if self._growing is None and self._wanted is not None:
             find = self._prairie.finding(self._wanted)
-            self._growing = self._wanted, self._hand.submit(_prepared, find, self._prairie.site)
+            self._growing = self._wanted, self._pool.submit(_prepared, find, self._prairie.site)
 
 
 def _prepared(find: Callable[[], Site], shown: Site) -> Site:
-    """Return the site that is found, with what painters take long to make where it has other grass than is shown."""
+    """Find a site; prepare its representations, which takes long, if its grass differs from the `shown` site's."""
     site = find()
     if site.growths != shown.growths or site.quality != shown.quality:
         for each in site.representations:
@@ -87,7 +87,7 @@ def _prepared(find: Callable[[], Site], shown: Site) -> Site:
 
 
 def _meanwhile(loaded: LoadedScene, shown: LoadedScene) -> LoadedScene:
-    """Return a reading with the ground and the grass that are shown."""
+    """Return a reading with the ground and the grass of the reading `shown`."""
     kept = {name: getattr(shown.scene, name) for name in SLOW}
     scene = loaded.scene.model_copy(update=kept)
     return replace(loaded, scene=scene, files=shown.files, pictures=shown.pictures)

@@ -1,4 +1,4 @@
-"""Writing changed values back into a YAML text: only what changed is touched, to the character."""
+"""Writing changed values back into a YAML text, without touching any other character."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -12,45 +12,44 @@ from ...engine.scene.compose import read_document
 from .values import yaml_text
 
 Splice = tuple[int, int, str]
-"""From which character to which another text is to stand."""
-
+"""A replacement: the index of its first character, the index after its last, and the new text."""
 
 GONE = NEW = 0.55
-"""What an item costs that goes, and one that comes: together more than any that becomes another one."""
+"""Costs of removing and of adding an item: together more than the largest cost of altering one."""
 
 
 @dataclass(slots=True, eq=False)
 class Span:
-    """A value's place in the text."""
+    """The range of a value in the text."""
 
     start: int
-    """Its first character."""
+    """Index of its first character."""
 
     end: int
-    """The one after its last."""
+    """Index after its last character."""
 
     column: int
-    """How many characters stand before it on its line."""
+    """Number of characters before it on its line."""
 
     data: Any = None
     """The value itself."""
 
     flow: bool = False
-    """Whether it stands in brackets or braces."""
+    """Whether it is in flow style, in brackets or braces."""
 
     items: list["Span"] = field(default_factory=list)
-    """The values of a mapping, in their order, or of a list."""
+    """Values of a mapping or a list, in their order."""
 
     keys: dict[str, "Span"] = field(default_factory=dict)
-    """The keys of a mapping."""
+    """Spans of a mapping's keys, by key."""
 
     def value(self, key: str) -> "Span":
-        """Return the value of a key of a mapping."""
+        """Return the span of a mapping's value by its key."""
         return self.items[list(self.keys).index(key)]
 
 
 def spans(text: str, /) -> Span:
-    """Return the spans of a text that `read_document` reads without a problem; raises what it raises."""
+    """Return the spans of a YAML text; raises what `read_document` raises for its problems."""
     data = read_document(text, file="").root.data
     events = [event for event in yaml.parse(text, Loader=yaml.CSafeLoader) if isinstance(event, _COUNT)]
     return _Spans(events).read(data)
@@ -60,7 +59,7 @@ _COUNT = (yaml.NodeEvent, yaml.CollectionEndEvent)
 
 
 class _Spans:
-    """Reads events one after the other; what they come to is known already."""
+    """Makes spans from YAML events in their order; their values are known already."""
 
     def __init__(self, events: list[Any]) -> None:
         self.events, self.at = events, 0
@@ -97,13 +96,13 @@ class RewriteError(ValueError):
 
 
 def rewritten(text: str, values: dict[str, Any], /) -> str:
-    """Return a YAML text that reads as `values`: comments, order, quotes and spaces stay where nothing has changed.
+    """Return a YAML text changed to read as `values`; comments, order, quotes and spaces of all else stay.
 
-    The text has to be one that `read_document` reads. Raises RewriteError where the change cannot be written.
+    `read_document` must be able to read the text. Raises RewriteError where the change cannot be written.
     """
-    splices = sorted(_changed(text, spans(text), values), key=lambda splice: splice[:2])
+    splices = sorted(_splices(text, spans(text), values), key=lambda splice: splice[:2])
     result = text
-    for start, end, new in reversed(splices):  # at one place, what comes first stands first
+    for start, end, new in reversed(splices):  # from the back; of several at one index the first one stands first
         result = result[:start] + new + result[end:]
     try:
         read = read_document(result, file="").root.data
@@ -118,7 +117,7 @@ _NOT_HERE = "what was changed is written once and used at several places (& and 
 
 
 def _same(one: Any, other: Any) -> bool:
-    """Return whether two values are the same to the digits that are written."""
+    """Return whether two values are equal in the digits that are written."""
     if isinstance(one, dict) and isinstance(other, dict):
         return one.keys() == other.keys() and all(_same(value, other[key]) for key, value in one.items())
     if isinstance(one, list) and isinstance(other, list):
@@ -126,8 +125,8 @@ def _same(one: Any, other: Any) -> bool:
     return yaml_text(one) == yaml_text(other)
 
 
-def _changed(text: str, span: Span, value: Any, key: Span | None = None) -> Iterator[Splice]:
-    """Yield what has to be done for the text of a value, that of a `key` if it has one, to read as another."""
+def _splices(text: str, span: Span, value: Any, key: Span | None = None) -> Iterator[Splice]:
+    """Yield the splices that make the text of `span` read as `value`; `key` is the span of its key in a mapping."""
     if _same(span.data, value):
         return
     if isinstance(span.data, dict) and isinstance(value, dict) and span.keys.keys() & value.keys():
@@ -135,48 +134,48 @@ def _changed(text: str, span: Span, value: Any, key: Span | None = None) -> Iter
     elif isinstance(span.data, list) and isinstance(value, list) and span.items and value:
         yield from _list(text, span, value)
     else:
-        yield from _replaced(text, span, value, key)
+        yield from _replacement(text, span, value, key)
 
 
-def _replaced(text: str, span: Span, value: Any, key: Span | None) -> Iterator[Splice]:
+def _replacement(text: str, span: Span, value: Any, key: Span | None) -> Iterator[Splice]:
     new = yaml_text(value)
     if isinstance(value, str) and text[span.start : span.start + 1] == "'" and "'" not in value and value.isprintable():
         new = f"'{value}'"
-    if key is not None and span.items and not span.flow:  # it stands on lines of its own, and comments beside its key
+    if key is not None and span.items and not span.flow:  # a block: comments may stand beside its key
         colon = text.index(":", key.end) + 1
         yield colon, colon, " " + new
         yield _line_start(text, span.start), _line_end(text, span.end), ""
     else:
-        end = span.start + len(text[span.start : span.end].rstrip())  # of a text on lines of its own, the last one's
+        end = span.start + len(text[span.start : span.end].rstrip())  # a block text spans its last line break
         yield span.start, end, " " + new if text[span.start - 1 : span.start] in (":", "-") else new
 
 
 def _mapping(text: str, span: Span, value: dict[str, Any]) -> Iterator[Splice]:
     for key, where in span.keys.items():
         if key in value:
-            yield from _changed(text, span.value(key), value[key], where)
+            yield from _splices(text, span.value(key), value[key], where)
     starts = [each.start for each in span.keys.values()]
     for first, last in _runs([key not in value for key in span.keys]):
-        yield _without(text, span, starts, first, last)
+        yield _removal(text, span, starts, first, last)
     new = [f"{yaml_text(key)}: {yaml_text(each)}" for key, each in value.items() if key not in span.keys]
     if new:
-        yield _with(text, span, new)
+        yield _addition(text, span, new)
 
 
 def _list(text: str, span: Span, value: list[Any]) -> Iterator[Splice]:
     starts = [item.start if span.flow else _dash(text, item) for item in span.items]
     stays = _staying([item.data for item in span.items], value)
     for first, last in _runs([not each for each in stays]):
-        yield _without(text, span, starts, first, last)
+        yield _removal(text, span, starts, first, last)
     for item, new in zip(compress(span.items, stays), value, strict=False):
-        yield from _changed(text, item, new)
+        yield from _splices(text, item, new)
     added = [yaml_text(item) for item in value[sum(stays) :]]
     if added:
-        yield _with(text, span, added if span.flow else [f"- {each}" for each in added])
+        yield _addition(text, span, added if span.flow else [f"- {each}" for each in added])
 
 
 def _runs(gone: list[bool]) -> Iterator[tuple[int, int]]:
-    """Yield from which to which entry each run of those goes that are gone."""
+    """Yield the runs of entries that are gone, each as its first index and the index after its last."""
     first = None
     for number, each in enumerate([*gone, False]):
         if each and first is None:
@@ -190,8 +189,8 @@ def _dash(text: str, item: Span) -> int:
     return text.rindex("-", 0, item.start)
 
 
-def _without(text: str, span: Span, starts: list[int], first: int, last: int) -> Splice:
-    """Return what takes entries away, from the one numbered `first` to that before `last`."""
+def _removal(text: str, span: Span, starts: list[int], first: int, last: int) -> Splice:
+    """Return the splice that removes the entries from `first` to the one before `last`."""
     if span.flow and last < len(starts):
         return starts[first], starts[last], ""
     if span.flow:
@@ -202,8 +201,8 @@ def _without(text: str, span: Span, starts: list[int], first: int, last: int) ->
     return line, _line_end(text, span.items[last - 1].end), ""
 
 
-def _with(text: str, span: Span, new: list[str]) -> Splice:
-    """Return what adds entries after the last one."""
+def _addition(text: str, span: Span, new: list[str]) -> Splice:
+    """Return the splice that appends entries."""
     end = span.items[-1].end
     if span.flow:
         return end, end, "".join(f", {each}" for each in new)
@@ -220,7 +219,7 @@ def _line_start(text: str, at: int) -> int:
 
 
 def _line_end(text: str, at: int) -> int:
-    """Return where the line after this one begins; a value that ends with its line has ended on it."""
+    """Return the index at which the next line begins; it is `at` itself right after a line break."""
     if at and text[at - 1] == "\n":
         return at
     found = text.find("\n", at)
@@ -228,10 +227,10 @@ def _line_end(text: str, at: int) -> int:
 
 
 def _staying(before: Sequence[Any], after: Sequence[Any], /) -> list[bool]:
-    """Return for each item of a list whether it stays, if need be with other values, in the list that comes after.
+    """Return for each item of a list whether it stays in the list `after`, perhaps with altered values.
 
-    Those that stay are the first ones after, in their order, and what follows them there is new. Of all such ways it
-    is the one with the fewest changes.
+    The items that stay become the first ones of `after`, in their order; all that follow are new. Of all such choices
+    this one has the least cost of changes (dynamic programming over both lists).
     """
     texts, others = [yaml_text(item) for item in before], [yaml_text(item) for item in after]
     same = next((n for n, pair in enumerate(zip(texts, others, strict=False)) if pair[0] != pair[1]), len(after))
@@ -241,7 +240,7 @@ def _staying(before: Sequence[Any], after: Sequence[Any], /) -> list[bool]:
         above, row, way = costs[-1], [costs[-1][0] + GONE], [False]
         for number in range(1, min(len(above), len(after) - same) + 1):
             there = same + number - 1
-            stays = above[number - 1] + (0.0 if text == others[there] else _apart(item, after[there]))
+            stays = above[number - 1] + (0.0 if text == others[there] else _difference(item, after[there]))
             goes = above[number] + GONE if number < len(above) else stays + GONE
             row.append(min(stays, goes))
             way.append(stays <= goes)
@@ -255,8 +254,8 @@ def _staying(before: Sequence[Any], after: Sequence[Any], /) -> list[bool]:
     return [True] * same + stay[::-1]
 
 
-def _apart(one: Any, other: Any) -> float:
-    """Return how much two items differ, up to 1: mappings by their keys, all else a little."""
+def _difference(one: Any, other: Any) -> float:
+    """Return the difference of two items, 0 to 1: mappings by their keys, two other values 0.25."""
     if not (isinstance(one, dict) and isinstance(other, dict)):
         return 1.0 if isinstance(one, dict) or isinstance(other, dict) else 0.25
     common = one.keys() & other.keys()

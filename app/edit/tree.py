@@ -11,7 +11,7 @@ from ...components.wind import WindPrimitive
 from ...engine.declared.grass import GrassKind
 from .brush import Brush
 from .editor import Editor, Refusal
-from .fields import Key, first_part, first_value, item_key, keys_of, told_of
+from .fields import Key, first_part, first_value, item_key, keys_of, tooltip
 from .values import NOTHING, Way, value_at
 from .widgets import NUMBERS, written
 from .widgets import field as shown_field
@@ -178,7 +178,7 @@ class Tree:
         if key.sentence and imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
             imgui.begin_tooltip()
             imgui.push_text_wrap_pos(360.0)
-            imgui.text_unformatted(told_of(key))
+            imgui.text_unformatted(tooltip(key))
             imgui.pop_text_wrap_pos()
             imgui.end_tooltip()
         if imgui.begin_popup_context_item("as text"):

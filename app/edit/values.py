@@ -1,4 +1,4 @@
-"""Values of a scene file as plain mappings and lists, others made from them, and how a file writes them."""
+"""Values of a scene file as plain mappings and lists: reading, changing, and writing them as YAML."""
 
 import json
 import re
@@ -7,17 +7,17 @@ from typing import Any, Final
 from ...engine.scene.compose import scalar
 
 Way = tuple[str | int, ...]
-"""The way from the root to a value, as in `("wind", 0, "position")`."""
+"""The keys and indices from the root to a value, such as `("wind", 0, "position")`."""
 
 DIGITS = 12
-"""Most digits of a number that are written."""
+"""Largest number of digits written of a number."""
 
 _WORDS = {None: "null", True: "true", False: "false"}
 _PLAIN = re.compile(r"[A-Za-z_][\w./-]*")
 
 
 class _Nothing:
-    """What stands where a file has no value."""
+    """Stands for the absence of a value in a file."""
 
     def __repr__(self) -> str:
         return "NOTHING"
@@ -42,9 +42,9 @@ def value_at(values: Any, way: Way, /) -> Any:
 
 
 def with_value(values: Any, way: Way, value: Any, /) -> Any:
-    """Return values with another one at a way; mappings on it that are not there are made, a list may grow by one.
+    """Return a copy of values with another one at a way; missing mappings are made, and a list may grow by one.
 
-    NOTHING takes the key away, or the item out of its list. Raises KeyError where the way leads to no such place.
+    NOTHING removes the key, or the item from its list. Raises KeyError where the way does not exist.
     """
     if not way:
         return value
@@ -70,7 +70,7 @@ def _with_item(values: Any, step: int, rest: Way, value: Any) -> Any:
 
 
 def yaml_text(value: Any, /) -> str:
-    """Return a value on one line, as the house writes it: `{ kind: gust, position: [0, 2.5], tip: "#d9c27a" }`."""
+    """Return a value as YAML on one line, such as `{ kind: gust, position: [0, 2.5], tip: "#d9c27a" }`."""
     if isinstance(value, dict):
         inner = ", ".join(f"{yaml_text(key)}: {yaml_text(each)}" for key, each in value.items())
         return f"{{ {inner} }}" if inner else "{}"

@@ -5,7 +5,7 @@ from typing import Any, Literal
 import pytest
 from pydantic import BaseModel, Field
 
-from tallgrass.app.edit.fields import Key, first_part, first_value, item_key, keys_of, tidied, told_of
+from tallgrass.app.edit.fields import Key, first_part, first_value, item_key, keys_of, tidied, tooltip
 from tallgrass.app.edit.values import NOTHING
 from tallgrass.components.declaration import Color, Declaration, Pair
 from tallgrass.engine.declared.light import Light
@@ -57,7 +57,7 @@ def test_a_strangers_keys_have_fields_by_themselves() -> None:
     assert (sides.low, sides.high, sides.optional, sides.default) == (3, 12, True, None)
     assert (at.count, at.default) == (2, NOTHING)
     assert key(Rocks, "form").choices == ("round", "sharp")
-    assert told_of(size) == "How large they are.\n0.5 to 8 m\nwithout it: 2"
+    assert tooltip(size) == "How large they are.\n0.5 to 8 m\nwithout it: 2"
 
 
 def models() -> list[type[BaseModel]]:
