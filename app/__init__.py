@@ -1,1 +1,1 @@
-"""The doors people come in by: command line, window, pictures, films and benchmarks."""
+"""The user interfaces: command line, window, pictures, films and benchmarks."""

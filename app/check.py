@@ -1,4 +1,4 @@
-"""Scene files: checked here, their maps included, and by the schema in an editor that knows it."""
+"""Checking scene files, maps included, and their JSON schema for editors."""
 
 import json
 import sys
@@ -29,30 +29,32 @@ def check(scenes: list[str]) -> int:
 
 
 def schema() -> None:
-    """Print the schema of scene files, installed plugins included; a plugin that cannot be described is told of."""
-    made, told = described(wind_kinds())
+    """Print the schema of scene files, installed plugins included, and warn of plugins without a description."""
+    made, warnings = described(wind_kinds())
     print(json.dumps(made, indent=2))
-    for line in told:
+    for line in warnings:
         print(line, file=sys.stderr)
 
 
 def described(kinds: WindKinds, /) -> tuple[Schema, list[str]]:
-    """Return the schema of scene files, and a sentence for each kind that it says nothing or little of."""
+    """Return the schema of scene files, and a warning for each kind of wind that it leaves out or cannot describe."""
     winds: dict[str, type[WindPrimitive] | None] = {}
-    told = []
+    warnings = []
     for kind in kinds.names():
         try:
             winds[kind] = _describable(kinds.find(kind))
         except PluginError as error:
-            told.append(f"{error}; it is left out")
+            warnings.append(f"{error}; it is left out")
         except Exception as error:  # noqa: BLE001 - a plugin's own types may raise anything
             winds[kind] = None
-            told.append(f"kind '{kind}' has no schema, any keys are taken as right: {type(error).__name__}: {error}")
+            warnings.append(
+                f"kind '{kind}' has no schema, any keys are taken as right: {type(error).__name__}: {error}"
+            )
     made = scene_schema(winds)
     made["$comment"] = (
         f"Made by tallgrass {__version__} with the winds {', '.join(winds)}: make it again after a change."
     )
-    return made, told
+    return made, warnings
 
 
 def _describable(primitive: type[WindPrimitive]) -> type[WindPrimitive]:

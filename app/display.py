@@ -1,4 +1,4 @@
-"""Whether windows can be opened here, and what suits the machine that draws in them."""
+"""Whether windows can be opened, and the frame rate and preset that suit the machine."""
 
 import importlib
 import os
@@ -12,14 +12,14 @@ from ..engine.gl.rasteriser import draws_in_software
 from .studio.errors import MachineError
 
 CARD_RATE, SOFTWARE_RATE = 60.0, 20.0
-"""Frames per second that are held, with a graphics card and without one."""
+"""Frame rates that are held with a graphics card, and without one [1/s]."""
 
 SOFTWARE_PRESET = "low"
-"""What is walked in without one, where a scene names a finer preset."""
+"""Preset of a walk without a graphics card, in place of finer presets of scenes."""
 
 
 def need_display() -> None:
-    """Load what opens windows, before anything else imports it; raises MachineError where there is no display.
+    """Import pyglet's windows, before anything else does; raises MachineError where there is no display.
 
     pyglet checks every GL call for errors unless told not to; that is for tests, which set `PYGLET_DEBUG_GL`.
     """
@@ -32,20 +32,20 @@ def need_display() -> None:
 
 
 def no_window(error: Exception, /) -> str:
-    """Return the sentence that says that no window can be opened, and what to do instead."""
+    """Return a sentence on why no window can be opened, and on the alternatives."""
     why = str(error).replace('Cannot connect to "None"', "there is no display")
     return f"no window can be opened here ({why}); tallgrass shot and tallgrass film need none"
 
 
 def suited_rate(ctx: moderngl.Context, /) -> float:
-    """Return how many frames a second are held by what a context is drawn with."""
+    """Return the frame rate to hold [1/s] for a context's renderer."""
     return SOFTWARE_RATE if draws_in_software(ctx) else CARD_RATE
 
 
 def suited_preset(scene: Scene, ctx: moderngl.Context, /) -> str | None:
-    """Return the preset that a scene is walked in by what a context is drawn with, None for the scene's own quality.
+    """Return the preset for a walk with a context's renderer, None for the scene's own quality.
 
-    A processor draws finer presets than `SOFTWARE_PRESET` too slowly to walk in. Numbers of a scene's own stay.
+    Software draws finer presets than `SOFTWARE_PRESET` too slowly to walk in. A scene's own numbers stay.
     """
     finer = list(PRESETS)[list(PRESETS).index(SOFTWARE_PRESET) + 1 :]
     return SOFTWARE_PRESET if draws_in_software(ctx) and scene.quality in finer else None

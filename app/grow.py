@@ -14,13 +14,13 @@ from .studio.errors import MachineError
 from .studio.progress import counted
 
 Seed = tuple[GrassKind, Quality, int]
-"""What a growth comes from: a kind, a quality, and a seed."""
+"""The inputs of a growth: a kind, a quality, and a seed."""
 
 
 def grow(scenes: list[str], *, preset: str | None, on: str | None = None) -> None:
-    """Grow what no scene's kinds have been grown for yet into the cache, and print what each scene has.
+    """Grow the missing kinds of all scenes into the cache, and print what each scene has.
 
-    With `on`, workers grow it. Raises `SceneError` where a scene is wrong, MachineError where nothing can be kept.
+    With `on`, workers grow them. Raises `SceneError` where a scene is wrong, MachineError where there is no cache.
     """
     folder = cache_folder()
     if folder is None:
@@ -32,9 +32,9 @@ def grow(scenes: list[str], *, preset: str | None, on: str | None = None) -> Non
 
 
 def grow_ahead(scene: str, *, preset: str | None) -> None:
-    """Grow what a scene that is about to be loaded lacks, and show on a terminal how far that is.
+    """Grow the missing kinds of a scene before it is loaded, with a progress bar on a terminal.
 
-    In a pipe, and where nothing can be kept, that is left to who loads it.
+    In a pipe, and without a cache, loading the scene grows them.
     """
     folder = cache_folder()
     if folder is not None and sys.stderr.isatty():
@@ -43,7 +43,7 @@ def grow_ahead(scene: str, *, preset: str | None) -> None:
 
 
 def _grow(wanted: Iterable[Mapping[str, Seed]], folder: Path, on: str | None) -> set[str]:
-    """Grow what is not in the cache yet, and return what that was."""
+    """Grow everything that is not in the cache yet, and return it."""
     new: dict[str, Seed] = {}
     for key, seed in (pair for each in wanted for pair in each.items()):
         kind, quality, number = seed
@@ -55,7 +55,7 @@ def _grow(wanted: Iterable[Mapping[str, Seed]], folder: Path, on: str | None) ->
 
 
 def _seeds(scene: str, preset: str | None) -> dict[str, Seed]:
-    """Return what a scene's kinds grow from, by the names that the cache has for it."""
+    """Return the inputs of the growths of a scene's kinds, by their keys in the cache."""
     read = read_scene(scene).scene
     quality = read.numbers(preset)
     seeds = [(kind, quality, read.seed + number) for number, kind in enumerate(read.grass.values())]
@@ -74,7 +74,7 @@ def _grown(seeds: list[Seed], on: str | None) -> Iterator[bytes]:
 
 
 def grown(kind: GrassKind, quality: Quality, seed: int, key: str, /) -> bytes:
-    """Grow a kind in a worker; raises MachineError where other code than that of who asks would grow it."""
+    """Grow a kind in a worker; raises MachineError where the worker's code differs from the caller's."""
     if growth_key(kind, quality, seed=seed) != key:
         raise MachineError("--on: a worker grows grass by other code than this machine; install the same there")
     return packed_growth(kind, quality, seed=seed)

@@ -1,4 +1,4 @@
-"""The manifest of a film: what it was made from, and a hash of each picture, so that parts of it can be told apart."""
+"""The manifest of a film: its sources, and a hash of each picture, by which parts of films can be compared."""
 
 import json
 import os
@@ -18,36 +18,36 @@ from .studio.take import Take
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """Which frames of a whole film are made."""
+    """The range of frames that is made of a whole film."""
 
     first: int
-    """Number of the first one."""
+    """Index of the first frame."""
 
     end: int
-    """Number of the one after the last."""
+    """Index after the last frame."""
 
     of: int
-    """How many the whole film has."""
+    """Number of frames of the whole film."""
 
     fps: int
     """Frames per second."""
 
     @property
     def whole(self) -> bool:
-        """Whether it is all of them."""
+        """Whether the range is the whole film."""
         return (self.first, self.end) == (0, self.of)
 
 
 @dataclass(slots=True)
 class Manifest:
-    """Hashes of pictures, as they pass by."""
+    """Collects the hashes of a film's pictures."""
 
     span: Span
     hashes: list[str] = field(default_factory=list)
     """SHA-256 of each picture's bytes: sRGB, top row first."""
 
     renderer: str = ""
-    """What drew them."""
+    """GL renderer that drew the pictures."""
 
     def noted(self, shots: Iterable[Shot], /) -> Iterator[Frame]:
         """Yield the frames, and note the hash of each."""
@@ -57,13 +57,13 @@ class Manifest:
             yield shot.frame
 
     def place(self, output: str, /) -> Path:
-        """Return its file beside a film: `walk.webp.json`, or of frames 100 to 129 `walk.webp.100-130.json`."""
+        """Return the file's path beside a film: `walk.webp.json`, or for frames 100 to 129 `walk.webp.100-130.json`."""
         path = Path(output.rstrip("/" + os.sep))
         part = "" if self.span.whole else f".{self.span.first}-{self.span.end}"
         return path.with_name(f"{path.name}{part}.json")
 
     def write(self, output: str, loaded: LoadedScene, take: Take) -> None:
-        """Write it beside a film, as JSON."""
+        """Write the manifest beside a film, as JSON."""
         told = {**_made_from(loaded, take), "renderer": self.renderer, **self._pictures()}
         write_whole(json.dumps(told, indent=1) + "\n", self.place(output))
 

@@ -1,4 +1,4 @@
-"""What is written over the picture in the window: help, statistics, messages."""
+"""Texts over the picture in the window: help, statistics, messages."""
 
 from collections.abc import Sequence
 
@@ -30,7 +30,7 @@ _INK = (240, 240, 230, 255)
 
 
 def statistics_lines(statistics: Statistics, /, *, frame_ms: float, time: float) -> list[str]:
-    """Return what the statistics overlay says of the last frame; `frame_ms` is from frame to frame [ms]."""
+    """Return the lines of the statistics overlay for the last frame; `frame_ms` is the interval between frames [ms]."""
     patches = ", ".join(f"{count} {name}" for name, count in statistics.patches.items())
     systems = ", ".join(f"{name} {spent:.2f}" for name, spent in statistics.systems_ms.items())
     drawn, seen = statistics.blades_submitted, statistics.blades_considered

@@ -1,4 +1,4 @@
-"""The saucer that the viewer of the window flies: where it is and how it leans, by what is pressed, and its blast."""
+"""The saucer that the window's viewer flies: its motion by held keys, its tilt, its camera and its blast."""
 
 import math
 from collections.abc import Set as AbstractSet
@@ -15,29 +15,29 @@ from ..systems.wind.blast import Blast, Shape
 from .studio.walker import Ground, Move, Walker, on_terrain, settled
 
 CRUISE, FAST = 8.0, 20.0
-"""Speeds ahead [m/s]; back it is half as fast."""
+"""Speeds ahead [m/s]; backwards it has half of them."""
 
 TURN = 1.1
-"""How fast it turns [rad/s]."""
+"""Rate of turning [rad/s]."""
 
 TURNING, POWER, GLIDE, TRAIL = 0.25, 0.55, 0.75, 0.4
-"""Times in which turning, power, velocity and the camera behind come within 1/e of what they are drawn to [s]."""
+"""Time constants with which turning, power, velocity and the trailing camera approach their targets [s]."""
 
 DISTANCE, OVER = 11.0, 0.3
-"""The camera's distance from the point that it looks at, and how far that is above the saucer's middle [m]: so far
-that the grass that the jet presses down is in the picture."""
+"""Distance of the camera from the point that it looks at, and height of that point above the saucer's middle [m].
+The grass that the jet presses down stays in the picture."""
 
 CLEAR = 1.0
 """Least height of the camera above the ground [m]."""
 
 LOWEST_LOOK, HIGHEST_LOOK = -1.2, 0.4
-"""How far the camera may look down and up at the saucer [rad]."""
+"""Lowest and highest pitch of the camera [rad]."""
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 _AT, _WEIGHT = (_NODES + 1.0) / 2.0, _WEIGHTS / 2.0
 
 BLAST = Blast(outline=Shape(disc=3.5))
-"""What its jet does to the grass."""
+"""Wind of the saucer's jet."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,37 +45,37 @@ class Saucer:
     """A saucer that the viewer flies, and the camera that follows it."""
 
     place: tuple[float, float, float]
-    """Its middle (x, y, z) [m]."""
+    """Position of its middle (x, y, z) [m]."""
 
     yaw: float = 0.0
-    """Heading: 0 is -z, positive turns right; it goes on beyond a full turn [rad]."""
+    """Heading: 0 is -z, positive turns right; not wrapped at a full turn [rad]."""
 
     velocity: tuple[float, float] = (0.0, 0.0)
-    """Along x and z [m/s]."""
+    """Velocity along x and z [m/s]."""
 
     turning: float = 0.0
-    """How fast the heading turns right [rad/s]."""
+    """Rate of the heading, positive to the right [rad/s]."""
 
     power: float = 0.0
-    """The speed ahead that its jet would bring it to [m/s]."""
+    """Speed ahead that the velocity approaches [m/s]."""
 
     trail: float = 0.0
-    """The heading that the camera has come round to [rad]."""
+    """Heading of the trailing camera [rad]."""
 
     aside: float = 0.0
-    """How far the viewer looks to the right of that [rad]."""
+    """Angle by which the viewer looks to the right of the camera's heading [rad]."""
 
     pitch: float = -0.3
-    """How steeply the camera looks at it, positive from below [rad]."""
+    """Pitch of the camera, positive from below [rad]."""
 
 
 def launched(x: float, z: float, yaw: float, ground: Ground, /) -> Saucer:
-    """Return a saucer that hovers at the place of the terrain nearest to (x, z) [m], with the camera behind it."""
+    """Return a saucer that hovers at the nearest place of the terrain to (x, z) [m], with the camera behind it."""
     return put(Saucer((x, 0.0, z), yaw, trail=yaw), ground)
 
 
 def put(saucer: Saucer, ground: Ground, /) -> Saucer:
-    """Return the saucer where it is, but over this terrain and at its height above the grass."""
+    """Return the saucer at the nearest place over this terrain, at its height above the grass."""
     x, z, _, _ = on_terrain(saucer.place[0], saucer.place[2], ground)
     return replace(saucer, place=(x, level(x, z, ground.top_at), z))
 
@@ -89,22 +89,22 @@ def looked(saucer: Saucer, /, *, right: float, up: float) -> Saucer:
 def flown(saucer: Saucer, held: AbstractSet[Move], dt: float, ground: Ground, /) -> Saucer:
     """Return the saucer after `dt` [s] of the held keys, over the terrain and at its height above the grass.
 
-    Turning and power approach what is asked for exponentially, the velocity approaches the power along the heading,
-    and the camera the heading. All this is integrated exactly, so that the result does not depend on how time is cut
-    into frames as long as the keys stay.
+    Turning and power approach the values asked for exponentially, the velocity approaches the power along the heading,
+    and the camera approaches the heading. The integration is exact, so that for constant keys the result does not
+    depend on the frames into which time is cut.
     """
     asked, turn = _asked(held)
-    at = _AT * dt
-    yaw = saucer.yaw + turn * at + (saucer.turning - turn) * TURNING * -np.expm1(-at / TURNING)
-    power = asked + (saucer.power - asked) * np.exp(-at / POWER)
+    times = _AT * dt
+    yaw = saucer.yaw + turn * times + (saucer.turning - turn) * TURNING * -np.expm1(-times / TURNING)
+    power = asked + (saucer.power - asked) * np.exp(-times / POWER)
     pull = power * np.stack([np.sin(yaw), -np.cos(yaw)])
-    fresh = np.exp((at - dt) / GLIDE)
-    left = math.exp(-dt / GLIDE)
+    fresh = np.exp((times - dt) / GLIDE)
+    remaining = math.exp(-dt / GLIDE)
     start = np.array(saucer.velocity)
-    velocity = start * left + dt / GLIDE * (pull * fresh) @ _WEIGHT
-    way = start * GLIDE * (1.0 - left) + dt * (pull * (1.0 - fresh)) @ _WEIGHT
-    trail = saucer.trail * math.exp(-dt / TRAIL) + dt / TRAIL * float((yaw * np.exp((at - dt) / TRAIL)) @ _WEIGHT)
-    x, z, free_x, free_z = on_terrain(saucer.place[0] + float(way[0]), saucer.place[2] + float(way[1]), ground)
+    velocity = start * remaining + dt / GLIDE * (pull * fresh) @ _WEIGHT
+    shift = start * GLIDE * (1.0 - remaining) + dt * (pull * (1.0 - fresh)) @ _WEIGHT
+    trail = saucer.trail * math.exp(-dt / TRAIL) + dt / TRAIL * float((yaw * np.exp((times - dt) / TRAIL)) @ _WEIGHT)
+    x, z, free_x, free_z = on_terrain(saucer.place[0] + float(shift[0]), saucer.place[2] + float(shift[1]), ground)
     slower = math.exp(-dt / TURNING)
     return replace(
         saucer,
@@ -118,7 +118,7 @@ def flown(saucer: Saucer, held: AbstractSet[Move], dt: float, ground: Ground, /)
 
 
 def body(saucer: Saucer, /) -> Body:
-    """Return what is drawn of it: it banks into turns, and lowers its nose to go faster."""
+    """Return the body to draw: it banks into turns, and lowers its nose to accelerate."""
     ahead = forward(saucer.yaw, 0.0)
     x, z = ((saucer.power * ahead[axis] - saucer.velocity[i]) / GLIDE for i, axis in enumerate((0, 2)))
     nose, bank = lean(saucer.velocity, (x, z), saucer.yaw)
@@ -126,12 +126,12 @@ def body(saucer: Saucer, /) -> Body:
 
 
 def jet(saucer: Saucer, ground: Ground, /) -> Pose:
-    """Return where its jet meets the ground: displaced by its height times the tangent of its tilt."""
+    """Return the pose at which its jet meets the ground: displaced by its height times the tangent of its tilt."""
     return foot(body(saucer), ground.height_at)
 
 
 def chase(saucer: Saucer, view: float, ground: Ground, /) -> Camera:
-    """Return the camera behind and above it, with a vertical angle of view [rad]; it stays above the ground."""
+    """Return the camera behind and above the saucer, above the ground, with a vertical angle of view [rad]."""
     yaw, pitch = saucer.trail + saucer.aside, saucer.pitch
     ahead = forward(yaw, pitch)
     x, y, z = (saucer.place[i] + OVER * (i == 1) - DISTANCE * ahead[i] for i in range(3))
@@ -149,9 +149,9 @@ def _asked(held: AbstractSet[Move]) -> tuple[float, float]:
 
 
 class Flight:
-    """A saucer in flight: one entity of the prairie that has a body, a blast and a pose.
+    """A saucer in flight: an entity of the prairie with a body, a blast and a pose.
 
-    It sets out ahead of who boards it, so that the camera behind it starts about where that one stood.
+    It begins ahead of the walker who boards it, so that the camera behind it begins about where the walker stood.
     """
 
     def __init__(self, prairie: Prairie, walker: Walker, ground: Ground) -> None:
@@ -180,7 +180,7 @@ class Flight:
         self._follow(ground)
 
     def leave(self, ground: Ground) -> Walker:
-        """Take the saucer away and return who stood in it: on the ground below, and looking the same way."""
+        """Remove the saucer, and return its pilot as a walker on the ground below, with the same direction of view."""
         self._prairie.remove(self._entity)
         x, y, z = self.saucer.place
         return settled(Walker((x, y, z), self.camera(1.0, ground).yaw), ground)

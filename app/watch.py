@@ -7,15 +7,15 @@ from ..engine.scene import stamp_of
 
 
 class Watch:
-    """Some files, and what they were like when they were last looked at."""
+    """Files to watch, and their state at the last check."""
 
     def __init__(self, paths: Iterable[Path]) -> None:
         self._stamps = {path: stamp_of(path) for path in paths}
 
     def changed(self) -> bool:
-        """Return whether any of them has changed since it was last looked at.
+        """Return whether any file has changed since the last check.
 
-        One that is missing has not: editors that replace a file leave none for a moment.
+        A missing file counts as unchanged: editors that replace a file remove it for a moment.
         """
         now = {path: stamp_of(path) or before for path, before in self._stamps.items()}
         changed = now != self._stamps
@@ -23,5 +23,5 @@ class Watch:
         return changed
 
     def turn_to(self, paths: Iterable[Path]) -> None:
-        """Watch these files from now on; what is known of those that were watched before still counts."""
+        """Watch these files from now on; the known states of files that were watched before stay."""
         self._stamps = {path: self._stamps.get(path) or stamp_of(path) for path in paths}

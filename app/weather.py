@@ -1,4 +1,4 @@
-"""Winds that the viewer of the window sets off where it looks."""
+"""Winds that the window's viewer sets off at the place it looks at."""
 
 from itertools import count
 from math import cos, degrees, isnan, remainder, sin, tau
@@ -18,28 +18,28 @@ from ..systems.wind.whirlwind import Whirlwind
 from .studio.walker import Ground, on_terrain
 
 Raised = Literal["gust", "whirlwind", "blast"]
-"""What can be set off."""
+"""Kinds of wind that keys set off."""
 
 FARTHEST = 60.0
-"""How far away a wind may be set off [m]."""
+"""Largest distance of a new wind [m]."""
 
 AHEAD = 20.0
-"""How far ahead it is set off where one looks at the sky [m]."""
+"""Distance of a new wind when the viewer looks at the sky [m]."""
 
 GUST_WIDTH, GUST_REACH = 24.0, 50.0
-"""Length of a gust's front and its way [m]."""
+"""Width of a gust's front, and length of its path [m]."""
 
 SPIN_TIME, SPIN_WAY = 9.0, 8.0
-"""How long a whirlwind lasts [s], and how far it wanders off [m]."""
+"""Duration of a whirlwind [s], and length of its path [m]."""
 
 BLAST_TIME, BLAST_RADIUS = 1.6, 5.0
-"""How long a single blast lasts [s], and how wide it is [m]."""
+"""Duration of a single blast [s], and its radius [m]."""
 
 
 def looked_at(camera: Camera, ground: Ground, terrain: Terrain, /) -> tuple[float, float]:
-    """Return where on the terrain (x, z) [m] a camera looks: where its ray meets the ground.
+    """Return the ground position (x, z) [m] at which a camera's ray meets the terrain.
 
-    A look that meets none within `FARTHEST` leads to the ground `AHEAD`.
+    Without an intersection within `FARTHEST` it is the ground `AHEAD`.
     """
     eye, ahead = np.array([camera.position]), np.array([forward(camera.yaw, camera.pitch)])
     x, _, z = pick(terrain, eye, ahead, farthest=FARTHEST)[0].tolist()
@@ -49,7 +49,7 @@ def looked_at(camera: Camera, ground: Ground, terrain: Terrain, /) -> tuple[floa
 
 
 def raised(kind: Raised, place: tuple[float, float], yaw: float, time: float, /) -> WindPrimitive:
-    """Return a wind that sets out at `time` [s] from a place (x, z) [m] and goes where `yaw` [rad] leads; it ends."""
+    """Return a wind that begins at `time` [s] at a place (x, z) [m], moves along `yaw` [rad], and ends."""
     x, z = place
     yaw = remainder(yaw, tau)
     if kind == "gust":
@@ -64,7 +64,7 @@ def raised(kind: Raised, place: tuple[float, float], yaw: float, time: float, /)
 
 
 class Weather:
-    """The winds that have been set off in a prairie and have not ended yet."""
+    """The running winds that keys have set off in a prairie."""
 
     def __init__(self, prairie: Prairie) -> None:
         self._prairie = prairie
@@ -82,7 +82,7 @@ class Weather:
         self._ends[self._prairie.add(wind, name=f"{kind} {next(self._numbers)}")] = wind.stop
 
     def settle(self) -> None:
-        """Take the winds away that have ended."""
+        """Remove the winds that have ended."""
         for entity in [entity for entity, end in self._ends.items() if self._prairie.time >= end]:
             self._prairie.remove(entity)
             del self._ends[entity]

@@ -34,10 +34,10 @@ MOVES: dict[int, Move] = {
     key.A: "left", key.LEFT: "left", key.D: "right", key.RIGHT: "right",
     key.E: "up", key.Q: "down", key.LSHIFT: "run", key.RSHIFT: "run",
 }  # fmt: skip
-"""What a held key asks for."""
+"""Motions of the viewer by held key."""
 
 WINDS: dict[int, Raised] = {ord("1"): "gust", ord("2"): "whirlwind", ord("3"): "blast"}
-"""What a key sets off where the camera looks; pyglet numbers keys so, but its names of them are private."""
+"""Winds that keys set off where the camera looks; pyglet's names for these key codes are private."""
 
 OVERLAYS: tuple[frozenset[Layer], ...] = (
     frozenset(),
@@ -46,32 +46,32 @@ OVERLAYS: tuple[frozenset[Layer], ...] = (
     frozenset({"map"}),
     frozenset(LAYERS),
 )
-"""What is laid over the picture, one after the other."""
+"""Sets of overlays that one key cycles through."""
 
 SENSITIVITY = 0.0022
-"""How far the look turns for a pixel of the mouse [rad]."""
+"""Rotation of the view per pixel of mouse motion [rad]."""
 
 LONGEST_STEP = 0.1
-"""Longest step of a frame [s]: after the whole program was held up, the prairie goes on and does not leap."""
+"""Longest time step of a frame [s]: after a pause of the whole program, the prairie does not leap."""
 
 RATE = 120
-"""Most frames per second, where the display does not set the pace."""
+"""Largest frame rate where the display sets none [1/s]."""
 
 OURS = 0.9
-"""Part of a frame's time that the prairie may take; the rest is the window's."""
+"""Fraction of a frame's time for the prairie; the rest is for the window."""
 
 PATIENCE = 6.0
-"""How long a message stands [s]."""
+"""Duration of a message on the screen [s]."""
 
 GLANCE = 0.5
-"""How often the scene's files are looked at [s]."""
+"""Interval at which the scene's files are checked for changes [s]."""
 
 MOST_TOLD = 4
-"""Most problems of a scene that are shown at once."""
+"""Largest number of a scene's problems that are shown."""
 
 
 def open_window(size: tuple[int, int], /, *, fullscreen: bool = False) -> pyglet.window.Window:
-    """Return a new window of this size [pixels]; raises MachineError with a sentence where there can be none."""
+    """Return a new window of this size [pixels]; raises MachineError with a sentence where none can be opened."""
     try:
         if fullscreen:
             return pyglet.window.Window(caption="tallgrass", fullscreen=True)
@@ -81,9 +81,9 @@ def open_window(size: tuple[int, int], /, *, fullscreen: bool = False) -> pyglet
 
 
 class Walk:
-    """A prairie in a window, and the viewer in it: an object of pyglet's events.
+    """A prairie in a window, and its viewer: a handler of pyglet's events.
 
-    It owns the window and the prairie, and gives both back when the window closes.
+    It owns the window and the prairie, and releases both when the window closes.
     """
 
     def __init__(self, window: pyglet.window.Window, prairie: Prairie, take: Take) -> None:
@@ -104,7 +104,7 @@ class Walk:
         self.keys: tuple[str, ...] = HELP
         self._held: set[int] = set()
         self.frames: deque[float] = deque(maxlen=60)
-        """Time from frame to frame of the last ones [ms]."""
+        """Intervals between the last frames [ms]."""
         self._age = 0.0
         self._told = 0.0
         self._watch = Watch(prairie.files.values())
@@ -126,7 +126,7 @@ class Walk:
         return self.walker.camera(view) if self.flight is None else self.flight.camera(view, self.ground)
 
     def hold(self, rate: float | None = None) -> None:
-        """Hold so many frames a second by drawing less; with None what suits the machine, with 0 none at all."""
+        """Hold a frame rate [1/s] by drawing less; None is the rate that suits the machine, 0 is none."""
         chosen = suited_rate(self.ctx) if rate is None else rate
         self.prairie.governor.hold = OURS / chosen if chosen else None
 
@@ -141,7 +141,7 @@ class Walk:
             self.close()
 
     def frame(self, dt: float) -> None:
-        """Move everything on by `dt` [s] and draw the window once, or close it where that was asked for."""
+        """Move everything on by `dt` [s] and draw the window once, or close it if asked to."""
         if self.leaving:
             self.close()
         else:
@@ -172,11 +172,11 @@ class Walk:
         self._bottom.write(lines)
 
     def reload(self) -> None:
-        """Read the scene again and go on; a broken one is told of until it is right, and the old one stays."""
+        """Read the scene again; if it is broken, keep the old one and show its problems until it is right."""
         self.go_on(self.prairie.reload)
 
     def go_on(self, read: Callable[[], None]) -> None:
-        """Go on in what `read` makes of the scene's files, or tell what is wrong with them."""
+        """Call `read`, which reads the scene's files again, and adapt to the new scene, or show its problems."""
         try:
             read()
         except SceneError as error:
@@ -204,7 +204,7 @@ class Walk:
         self.paused = not self.paused
 
     def fly(self) -> None:
-        """Take off, or land; who flies a saucer does neither."""
+        """Take off, or land; in a saucer, do nothing."""
         if self.flight is None:
             self.walker = toggled(self.walker)
 
@@ -220,11 +220,11 @@ class Walk:
         self.helping = not self.helping
 
     def show_statistics(self) -> None:
-        """Show what a frame takes, or hide it."""
+        """Show the statistics of frames, or hide them."""
         self.counting = not self.counting
 
     def next_overlay(self) -> None:
-        """Show other parts of how it works over the picture, or in the end none."""
+        """Show the next set of overlays, or after the last one none."""
         known = self.overlay.layers in OVERLAYS
         number = OVERLAYS.index(self.overlay.layers) + 1 if known else 0
         self.overlay.layers = OVERLAYS[number % len(OVERLAYS)]
@@ -233,7 +233,7 @@ class Walk:
         )
 
     def save_picture(self) -> None:
-        """Write what is seen, without the overlays, as the next numbered PNG in the working folder."""
+        """Write the picture, without overlays, as the next numbered PNG in the working folder."""
         name = _free_name(Path(self.take.scene).stem)
         with Offscreen(self.window.get_framebuffer_size(), self.ctx) as offscreen:
             offscreen.begin()
@@ -274,7 +274,7 @@ class Walk:
             note.draw(*self.window.get_size())
 
     def on_key_press(self, symbol: int, modifiers: int) -> bool:
-        """Hold a key down, or do what it stands for; always handled, so that Escape is ours."""
+        """Hold a key down, or do its action; always handled, so that pyglet does not close the window on Escape."""
         del modifiers
         if symbol in MOVES:
             self._held.add(symbol)
@@ -301,7 +301,7 @@ class Walk:
             self.look(dx, dy)
 
     def look(self, dx: float, dy: float) -> None:
-        """Turn the look as by a mouse that moved so far [pixels]."""
+        """Turn the view for a motion of the mouse by (dx, dy) [pixels]."""
         right, up = dx * SENSITIVITY, dy * SENSITIVITY
         if self.flight is None:
             self.walker = turned(self.walker, right=right, up=up)
@@ -361,7 +361,7 @@ _ACTIONS = {
     key.F5: "reload",
     key.F12: "save_picture",
 }
-"""What a key that is pressed does, by the name of the method."""
+"""Names of the methods that keys call."""
 
 
 def _told(error: SceneError) -> list[str]:

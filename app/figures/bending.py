@@ -1,4 +1,4 @@
-"""How a blade bends: its postures, and its answer over time to wind that starts and stops (figures 6 and 8)."""
+"""Bending of a blade: its postures, and its response over time to wind that starts and stops (figures 6 and 8)."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -22,13 +22,13 @@ from .figure import Detail, PaperFigure
 from .plot import FAINT, INDEX, INK, SERIES, sheet
 
 SHOWN = (("meadow", "feather"), ("meadow", "fresh"), ("gust", "barley"))
-"""Scenes and kinds of grass that are told apart."""
+"""Scenes, each with the name of a kind of grass to show."""
 
 STIFFNESS = (0.2, 1.0, 8.0)
-"""Of blades that are alike otherwise."""
+"""Stiffnesses of otherwise equal blades."""
 
 POSTURES = 17
-"""How many postures of a kind are shown."""
+"""Number of postures shown of a kind."""
 
 
 def kinds() -> dict[str, GrassKind]:
@@ -127,17 +127,17 @@ def _over_time(axes: Axes, curves: Sequence[tuple[str, Response, Floats]], *, re
 
 @dataclass(frozen=True, slots=True)
 class Extreme:
-    """Where a curve is farthest beyond its rest."""
+    """The extreme overshoot of a response curve."""
 
     time: float
-    """[s]."""
+    """Time of the extreme [s]."""
 
     index: float
-    """Of the final index."""
+    """Index there, relative to the final index."""
 
 
 def extreme(response: Response, curve: Floats, /, *, rest: float) -> Extreme:
-    """Return where a response's curve overshoots the most: its highest point above 1, or its lowest below 0."""
+    """Return the extreme of a response's curve: its highest point if it rises to 1, its lowest if it falls to 0."""
     row = int(np.argmax(curve) if rest else np.argmin(curve))
     return Extreme(response.step * row, float(curve[row]))
 

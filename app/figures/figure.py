@@ -1,4 +1,4 @@
-"""What a figure is: its number in the paper, what it tells, and what draws it."""
+"""The record of a figure: its number in the paper, its texts, and the function that draws it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,13 +8,13 @@ from matplotlib.figure import Figure
 
 @dataclass(frozen=True, slots=True)
 class Detail:
-    """How fine figures are drawn."""
+    """The resolution and quality of figures."""
 
     size: tuple[int, int] = (960, 540)
     """Width and height of each rendered picture [pixels]."""
 
     preset: str | None = None
-    """Quality of what is rendered; without it each scene's own."""
+    """Name of the quality preset; None for each scene's own quality."""
 
     dots: int = 1440
     """Width of a plot [pixels]."""
@@ -28,7 +28,7 @@ class PaperFigure:
     title: str
 
     shows: str
-    """One sentence on what is to be seen."""
+    """One sentence on its contents."""
 
     made: str
     """One sentence on how it was made."""

@@ -1,4 +1,4 @@
-"""From blades to their painted places: what is morphed, where it goes, and on which way (figures 13, 14 and 15)."""
+"""The morph of blades to their painted places: blades, targets, and paths (figures 13, 14 and 15)."""
 
 from dataclasses import dataclass
 from functools import partial
@@ -24,34 +24,34 @@ from .plot import FAINT, INK, PAPER, SERIES, sheet
 from .wind import windless
 
 FOLLOWED = 3
-"""How many blades are followed."""
+"""Number of blades that are followed."""
 
 STAGES = (0.0, 0.25, 0.5, 0.75, 1.0)
-"""How far they have moved where they are shown."""
+"""Morph values of the shown stages, 0 to 1."""
 
 DASHES = (0.0, (4.0, 2.0))
-"""How the outline of a strip is drawn."""
+"""Dash pattern of a strip's outline."""
 
 FINE = 240
-"""Instants of a path."""
+"""Number of instants of a path."""
 
 BENT = (np.array([0.20, 0.05]), np.array([0.42, 0.36]))
 """Messages of the first and the last edge in figure 14."""
 
 GUST = Gust(position=[-9.9, -3.6], direction=112.0, width=60.0, speed=9.0, hold=0.25, tail=0.8, strength=0.62)
-"""What blows while blades are on their way."""
+"""Wind during the morph."""
 
 BEGINS = 1.55
-"""When they set out [s]."""
+"""Instant at which the morph begins [s]."""
 
 
 def in_slice(one: Sample, /) -> NDArray[np.intp]:
-    """Return the rows of the blades that are painted on the strip that is shown."""
+    """Return the rows of the blades on the shown strip."""
     return np.flatnonzero(one.strips.slice[0] == CLOSE)
 
 
 def followed(one: Sample, /) -> NDArray[np.intp]:
-    """Return the rows of a few blades in the middle of the slice, from left to right: those with the longest ways."""
+    """Return the rows of the blades with the longest paths in the middle of the slice, from left to right."""
     rows = in_slice(one)
     rows = rows[np.argsort(one.blades.root[rows, 0])]
     away = np.abs(one.blades.root[:, 1] - one.strips.plane[CLOSE]) * (0.5 + one.blades.height)
@@ -61,7 +61,7 @@ def followed(one: Sample, /) -> NDArray[np.intp]:
 
 
 def draw_pair(detail: Detail, /) -> Figure:
-    """Return figure 13: the blades of one slice, and the texture of the strip on which the same blades are painted."""
+    """Return figure 13: the blades of one slice, and the texture of the strip that shows the same blades."""
     one = sample(detail)
     figure = sheet(4.7, detail)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[1.25, 1.0])
@@ -188,36 +188,36 @@ def _moved(axes: Axes, one: Sample, at: Doubles) -> None:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Way:
-    """A few blades on their way from their own places to their painted places, while both move in the wind."""
+    """Blades that morph from their own places to their painted places, while both move in the wind."""
 
     time: Floats
-    """[s], shape (t,)."""
+    """Instants [s], shape (t,)."""
 
     morph: Floats
-    """How far they have moved, from 0 to 1, shape (t,)."""
+    """Morph value at each instant, 0 to 1, shape (t,)."""
 
     edge: Floats
-    """The strip's edges, shape (t, columns + 1, sections + 1, 3) [m]."""
+    """Points of the strip's edges, shape (t, columns + 1, sections + 1, 3) [m]."""
 
     own: Floats
     """Points along the blades in their own places, shape (t, blades, points, 3) [m]."""
 
     target: Doubles
-    """The same in their painted places."""
+    """Points along the blades in their painted places, in the same shape [m]."""
 
     @property
     def shown(self) -> Doubles:
-        """Where they are drawn, shape (t, blades, points, 3) [m]."""
+        """Points along the blades as drawn, shape (t, blades, points, 3) [m]."""
         part = self.morph[:, None, None, None]
         return np.asarray(self.own * (1.0 - part) + self.target * part, np.float64)
 
     def stage(self, morph: float, /) -> int:
-        """Return the instant at which they have moved this far."""
+        """Return the instant of a morph value."""
         return int(np.searchsorted(self.morph, morph - 1e-6))
 
 
 def morph_over_time() -> tuple[Floats, Floats]:
-    """Return the time from the start of a change [s] and how far blades have moved, up to where they arrive."""
+    """Return times since the start of a change [s], and morph values, up to the arrival of the blades."""
     part = np.linspace(0.0, 1.0, 4 * FINE, endpoint=False, dtype=np.float32)
     weight = np.stack([1.0 - part, part, 0.0 * part]).astype(np.float32)
     morph = appearance(weight, np.ones_like(part), transitions=SEAMLESS).morph
@@ -227,7 +227,7 @@ def morph_over_time() -> tuple[Floats, Floats]:
 
 
 def way(one: Sample, rows: NDArray[np.intp], /, *, frozen: bool = False) -> Way:
-    """Return the way of some blades in a gust of wind; `frozen`, in the wind of its first instant."""
+    """Return the morph of blades in a gust; if `frozen`, in the wind of the first instant."""
     prairie = windless()
     prairie.add(GUST)
     ring, blades = one.quality.strip_rings[0], _only(one.blades, rows)
@@ -252,14 +252,14 @@ def _only(blades: Blades, rows: NDArray[np.intp]) -> Blades:
 
 
 def by_plane(path: Doubles, /) -> Doubles:
-    """Return a path (t, 3) along the axes of the plane that fits it best, and across it: shape (t, 3)."""
+    """Return a path (t, 3) in the axes of its best-fitting plane and the plane's normal, shape (t, 3)."""
     centred = path - path.mean(axis=0)
     _, _, axes = np.linalg.svd(centred, full_matrices=False)
     return np.asarray(centred @ axes.T)
 
 
 def draw_way(detail: Detail, /) -> Figure:
-    """Return figure 15: blades at five stages of their way, and how the way of a tip leaves its plane."""
+    """Return figure 15: blades at five stages of the morph, and the deviation of a tip's path from a plane."""
     one = sample(detail)
     rows = followed(one)
     moving, still = way(one, rows), way(one, rows, frozen=True)

@@ -34,7 +34,7 @@ figcaption p { margin: 0.3rem 0 0; }
 
 
 def document(title: str, style: str, body: str, /) -> str:
-    """Return a whole HTML page, of a title in plain text, its style and its body; it needs nothing from elsewhere."""
+    """Return a self-contained HTML page from a title in plain text, a style sheet and a body."""
     return f"""\
 <!doctype html>
 <html lang="en">

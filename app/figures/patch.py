@@ -35,18 +35,18 @@ SEGMENTS = 8
 """Segments of a drawn ribbon."""
 
 SOIL = "#2c2f1b"
-"""What blades are seen against from above."""
+"""Background colour of blades from above."""
 
 CLOSE = 1
-"""Which strip, or slice, is shown."""
+"""Index of the strip, or slice, that is shown."""
 
 BENT = (np.array([0.30, -0.12]), np.array([0.75, 0.25]))
-"""Messages of the first and the last edge in figure 3; those between are in between."""
+"""Messages of the first and the last edge in figure 3; the others are interpolated."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sample:
-    """What is grown for one kind, and how it is lit."""
+    """The growth of one kind, and its light."""
 
     kind: GrassKind
     light: Light
@@ -55,22 +55,22 @@ class Sample:
 
     @property
     def blades(self) -> Blades:
-        """The blades of its first patch model."""
+        """Blades of the first patch model."""
         return self.growth.models[0].blades
 
     @property
     def strips(self) -> Strips:
-        """The finest strips of its first patch model."""
+        """Finest strips of the first patch model."""
         return strips_of(self.growth.models[0])[0]
 
     @property
     def targets(self) -> Floats:
-        """Where on them control points of its blades are painted (u, v), shape (2, n, points, 2)."""
+        """Texture coordinates (u, v) of the blades' control points on the strips, shape (2, n, points, 2)."""
         return targets_on(self.strips, self.blades, self.growth.postures)
 
 
 def sample(detail: Detail, /) -> Sample:
-    """Return what is grown for the figures' kind."""
+    """Return the growth of the figures' kind."""
     prairie = Prairie.load(SCENE, preset=detail.preset)
     site = prairie.site
     prairie.release()
@@ -78,23 +78,23 @@ def sample(detail: Detail, /) -> Sample:
 
 
 def walkers_view(detail: Detail, lod: LodName, /) -> Picture:
-    """Return what a walker sees of it, in one representation everywhere."""
+    """Return a walker's view of the scene in one representation."""
     with Studio(Take(SCENE, detail.size, detail.preset, lod)) as studio:
         return studio.picture(WALKER.camera(studio))
 
 
 def from_front(place: NDArray[np.floating], /) -> Doubles:
-    """Return points (..., 3) seen along z, shape (..., 2)."""
+    """Project points (..., 3) along z, shape (..., 2)."""
     return np.asarray(place[..., (0, 1)], np.float64)
 
 
 def from_above(place: NDArray[np.floating], /) -> Doubles:
-    """Return points (..., 3) seen along y, shape (..., 2)."""
+    """Project points (..., 3) along y, shape (..., 2)."""
     return np.asarray(place[..., (0, 2)], np.float64)
 
 
 def ribbons(one: Sample, rows: NDArray[np.intp], /, seen: Callable[[Floats], Doubles]) -> PolyCollection:
-    """Return some blades at rest, in the order of `rows`; `seen` turns points (..., 3) into those drawn (..., 2)."""
+    """Return blades at rest, in the order of `rows`; `seen` projects points (..., 3) to (..., 2)."""
     edge = ribbon(one.blades, one.growth.postures, (0.0, 0.0), points=SEGMENTS + 1, taper=one.kind.taper)
     left, right = (seen(side[rows]) for side in edge)
     quads = np.stack([left[:, :-1], left[:, 1:], right[:, 1:], right[:, :-1]], axis=2)
@@ -105,7 +105,7 @@ def ribbons(one: Sample, rows: NDArray[np.intp], /, seen: Callable[[Floats], Dou
 
 
 def shade(one: Sample, along: Doubles, normal_x: Doubles, normal_z: Doubles, /) -> Doubles:
-    """Return display colours (..., 3) in full light by the place along a blade and its face normal, all (..., 1)."""
+    """Return display colours (..., 3) in full light, from the place along a blade and its face normal, all (..., 1)."""
     foot, tip, light = pigment(one.kind.root), pigment(one.kind.tip), daylight(one.light)
     cosine, sine = grain(one.kind, light)
     own = 1.0 + cosine * (normal_x**2 - normal_z**2) + sine * (2.0 * normal_x * normal_z)
@@ -210,7 +210,7 @@ def edges(one: Sample, message: Floats, /, *, points: int) -> Floats:
 
 
 def on_strip(edge: Floats, at: Floats, /) -> Doubles:
-    """Return where texture coordinates (..., 2) in [0, 1] are on a strip with edges (n, k, 3), shape (..., 3).
+    """Return the points of texture coordinates (..., 2) in [0, 1] on a strip with edges (n, k, 3), shape (..., 3).
 
     A quad is two triangles, parted from its second edge's foot to its first edge's head, as it is on screen.
     """
@@ -227,7 +227,7 @@ def on_strip(edge: Floats, at: Floats, /) -> Doubles:
 
 
 def draw_edges(detail: Detail, /) -> Figure:
-    """Return figure 3: a strip at rest, and with its vertical edges bent by what their receivers feel."""
+    """Return figure 3: a strip at rest, and one whose vertical edges are bent by their receivers' messages."""
     one = sample(detail)
     figure = sheet(4.1, detail)
     panels = figure.subplots(2, 1)
@@ -248,7 +248,7 @@ def draw_edges(detail: Detail, /) -> Figure:
 
 
 def oblique(place: NDArray[np.floating], /, plane: float) -> Doubles:
-    """Return points (..., 3) drawn from the side and a little from above, shape (..., 2)."""
+    """Project points (..., 3) obliquely, from the side and a little from above, shape (..., 2)."""
     depth = place[..., 2] - plane
     return np.stack([place[..., 0] - 0.35 * depth, place[..., 1] - 0.45 * depth], axis=-1)
 

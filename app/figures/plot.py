@@ -1,4 +1,4 @@
-"""The one look of all figures, and how they are put on paper."""
+"""The common style of all figures, their layout, and saving."""
 
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
@@ -18,12 +18,12 @@ from ..studio.encode import Picture
 from .figure import Detail
 
 WIDTH = 7.2
-"""Width of every figure [inches]: letters are of one size in all of them."""
+"""Width of every figure [inches], so that letters have one size in all."""
 
 INK, FAINT, PAPER = "#26301f", "#8a9182", "#fdfdfb"
 
 SERIES = ("#2f7d4f", "#c8811a", "#3a6ea8", "#a3477f")
-"""Colours of curves, told apart by colour-blind readers too."""
+"""Colours of curves, distinct for colour-blind readers too."""
 
 LOOK = {
     "font.family": "DejaVu Sans",
@@ -60,12 +60,12 @@ INDEX: Colormap = LinearSegmentedColormap.from_list("index", ["#a9c46c", "#3f9c6
 
 
 def look() -> AbstractContextManager[None]:
-    """Return the context in which figures are made: whatever a reader's own settings are, they look the same."""
+    """Return the style context of figures, independent of the user's settings of Matplotlib."""
     return style.context(["default", LOOK])
 
 
 def sheet(height: float, detail: Detail, /) -> Figure:
-    """Return an empty figure of this height [inches] for plots, laid out by itself."""
+    """Return an empty figure of this height [inches] for plots, with automatic layout."""
     figure = Figure(figsize=(WIDTH, height), dpi=detail.dots / WIDTH, layout="constrained")
     FigureCanvasAgg(figure)
     engine = figure.get_layout_engine()
@@ -108,6 +108,6 @@ def plate(rows: Sequence[Sequence[Panel]], /) -> Figure:
 
 
 def put_on_paper(figure: Figure, path: Path, /, *, title: str) -> None:
-    """Write a figure as PNG: the same file for the same figure."""
+    """Write a figure as PNG, reproducibly."""
     about = {"Software": f"tallgrass {__version__}, Matplotlib {mpl.__version__}", "Title": title}
     figure.savefig(path, format="png", dpi="figure", metadata=about)

@@ -1,4 +1,4 @@
-"""The presets side by side: what they show, and what they cost (figure 16)."""
+"""The presets side by side: their pictures and their costs (figure 16)."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -18,22 +18,22 @@ from .plot import Panel, plate
 SCENE = "meadow"
 
 ROWS = (("low", "medium", "high"), ("paper-low", "paper-medium", "paper-high"))
-"""The presets that are shown: ours, and the paper's."""
+"""Names of the shown presets: the engine's own, and the paper's."""
 
 UNIT = "high"
-"""The preset whose frames are what the others' cost is told by."""
+"""Preset whose frame time is the unit of the others' costs."""
 
 TIME = 2.0
 """Instant of the scene [s]."""
 
 ROUNDS = 5
-"""How often each frame is drawn for its cost."""
+"""Number of timings of each frame."""
 
 
 def pictures(prairies: Sequence[Prairie], target: Offscreen, /) -> tuple[list[Picture], list[float]]:
-    """Return what the scene's camera sees of each prairie, and the median time of its frame [ms].
+    """Return each prairie's picture from the scene's camera, and the median time of its frame [ms].
 
-    They are drawn in turn, since machines change their speed.
+    The prairies are drawn in turn, since a machine's speed varies over time.
     """
     views = [_matrices(prairie, target.size) for prairie in prairies]
     seen: list[Picture] = []

@@ -1,4 +1,4 @@
-"""All figures there are; a new group of them is one more module in this list."""
+"""The list of all figures; a new group of figures is a module in this list."""
 
 from . import bending, morph, patch, quality, scenery, tiling, walk, wind
 from .figure import PaperFigure
@@ -8,4 +8,4 @@ GROUPS = (patch, tiling, bending, wind, scenery, morph, quality, walk)
 FIGURES: tuple[PaperFigure, ...] = tuple(
     sorted((each for group in GROUPS for each in group.FIGURES), key=lambda each: each.number)
 )
-"""By their numbers in the paper."""
+"""All figures, by their numbers in the paper."""

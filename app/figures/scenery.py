@@ -18,19 +18,19 @@ from .plot import Panel, plate
 
 @dataclass(frozen=True, slots=True)
 class Viewpoint:
-    """Where a scene is looked at from."""
+    """A place and a direction of a camera in a scene."""
 
     place: tuple[float, float]
     """Ground position (x, z) [m]."""
 
     eye: float
-    """Above the ground [m]."""
+    """Height above the ground [m]."""
 
     yaw: float
-    """[degrees]."""
+    """Yaw of the camera [degrees]."""
 
     pitch: float
-    """[degrees]."""
+    """Pitch of the camera [degrees]."""
 
     view: float = 42.0
     """Vertical angle of view [degrees]."""
@@ -47,7 +47,7 @@ class Viewpoint:
 def pictures(
     scene: str, times: Sequence[float], viewpoint: Viewpoint, parts: Sequence[frozenset[Layer]], detail: Detail, /
 ) -> list[list[Picture]]:
-    """Return pictures of a scene: a row for each of some rising `times` [s], with each overlay of `parts` in turn."""
+    """Return pictures of a scene: a row for each of the rising `times` [s], with each overlay of `parts` in turn."""
     with Studio(Take(scene, detail.size, detail.preset)) as studio:
         camera, rows = viewpoint.camera(studio), []
         for time in times:

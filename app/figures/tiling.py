@@ -20,7 +20,7 @@ from .plot import INK, seen_from_above, sheet
 
 SCENE = "meadow"
 BEYOND = 5
-"""How many patches beyond the last strips are shown."""
+"""Number of patches shown beyond the last strips."""
 
 CULLED = (0.93, 0.935, 0.915)
 

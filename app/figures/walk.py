@@ -14,19 +14,19 @@ from .plot import Panel, plate
 SCENE = "meadow"
 
 TIMES = (7.7, 8.0, 8.4, 8.7)
-"""Before, in the middle of, and after changes [s]."""
+"""Instants before, during and after changes [s]."""
 
 RATE = 30
 """Frames of the walk per second."""
 
 BEFORE = 2.0
-"""How long the walk has lasted by the first frame [s]."""
+"""Duration of the walk before the first frame [s]."""
 
 LEVELS: frozenset[Layer] = frozenset({"levels", "weights"})
 
 
 def walk_frames(detail: Detail, times: Sequence[float], /) -> list[tuple[Picture, Picture, int]]:
-    """Return what is seen at rising `times` [s] of a walk, plain and in colours, and how many patches are changing."""
+    """Return for rising `times` [s] of a walk: the picture, the same in colours, and the number of changing patches."""
     frames, shown = [], {round(time * RATE) for time in times}
     with Studio(Take(SCENE, detail.size, detail.preset)) as studio:
         prairie = studio.prairie

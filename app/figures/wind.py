@@ -26,20 +26,20 @@ from .plot import FAINT, INDEX, INK, SERIES, seen_from_above, sheet
 Span = tuple[float, float]
 
 ACROSS = 8
-"""Places along a patch's side at which a mask is asked."""
+"""Number of samples of a mask along a patch's side."""
 
 FINE = 400
-"""Places along a map at which a mask is asked for its outline."""
+"""Number of samples of a mask along a map's side, for its outline."""
 
 
 def windless() -> Prairie:
-    """Return a flat prairie without wind, grown as coarsely as can be: winds are all that is looked at."""
+    """Return a flat prairie without wind, of the coarsest preset, since only winds are shown."""
     loaded = read_scene("plain")
     return Prairie(replace(loaded, scene=loaded.scene.model_copy(update={"wind": []})), preset="low", live=False)
 
 
 def grid(x: Span, z: Span, spacing: float, /) -> Floats:
-    """Return ground positions in the middle of squares of this side [m], row by row, shape (n, 2)."""
+    """Return the centres of squares with this side [m], row by row, shape (n, 2)."""
     along = (np.arange(x[0], x[1] - 1e-6, spacing) + spacing / 2, np.arange(z[0], z[1] - 1e-6, spacing) + spacing / 2)
     return np.stack(np.meshgrid(*along), axis=-1).reshape(-1, 2).astype(np.float32)
 
@@ -50,7 +50,7 @@ def mask_of(wind: Blowing, place: Floats, /, *, time: float) -> Floats:
 
 
 def patch_weights(wind: Blowing, middle: Floats, /, *, patch: float, time: float) -> Floats:
-    """Return how much of each patch's ground a mask holds, as a mean weight in [0, 1], shape (n,)."""
+    """Return the mean weight of a mask over each patch, in [0, 1], shape (n,)."""
     inside = grid((-patch / 2, patch / 2), (-patch / 2, patch / 2), patch / ACROSS)
     place = (middle[:, None] + inside[None]).reshape(-1, 2)
     return np.asarray(mask_of(wind, place, time=time).reshape(len(middle), -1).mean(axis=1))
@@ -104,7 +104,7 @@ def _outline(
 
 
 def draw_fields(detail: Detail, /) -> Figure:
-    """Return figure 10: what grass feels of each kind of wind, as arrows."""
+    """Return figure 10: the messages of each kind of wind, as arrows."""
     figure = sheet(5.0, detail)
     prairie = windless()
     outline = Shape(polygon=[[-3.4, 2.6], [-2.6, -2.0], [0.0, -3.8], [2.6, -2.0], [3.4, 2.6], [0.0, 1.6]])

@@ -136,7 +136,7 @@ def test_a_walk_by_a_worker_has_the_figures_of_one_process(
     take = Take(str(scene), (64, 64))
     alone = on_one_leg(take, str(folder))
     ((there),) = two.in_order(measured_here, [(packed(take, read_scene(take.scene)), Job(on_one_leg), True)])
-    assert {**there.told, "scene": take.scene} == alone
+    assert {**there.result, "scene": take.scene} == alone
     assert there.pictures == {path.name: path.read_bytes() for path in folder.iterdir()}
     assert there.pictures
 
@@ -149,7 +149,7 @@ def test_what_is_timed_is_alone_on_its_machine(two: Hands, scene: Path) -> None:
 
     parcel = packed(take_of(scene), read_scene(scene))
     one, other = sorted(
-        (each.told["from"], each.told["to"])
+        (each.result["from"], each.told["to"])
         for each in two.in_order(measured_here, [(parcel, Job(timed, timed=True), False)] * 2)
     )
     assert one[1] <= other[0]
