@@ -149,7 +149,7 @@ def test_what_is_timed_is_alone_on_its_machine(two: Hands, scene: Path) -> None:
 
     parcel = packed(take_of(scene), read_scene(scene))
     one, other = sorted(
-        (each.result["from"], each.told["to"])
+        (each.result["from"], each.result["to"])
         for each in two.in_order(measured_here, [(parcel, Job(timed, timed=True), False)] * 2)
     )
     assert one[1] <= other[0]
