@@ -20,7 +20,7 @@ from .frame.block import aim, confine
 from .frame.feature import Feature, Part, overriding
 from .holding import READY_ROWS, Holding
 from .receive.received import numbers_of, write_messages
-from .show.blades.draw import BladePainter
+from .show.blades.draw import BladeDrawing
 from .show.blades.plant import record_of
 from .show.representation import RepresentationPainter
 from .site import Site
@@ -90,10 +90,10 @@ class Painter(Holding):
             self.record[:] = before
             yield
 
-    def blade_painter(self, segments: int) -> BladePainter:
+    def blade_painter(self, segments: int) -> BladeDrawing:
         """Return a painter of opaque blades with a number of segments, which may come in any order."""
         assert self.site is not None
-        return BladePainter(self.ctx, self.block, segments, UNITS, record_of(self.site.growths))
+        return BladeDrawing(self.ctx, self.block, segments, UNITS, record_of(self.site.growths))
 
     def write(self, outlook: Outlook) -> None:
         """Upload what a viewer is shown."""
@@ -146,7 +146,7 @@ class Painter(Holding):
         view: View,
         asked: Asked = WHOLE,
         *,
-        blades: Iterable[BladePainter] | None = None,
+        blades: Iterable[BladeDrawing] | None = None,
         scale: float = 1.0,
         hidden: bool = False,
     ) -> None:
@@ -165,7 +165,7 @@ class Painter(Holding):
                 self._draw(view, target, asked, blades)
 
     def _draw(
-        self, view: View, target: moderngl.Framebuffer, asked: Asked, blades: Iterable[BladePainter] | None
+        self, view: View, target: moderngl.Framebuffer, asked: Asked, blades: Iterable[BladeDrawing] | None
     ) -> None:
         self._write_block(view, target, asked)
         self.draw_calls = self._hear(target, asked) if blades is None else 0

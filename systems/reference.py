@@ -14,7 +14,7 @@ from ..engine.terrain.sample import height_at
 from .around.outlook import Outlook
 from .painter import Painter
 from .prairie import Prairie
-from .show.blades.draw import BladePainter
+from .show.blades.draw import BladeDrawing
 from .show.blades.plant import standing_blades
 from .show.blades.representation import BladeRepresentation
 from .show.carpet.painter import CarpetPainter
@@ -78,7 +78,7 @@ def cells_in_picture(prairie: Prairie, cells: Ints, seen: View, /) -> Ints:
     return inside
 
 
-def stand_all(prairie: Prairie, cells: Ints, painter: BladePainter, /, *, seen: View | None = None) -> int:
+def stand_all(prairie: Prairie, cells: Ints, painter: BladeDrawing, /, *, seen: View | None = None) -> int:
     """Upload all blades of `cells` (n, 2) to a painter, bent by the present wind; return their number.
 
     With a view `seen`, blades that cannot reach into the picture are left out.
@@ -158,7 +158,7 @@ class EveryBlade:
         finally:
             trees.leaves_from, trees.detail_eyes = None, ()
 
-    def _chunks(self, cells: Ints, seen: View) -> Iterator[BladePainter]:
+    def _chunks(self, cells: Ints, seen: View) -> Iterator[BladeDrawing]:
         for start in range(0, len(cells), CHUNK):
             if stand_all(self.prairie, cells[start : start + CHUNK], self.blades, seen=seen):
                 yield self.blades

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...systems.reference import EveryBlade, cells_within, stand_all, terrain_cells
-from ...systems.show.blades.draw import BladePainter
+from ...systems.show.blades.draw import BladeDrawing
 from ...systems.stock.models import precompute_bytes
 from ..studio.progress import counted, course
 from ..studio.studio import Studio
@@ -112,7 +112,7 @@ class _Blades:
         samples.seen_3d.append(self._timed([self._seen]))
         samples.floor.append(self._timed([]))
 
-    def _timed(self, blades: list[BladePainter]) -> float:
+    def _timed(self, blades: list[BladeDrawing]) -> float:
         def draw() -> None:
             self._still.studio.begin()
             self._every.painter.draw(self._still.view, blades=blades)

@@ -163,7 +163,7 @@ class Ribbons:
         release_all(*arrays, *(array.program for array in arrays), self.stream)
 
 
-class BladePainter:
+class BladeDrawing:
     """Draws given blades, records of `BLADE` or `ORGAN`, opaque and in any order."""
 
     def __init__(

@@ -77,7 +77,7 @@ class StripShelf:
         release_all(self.placements, self.strips)
 
 
-class StripPainter:
+class StripDrawing:
     """Draws the strips of all rings, and owns their textures.
 
     `atlas` holds the pictures of all `forms`, as `strip_atlas` makes it. `heads` says whether any form has heads.

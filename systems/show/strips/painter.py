@@ -19,7 +19,7 @@ from ...around.outlook import Outlook
 from ...grow.organs import any_heads
 from ...space.grown import Grown
 from ..representation import Canvas, RepresentationPainter
-from .draw import StripPainter
+from .draw import StripDrawing
 from .gather import ALL_BLADES, BY_RANK, EDGED, Batch, batches, gather_strips, polygon_strips
 from .pool import StripPool, StripsKept
 from .shown import StripsOfRing, StripsShown
@@ -62,7 +62,7 @@ class StripsPainter(RepresentationPainter):
         self._fade = canvas.transitions.fade
         self._fineness = [(ring.strips, ring.columns) for ring in quality.strip_rings]
         heads = any_heads(form.growth for form in stock.forms)
-        self.strips = StripPainter(canvas, quality.strip_rings, stock.forms, atlas, heads=heads)
+        self.strips = StripDrawing(canvas, quality.strip_rings, stock.forms, atlas, heads=heads)
         self._came: tuple[float, ...] = ()
         """Progress of each kind's change into its next form, in [0, 1]; empty where no kind ever changes."""
         self.batches: list[Batch] = []

@@ -14,7 +14,7 @@ from tallgrass.engine.gl import emit
 from tallgrass.engine.gl.stream import Records
 from tallgrass.systems.features import UNITS
 from tallgrass.systems.frame.block import BODY, FRAME, KIND, FrameBlock, aim, by_kind, rays
-from tallgrass.systems.show.blades.draw import MESSAGE, BladePainter
+from tallgrass.systems.show.blades.draw import MESSAGE, BladeDrawing
 from tallgrass.systems.show.blades.pool import BLADE, ORGAN
 from tallgrass.systems.show.blades.store import STANDING
 from tallgrass.systems.show.strips.gather import PLACEMENT
@@ -171,7 +171,7 @@ def test_figures_by_kind_fill_vectors_of_four() -> None:
 def test_every_field_of_a_blade_is_an_attribute_of_its_shader(
     ctx: moderngl.Context, block: FrameBlock, record: np.dtype[np.void], unread: set[str]
 ) -> None:
-    painter = BladePainter(ctx, block, 3, UNITS, record)
+    painter = BladeDrawing(ctx, block, 3, UNITS, record)
     names = {name for name in painter.program if isinstance(painter.program[name], moderngl.Attribute)}
     expected = {*(record.names or ()), *(MESSAGE.names or ())} - {"root"} - unread | {"root_at"}
     assert names - {"gl_VertexID"} == expected
