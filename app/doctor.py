@@ -1,4 +1,4 @@
-"""What this machine has for a prairie, and for each thing missing the exact line that installs it."""
+"""Diagnosis of this machine, with the exact command that installs each missing thing."""
 
 import json
 import os
@@ -48,19 +48,19 @@ _DEBIAN_PACKAGES = (
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing that was looked at."""
+    """The result of one check."""
 
     part: str
-    """What it is about: `python`, a package, `OpenGL`, `window`, or a kind of wind."""
+    """Subject of the check: `python`, a package, `OpenGL`, `window`, or a kind of wind."""
 
     level: Literal["ok", "note", "missing"]
     """`missing` keeps prairies from being drawn or walked; a `note` does not."""
 
     text: str
-    """What was found."""
+    """Result in words."""
 
     cure: str | None = None
-    """The line that installs what is missing."""
+    """Command or advice that mends it."""
 
 
 def doctor() -> int:
@@ -69,7 +69,7 @@ def doctor() -> int:
 
 
 def diagnose() -> list[Finding]:
-    """Return what was found of Python, packages, OpenGL, windows and wind plugins."""
+    """Check Python, packages, OpenGL, windows and wind plugins; return the findings."""
     installed = [*entry_points(group=GROUP)]
     return [
         Finding("python", "ok", f"{sys.version.split()[0]} ({sys.executable})"),
@@ -81,7 +81,7 @@ def diagnose() -> list[Finding]:
 
 
 def tell(findings: Sequence[Finding]) -> int:
-    """Print findings, each cure below its own; return the exit status they amount to."""
+    """Print findings, each with its cure below; return the exit status: 1 if something is missing."""
     for finding in findings:
         print(f"{finding.level:8}{finding.part}: {finding.text}")
         if finding.cure is not None:
@@ -92,9 +92,9 @@ def tell(findings: Sequence[Finding]) -> int:
 
 
 def cure(message: str, /) -> str | None:
-    """Return what mends what a loader, a driver or an installer complained of; None if it is unknown.
+    """Return the cure for an error message of a loader, a driver or an installer; None for an unknown one.
 
-    It is a line for a terminal where there are packages for it; Windows and macOS have drivers alone.
+    It is a command where packages exist; on Windows and macOS it is advice to update the driver.
     """
     for pattern, line in _OTHER_CURES:
         if re.search(pattern, message):
@@ -105,7 +105,7 @@ def cure(message: str, /) -> str | None:
 
 
 def packages(requirements: Sequence[str], /) -> list[Finding]:
-    """Return what is installed of `requirements`, which are written as in a distribution's metadata."""
+    """Return a finding for each of `requirements`, which are written as in a distribution's metadata."""
     findings = []
     for requirement in requirements:
         need, _, marker = (part.strip() for part in requirement.partition(";"))
@@ -126,7 +126,7 @@ def _package(need: str, otherwise: Literal["note", "missing"], text: str) -> Fin
 
 
 def drawing(answer: dict[str, str], /) -> Finding:
-    """Return what the probe of headless OpenGL says."""
+    """Return the finding from the answer of the headless OpenGL probe."""
     if "error" in answer:
         return Finding("OpenGL", "missing", answer["error"], cure(answer["error"]))
     text = "{version}, {renderer}, {vendor}".format(**answer)
@@ -136,7 +136,7 @@ def drawing(answer: dict[str, str], /) -> Finding:
 
 
 def window(answer: dict[str, str], /, *, has_display: bool) -> Finding:
-    """Return what the probe of windows says; without a display, films and pictures still work."""
+    """Return the finding from the answer of the window probe; films and pictures need no display."""
     if "error" not in answer:
         return Finding("window", "ok", "{version}, {renderer}".format(**answer))
     if has_display:
@@ -145,7 +145,7 @@ def window(answer: dict[str, str], /, *, has_display: bool) -> Finding:
 
 
 def winds(kinds: WindKinds, entries: Sequence[EntryPoint], /) -> list[Finding]:
-    """Return which kinds of wind a scene can use; a broken one costs only the scenes that use it."""
+    """Return findings on the kinds of wind; a broken kind affects only the scenes that use it."""
     installed = sorted(entries, key=lambda entry: entry.dist is not None and entry.dist.name == OURS)
     owner = {entry.name: entry.dist.name for entry in installed if entry.dist is not None}  # ours last: they win
     findings = []
@@ -154,7 +154,7 @@ def winds(kinds: WindKinds, entries: Sequence[EntryPoint], /) -> list[Finding]:
         try:
             kinds.find(kind)
         except PluginError as error:
-            # A newer package may mend its own faults; of a module that it lacks, the text says all there is to say.
+            # A newer version may mend a package's own faults; for a missing module, the error text is enough.
             lacks = isinstance(error.__cause__, ModuleNotFoundError)
             newer = "tallgrass" if isinstance(error, NewerError) else name
             mended = _pip(newer) if kind in owner and not lacks else None
@@ -181,7 +181,7 @@ def _virtual_display() -> str:
 
 
 def _has_packages() -> bool:
-    """Return whether OpenGL and windows come from packages here, as on Linux."""
+    """Return whether this system has packages for OpenGL and windows, as Linux does."""
     return sys.platform not in {"darwin", "win32"}
 
 
@@ -190,7 +190,7 @@ def _has_display() -> bool:
 
 
 def _probe(name: str) -> dict[str, str]:
-    """Return what a probe answers from a process of its own: a broken driver may take its process down."""
+    """Run a probe in a process of its own, as a broken driver may crash it, and return its answer."""
     command = [sys.executable, "-P", "-m", __name__, name]
     try:
         run = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)  # noqa: S603 - our own

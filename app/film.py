@@ -15,10 +15,10 @@ from .studio.studio import about
 from .studio.take import Take
 
 STILL_SECONDS = 8.0
-"""How long a film is whose camera has no path [s]."""
+"""Default duration of a film whose camera has no path [s]."""
 
 Frames = tuple[int, int | None]
-"""The first frame, and the one after the last; None is the film's end."""
+"""The first frame, and the one after the last or None for the film's end."""
 
 
 def film(

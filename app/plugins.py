@@ -9,9 +9,9 @@ from ..testing import NoContextError, headless_context, twin_problems, wind_prob
 
 
 def list_plugins(*, json: bool = False) -> None:
-    """Print every kind of wind, then every installed system, who brings it, and whether it is used or left out.
+    """Print every kind of wind and every installed system, each with its package and whether it is used or left out.
 
-    Nothing is imported for it: whether a wind that is `ready` can be loaded, `check_plugin` and the doctor say.
+    Nothing is imported: `check_plugin` and the doctor find out whether a `ready` wind can be loaded.
     """
     winds, systems = wind_kinds().provided(), system_plugins().provided()
     if json:
@@ -57,7 +57,7 @@ def check_plugin(kind: str) -> int:
 
 
 def _system(name: str) -> str | None:
-    """Return what to say to somebody who asks for the check of a system; None where no system has that name."""
+    """Return a message for the check of a system instead of a wind; None where no system has that name."""
     owners = [row.distribution for row in system_plugins().provided() if row.system == name]
     if not owners:
         return None

@@ -1,4 +1,4 @@
-"""The files of a new wind plugin and of a new game: what works already, for its author to change."""
+"""The files of a new wind plugin and of a new game, which work and are meant to be changed."""
 
 import re
 from importlib.resources import files
@@ -16,13 +16,13 @@ _TAKEN = {"Extent", "Field", "Grass", "PlacedWind"}
 
 
 def new_wind(kind: str, folder: str | None) -> None:
-    """Write a new plugin into a folder, by default one called like its kind, and say what comes next."""
+    """Write a new plugin into a folder, by default named after its kind, and print the next commands."""
     place = Path(folder or kind)
     _tell(scaffold(kind, place), ["pip", "install", "-e", str(place)], ["tallgrass", "plugins", "check", kind])
 
 
 def new_game(name: str, folder: str | None) -> None:
-    """Write a new game into a folder, by default one called like it, and say what comes next."""
+    """Write a new game into a folder, by default named after the game, and print the next command."""
     place = Path(folder or name)
     _tell(scaffold_game(name, place), ["python", str(place / "game.py")])
 

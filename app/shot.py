@@ -18,9 +18,9 @@ from .studio.take import Take
 
 
 def shot(take: Take, output: str, *, time: float = 0.0, camera: Camera | None = None) -> None:
-    """Draw one picture of a scene at `time` [s] into a PNG file, whose text entries say how it was made.
+    """Draw one picture of a scene at `time` [s] into a PNG file, with metadata as text entries.
 
-    Without `camera` it is the scene's fixed place; of `camera`, the angle of view is left to the scene.
+    The default camera is the scene's fixed one. The angle of view of `camera` is replaced by the scene's.
     Raises InputError where `output` cannot be written, `SceneError` where the scene is wrong.
     """
     write = picture_writer(output)
@@ -30,21 +30,21 @@ def shot(take: Take, output: str, *, time: float = 0.0, camera: Camera | None = 
         studio.prairie.advance(time)
         view = math.radians(studio.prairie.scene.camera.view)
         place = studio.camera(None) if camera is None else replace(camera, view=view)
-        deep = _below(place, studio.prairie.height_at)
-        if deep > 0.0:
-            print(f"the camera is {deep:.1f} m below the ground: y is a height in the scene", file=sys.stderr)
-        told = about(studio.prairie.scene, take, time=studio.prairie.time)
-        write(studio.picture(place), {**told, "camera": written(place)})
+        depth = _below(place, studio.prairie.height_at)
+        if depth > 0.0:
+            print(f"the camera is {depth:.1f} m below the ground: y is a height in the scene", file=sys.stderr)
+        metadata = about(studio.prairie.scene, take, time=studio.prairie.time)
+        write(studio.picture(place), {**metadata, "camera": written(place)})
 
 
 def _spare(output: str, loaded: LoadedScene) -> None:
-    """Raise InputError where a picture would take the place of a file that its scene reads."""
+    """Raise InputError where a picture would replace a file that its scene reads."""
     for name, path in loaded.paths.items():
         if Path(output).resolve() == path.resolve():
             raise InputError(f"-o: {output}: the scene reads '{name}': choose another name")
 
 
 def _below(camera: Camera, height_at: Heights) -> float:
-    """Return how far a camera is below the ground [m]."""
+    """Return the depth of a camera below the ground [m]."""
     x, y, z = camera.position
     return float(height_at(np.array([[x, z]], np.float32))[0]) - y

@@ -1,27 +1,27 @@
-// One instance is one blade of a tile. Blades stand in a texture, three texels each, and so do chunks of the tiles that are
-// drawn, two texels each. A blade bends along an arc of a circle, in sines that travel with the breeze.
+// One instance is one blade of a tile. One texture holds the blades, three texels each; another holds the chunks of the
+// visible tiles, two texels each. A blade bends along a circular arc, by sine waves that travel with the breeze.
 #include "lib/light.glsl"
 
 uniform sampler2D blades;
 uniform sampler2D chunks;
-uniform int first;    // chunk of this level
-uniform int many;     // blades of a tile
-uniform float full;   // distance up to which every blade stands [m]
+uniform int first;    // index of this level's first chunk
+uniform int many;     // number of blades in a tile
+uniform float full;   // distance up to which every blade is drawn [m]
 uniform float now;    // time [s]
-uniform vec4 breeze;  // direction x, z; strength; how far that drifts
-uniform float speed;  // of its waves [m/s]
+uniform vec4 breeze;  // direction x, z; strength; gustiness
+uniform float speed;  // of the breeze's waves [m/s]
 
 out vec3 color;
 
-const float WAVE = 0.45;   // of the breeze [rad/m]
-const float CURL = 2.5;    // angle that a blade flat on the ground turns by [rad]
+const float WAVE = 0.45;   // wavenumber of the breeze [rad/m]
+const float CURL = 2.5;    // angle of the arc of a blade that lies flat [rad]
 const float ROUNDED = 0.35;
-const vec2 DRIFTS = vec2(0.6, 0.4);  // shares of two waves in how unevenly the breeze blows
-const vec2 SKEWED = vec2(0.2, -0.5);  // how much of each comes from the side
-const float SHORTER = 1.7;  // the second wave, of the first
-const vec2 BEAT = vec2(8.0, 6.0);  // of a blade's own swing, along x and z [rad/s]
-const vec2 APART_X = vec2(7.0, 0.0), APART_Z = vec2(3.0, 9.0);  // how fast that changes over the ground [rad/m]
-const float OWN = 0.25;  // how far it goes, of the breeze
+const vec2 DRIFTS = vec2(0.6, 0.4);  // amplitudes of the two waves of gustiness
+const vec2 SKEWED = vec2(0.2, -0.5);  // their wavenumbers across the breeze [rad/m]
+const float SHORTER = 1.7;  // wavenumber of the second wave, relative to the first
+const vec2 BEAT = vec2(8.0, 6.0);  // angular frequencies of a blade's own swing, along x and z [rad/s]
+const vec2 APART_X = vec2(7.0, 0.0), APART_Z = vec2(3.0, 9.0);  // change of the swing's phase over the ground [rad/m]
+const float OWN = 0.25;  // amplitude of the swing, relative to the breeze
 
 vec4 texel(sampler2D from, int number) {
     return texelFetch(from, ivec2(number % WIDTH, number / WIDTH), 0);
@@ -45,8 +45,8 @@ void main() {
     int chunk = 2 * (first + gl_InstanceID / CHUNK);
     vec4 tile = texel(chunks, chunk), corners = texel(chunks, chunk + 1);
     int number = min(int(tile.w) + gl_InstanceID % CHUNK, many - 1);
-    int at = 3 * (int(tile.z) * many + number);
-    vec4 stem = texel(blades, at), lean = texel(blades, at + 1), sort = texel(blades, at + 2);
+    int base = 3 * (int(tile.z) * many + number);
+    vec4 stem = texel(blades, base), lean = texel(blades, base + 1), sort = texel(blades, base + 2);
     vec2 part = stem.xy / patch_side;
     float ground = mix(mix(corners.x, corners.y, part.x), mix(corners.z, corners.w, part.x), part.y);
     vec3 foot = vec3(tile.x + stem.x, ground, tile.y + stem.y);

@@ -1,4 +1,4 @@
-"""What pyglet says of mouse and keys, told to Dear ImGui."""
+"""Forwarding of pyglet's mouse and key events to Dear ImGui."""
 
 from imgui_bundle import imgui
 from pyglet.window import key, mouse
@@ -11,7 +11,7 @@ _NAMED = {
 }  # fmt: skip
 _LETTERS = {getattr(key, letter.upper()): letter for letter in "acvxyz"}
 KEYS = {symbol: getattr(imgui.Key, name) for symbol, name in (_NAMED | _LETTERS).items()}
-"""The keys that a field of text knows; letters only where they stand for something with Ctrl."""
+"""Keys of a text field, by pyglet's code; letters only for shortcuts with Ctrl."""
 
 MODIFIERS = (
     (key.MOD_CTRL, imgui.Key.mod_ctrl),
@@ -23,13 +23,13 @@ OWN = {
     key.LCTRL: key.MOD_CTRL, key.RCTRL: key.MOD_CTRL, key.LSHIFT: key.MOD_SHIFT, key.RSHIFT: key.MOD_SHIFT,
     key.LALT: key.MOD_ALT, key.RALT: key.MOD_ALT, key.LCOMMAND: key.MOD_COMMAND, key.RCOMMAND: key.MOD_COMMAND,
 }  # fmt: skip
-"""What each of these keys is itself."""
+"""Dear ImGui's keys for the modifier keys, by pyglet's code."""
 
 BUTTONS = {mouse.LEFT: 0, mouse.RIGHT: 1, mouse.MIDDLE: 2}
 
 
 def tell_key(symbol: int, modifiers: int, *, down: bool) -> None:
-    """Tell of a key that was pressed or let go, and of those held with it."""
+    """Forward a key that was pressed or released, and the modifiers held with it."""
     own = OWN.get(symbol, 0)  # pyglet tells what was held before
     tell_modifiers(modifiers | own if down else modifiers & ~own)
     if symbol in KEYS:
@@ -37,30 +37,30 @@ def tell_key(symbol: int, modifiers: int, *, down: bool) -> None:
 
 
 def tell_modifiers(modifiers: int) -> None:
-    """Tell which of Ctrl, Shift and the like are held."""
+    """Forward the held modifiers, such as Ctrl and Shift."""
     io = imgui.get_io()
     for bit, named in MODIFIERS:
         io.add_key_event(named, bool(modifiers & bit))
 
 
 def tell_text(text: str) -> None:
-    """Tell of what was typed."""
+    """Forward typed text."""
     imgui.get_io().add_input_characters_utf8(text)
 
 
 def tell_mouse(x: float, y: float) -> None:
-    """Tell where the pointer is, counted from the window's lower left."""
+    """Forward the position of the pointer, counted from the window's lower left [pixels]."""
     io = imgui.get_io()
     io.add_mouse_pos_event(x, io.display_size.y - y)
 
 
 def tell_button(button: int, modifiers: int, *, down: bool) -> None:
-    """Tell of a button of the mouse that was pressed or let go."""
+    """Forward a mouse button that was pressed or released."""
     tell_modifiers(modifiers)
     if button in BUTTONS:
         imgui.get_io().add_mouse_button_event(BUTTONS[button], down)
 
 
 def tell_wheel(x: float, y: float) -> None:
-    """Tell how far the wheel was turned."""
+    """Forward a turn of the wheel."""
     imgui.get_io().add_mouse_wheel_event(x, y)

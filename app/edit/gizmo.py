@@ -1,4 +1,4 @@
-"""What is drawn on the ground while one edits: outlines, grips, and the brush's disc."""
+"""Drawings on the ground while editing: outlines of masks, grips, and the brush's disc."""
 
 from collections.abc import Sequence
 
@@ -14,14 +14,14 @@ from .grips import Grip, blowing_of
 from .pick import Place, Sight
 
 FAR = 400.0
-"""How far from the eye an outline is drawn [m]."""
+"""Largest distance from the eye at which outlines are drawn [m]."""
 
 _RING = np.stack([trace(np.linspace(0.0, 2.0 * np.pi, 49)) for trace in (np.sin, np.cos)], axis=1)
 _WHITE, _DARK, _GREEN = 0xFFFFFFFF, 0xB0101010, 0xFF60F0A0
 
 
 def show_gizmo(editor: Editor, sight: Sight, grips: Sequence[Grip], pointed: Place | None) -> None:
-    """Draw the picked wind's outline and all grips, or the brush's disc where it points; in a frame of the panel's."""
+    """Draw the picked wind's outline and all grips, or the brush's disc at `pointed`, inside a frame of the panel."""
     if editor.brush is None:
         if editor.picked_wind is not None:
             _outline(editor, sight)
@@ -57,14 +57,14 @@ def _grip(editor: Editor, grip: Grip, middle: Doubles, end: Doubles) -> None:
 
 
 def _lines(ends: Doubles, color: int, width: float) -> None:
-    """Draw lines from (x, y) to (x, y), shape (n, 4), as far as both ends are seen."""
+    """Draw lines with ends (x, y, x, y), shape (n, 4), whose two ends are both visible."""
     canvas = imgui.get_background_draw_list()
     for x0, y0, x1, y1 in ends[~np.isnan(ends).any(axis=1)].tolist():
         canvas.add_line(imgui.ImVec2(x0, y0), imgui.ImVec2(x1, y1), color, width)
 
 
 def _flipped(sight: Sight, pixels: Doubles) -> Doubles:
-    """Return pixels (n, 2) as imgui counts them, from the upper left."""
+    """Return pixels (n, 2) counted from the upper left, as imgui does."""
     return np.stack([pixels[:, 0], sight.size[1] - pixels[:, 1]], axis=1)
 
 

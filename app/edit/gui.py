@@ -15,7 +15,7 @@ _ROOM = 1 << 16
 
 
 class Gui:
-    """One panel's context: takes events in, and draws what is built between `begin` and `end`."""
+    """The imgui context of one panel: it takes events, and draws what is built between `begin` and `end`."""
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
@@ -31,23 +31,23 @@ class Gui:
         self._array = self._laid()
 
     def use(self) -> None:
-        """Make it the one that the calls of `imgui` are about."""
+        """Make this context the current one of `imgui`."""
         imgui.set_current_context(self._context)
 
     @property
     def wants_mouse(self) -> bool:
-        """Whether the pointer is on the panel, or holds something of it."""
+        """Whether the pointer is on the panel, or drags one of its items."""
         self.use()
         return imgui.get_io().want_capture_mouse
 
     @property
     def wants_keys(self) -> bool:
-        """Whether something is being typed."""
+        """Whether a text field has the keyboard."""
         self.use()
         return imgui.get_io().want_text_input
 
     def begin(self, size: tuple[int, int], pixels: tuple[int, int], dt: float) -> None:
-        """Begin a frame on a window of this size that has so many pixels, `dt` [s] after the one before."""
+        """Begin a frame on a window of this size and number of pixels, `dt` [s] after the frame before."""
         self.use()
         io = imgui.get_io()
         io.display_size = imgui.ImVec2(*size)
@@ -56,7 +56,7 @@ class Gui:
         imgui.new_frame()
 
     def end(self) -> None:
-        """Draw what was built since `begin` into the framebuffer that the host has bound."""
+        """Draw what was built since `begin` into the host's bound framebuffer."""
         imgui.render()
         data = imgui.get_draw_data()
         with guest(self.ctx) as target:
@@ -80,7 +80,7 @@ class Gui:
         return self.ctx.vertex_array(self._program, layout, self._numbers, index_element_size=imgui.INDEX_SIZE)
 
     def _bring(self, texture: imgui.ImTextureData) -> None:
-        """Bring an image of letters into GL, whole: it changes only when letters are shown for the first time."""
+        """Upload a whole image of glyphs; it changes only when new glyphs are shown."""
         status = imgui.ImTextureStatus
         if texture.status in (status.want_create, status.want_updates):
             size, pixels = (texture.width, texture.height), np.ascontiguousarray(texture.get_pixels_array())

@@ -13,7 +13,7 @@ from .editor import Editor
 from .tree import Box, Tree, last_box, show_refusal
 
 WIDTH = 400.0
-"""Of the panel when it is first shown [pixels]."""
+"""Initial width of the panel [pixels]."""
 
 _EDGE = 8.0
 
@@ -25,24 +25,24 @@ _COLORS = {
     "BLOW": 0xFFD9B24A,
     "DRAW": 0xFF5A6FD0,
 }
-"""Of each phase, as imgui packs them: alpha, blue, green, red."""
+"""Colours of the phases, packed as imgui does: alpha, blue, green, red."""
 
 
 class Panel:
-    """What is shown of an editor, and what is done to it there."""
+    """The panel of an editor: it shows the scene, and passes changes on."""
 
     def __init__(self, editor: Editor) -> None:
         self.editor = editor
         self.tree = Tree(editor, wind_kinds().names())
         self.message = ""
-        """What the last saving said."""
+        """Message of the last saving."""
         self.buttons: dict[str, Box] = {}
-        """Where each button and tab was shown last."""
+        """Boxes of buttons and tabs in the last frame, by name."""
         self._held = False
         self._picked: int | None = None
 
     def show(self, frames_ms: Sequence[float]) -> None:
-        """Show it in the frame that was begun; `frames_ms` are the last frames' times [ms]."""
+        """Show the panel in the current frame; `frames_ms` are the last intervals between frames [ms]."""
         size = imgui.get_io().display_size
         once = imgui.Cond_.first_use_ever
         width = min(WIDTH, size.x / 2)
@@ -67,7 +67,7 @@ class Panel:
         self._settle()
 
     def save(self) -> None:
-        """Save, and say what was written."""
+        """Save, and show which files were written."""
         self.message = self.editor.save()
 
     def _menu(self) -> None:
@@ -120,7 +120,7 @@ class Panel:
         self._picked = self.editor.picked
 
     def _settle(self) -> None:
-        """Let a change be a step of its own when the field that it was made by is let go."""
+        """End the step of a change when its field is released."""
         held = imgui.is_any_item_active()
         if self._held and not held:
             self.editor.rest()
@@ -131,7 +131,7 @@ class Panel:
 
 
 def show_frame(prairie: Prairie, frames_ms: Sequence[float]) -> None:
-    """Show statistics, the last frames and the timeline of the last one; `frames_ms` is from frame to frame [ms]."""
+    """Show statistics, the last frames and the last timeline; `frames_ms` are the intervals between frames [ms]."""
     last = frames_ms[-1] if frames_ms else 0.0
     imgui.push_text_wrap_pos(0.0)
     for line in statistics_lines(prairie.statistics, frame_ms=last, time=prairie.time):
@@ -146,7 +146,7 @@ def show_frame(prairie: Prairie, frames_ms: Sequence[float]) -> None:
 
 
 def spans_of(milliseconds: Sequence[float], draw_ms: float, /) -> list[tuple[float, float]]:
-    """Return from where to where in the frame each system runs, and then the drawing, as parts of it in [0, 1]."""
+    """Return begin and end of each system, and last of the drawing, as fractions of the frame in [0, 1]."""
     ends = np.cumsum([*milliseconds, draw_ms])
     whole = max(float(ends[-1]), 1e-9)
     starts = [0.0, *ends[:-1].tolist()]
@@ -154,7 +154,7 @@ def spans_of(milliseconds: Sequence[float], draw_ms: float, /) -> list[tuple[flo
 
 
 def _timeline(prairie: Prairie) -> None:
-    """Show a bar for each system, one below the other, each beginning where the one before it ends."""
+    """Show a bar for each system, one below the other, each beginning at the end of the one before."""
     taken = prairie.statistics.systems_ms
     rows = [(each.name, each.phase.name, taken.get(each.name, 0.0)) for each in prairie.systems if each.name != "draw"]
     spans = spans_of([row[2] for row in rows], prairie.statistics.draw_ms)

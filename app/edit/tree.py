@@ -1,4 +1,4 @@
-"""The keys of a scene as a tree of fields, made from its models alone."""
+"""The keys of a scene as a tree of fields, derived from the scene's models."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -17,27 +17,27 @@ from .widgets import NUMBERS, written
 from .widgets import field as shown_field
 
 Box = tuple[float, float, float, float]
-"""Left, top, right and bottom, in pixels from the window's upper left."""
+"""Left, top, right and bottom of an item, from the window's upper left [pixels]."""
 
 REFUSED = imgui.ImVec4(1.0, 0.45, 0.35, 1.0)
 UNSAID = imgui.ImVec4(0.62, 0.66, 0.60, 1.0)
 PICKED = imgui.ImVec4(1.0, 0.9, 0.4, 1.0)
-"""Colours of what was refused, of what the file leaves to its default, and of the wind that is picked."""
+"""Text colours of refusals, of keys that the file leaves to their defaults, and of the picked wind."""
 
 
 @dataclass(slots=True)
 class Tree:
-    """The fields of the scene that an editor holds."""
+    """The fields of an editor's scene."""
 
     editor: Editor
     kinds: Sequence[str]
-    """The kinds of wind that there are."""
+    """Names of all kinds of wind."""
 
     boxes: dict[Way, Box] = field(default_factory=dict)
-    """Where the field of each key was shown last."""
+    """Boxes of the keys' fields in the last frame, by way."""
 
     opened: set[Way] = field(default_factory=set)
-    """The parts that are to be open from the next frame on."""
+    """Ways to the parts that the next frame opens."""
 
     def show(self) -> None:
         """Show every key of the scene."""
@@ -46,7 +46,7 @@ class Tree:
         self.opened.clear()
 
     def open(self, way: Way) -> None:
-        """Open a part in the next frame, with all that it stands in."""
+        """Open a part in the next frame, with all parts that enclose it."""
         self.opened |= {way[:count] for count in range(1, len(way) + 1)}
 
     def _keys(self, part: BaseModel, way: Way) -> None:
@@ -67,7 +67,7 @@ class Tree:
         imgui.pop_id()
 
     def _is_there(self, key: Key, value: Any, way: Way) -> bool:
-        """Show the switch of a key that need not have a value, and return whether it has one."""
+        """Show the switch of an optional key, and return whether the key has a value."""
         changed, on = imgui.checkbox("##there", value is not None)
         self._remember((*way, "there"))
         imgui.set_item_tooltip("whether the scene says it at all")
@@ -111,7 +111,7 @@ class Tree:
         imgui.tree_pop()
 
     def _item(self, key: Key, name: str, part: BaseModel, way: Way, *, most: int) -> None:
-        """Show one of several parts, with what can be done to it as a whole."""
+        """Show one of several parts, with the actions on the whole part."""
         kind = f"{name} {part.kind}" if isinstance(part, WindPrimitive) else name
         imgui.push_id(name)
         is_picked = isinstance(part, WindPrimitive) and self.editor.picked == way[-1]
@@ -174,7 +174,7 @@ class Tree:
         self._explain(key, way)
 
     def _explain(self, key: Key, way: Way) -> None:
-        """Say what a key is where one points at its name, and let it be written as text with a right click."""
+        """Show a key's name with its tooltip; a right click lets its value be edited as text."""
         if key.sentence and imgui.is_item_hovered(imgui.HoveredFlags_.for_tooltip):
             imgui.begin_tooltip()
             imgui.push_text_wrap_pos(360.0)
@@ -201,13 +201,13 @@ class Tree:
 
 
 def last_box() -> Box:
-    """Return where the last item was shown."""
+    """Return the box of the last item."""
     low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
     return low.x, low.y, high.x, high.y
 
 
 def show_refusal(refusal: Refusal) -> None:
-    """Show why a change was not made."""
+    """Show the reasons of a refusal."""
     imgui.push_style_color(imgui.Col_.text, REFUSED)
     for reason in refusal.reasons:
         imgui.text_wrapped(reason)

@@ -13,23 +13,23 @@ from .fields import EVERYWHERE, Form, Key, tidied
 from .values import NOTHING, yaml_text
 
 WIDE = 1000.0
-"""Range from which on a slider would be too coarse: what is wider is dragged, or a slider in powers of ten."""
+"""Range above which a slider is too coarse: wider ones are dragged, or get a logarithmic slider."""
 
 NUMBERS = "its own numbers"
-"""The choice that stands for a part in place of a word."""
+"""Label of the choice of a part instead of a text."""
 
 _WIDTH = 170.0
 
 
 def field(key: Key, value: Any) -> Any:
-    """Show the field of a key that has a value, and return the new value, or NOTHING where it was left alone."""
+    """Show the field of a key with its value, and return the new value, or NOTHING if it is unchanged."""
     imgui.set_next_item_width(_WIDTH)
     show = _FIELDS.get(key.form)
     return written(key.name, value) if show is None else show(key, value)
 
 
 def written(name: str, value: Any) -> Any:
-    """Show a field in which a value is written as YAML, and return what was written, or NOTHING."""
+    """Show a field with a value as YAML text, and return the new value, or NOTHING if it is unchanged."""
     before = yaml_text(value)
     entered = _text(name, before)
     if entered is NOTHING or entered == before:
@@ -37,7 +37,7 @@ def written(name: str, value: Any) -> Any:
     try:
         return read_document(f"tallgrass: {FORMAT}\nvalue: {entered}\n", file="").root.data.get("value")
     except SceneError:
-        return entered  # it is refused as what it is
+        return entered  # the editor refuses it as a plain text
 
 
 def _number(key: Key, value: float) -> Any:

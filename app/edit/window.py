@@ -1,4 +1,4 @@
-"""A walk in which the scene is edited: the panel, and what the mouse does on the ground."""
+"""A walk in which the scene is edited: the panel, and the mouse's actions on the ground."""
 
 from dataclasses import replace
 
@@ -22,7 +22,7 @@ from .panel import Panel
 from .pick import Place, Sight, nearest
 
 NEAR = 14.0
-"""How near the pointer has to be to a grip to take hold of it [pixels]."""
+"""Largest distance between pointer and grip at which the grip is taken [pixels]."""
 
 KEYS = (
     "Ctrl S            save the scene",
@@ -48,10 +48,10 @@ class EditWalk(Walk):
         self._pointer: tuple[float, float] = (-1.0, -1.0)
         self._dt = 0.0
         self._warned: Draft | None = None
-        """The draft about which the panel has said that it is not saved."""
+        """The unsaved draft of the last warning."""
 
     def step(self, dt: float) -> None:
-        """Move on by `dt` [s], with what has grown since the last frame."""
+        """Move on by `dt` [s], and take over what has grown since the last frame."""
         super().step(dt)
         self._dt = dt
         terrain = self.prairie.site.ground.terrain
@@ -61,7 +61,7 @@ class EditWalk(Walk):
         self.editor.spot = looked_at(self.camera, self.ground, self.prairie.site.ground.terrain)
 
     def reload(self) -> None:
-        """Read the scene again; what is not saved stays until F5 asks for it in so many words."""
+        """Read the scene again; unsaved changes stay until F5 discards them."""
         self._read_again(asked=False)
 
     def save(self) -> None:
@@ -71,14 +71,14 @@ class EditWalk(Walk):
             self._watch = Watch(self.editor.loaded.paths.values())
 
     def escape(self) -> None:
-        """Put the brush away, or leave; with something unsaved only when asked twice."""
+        """Put the brush away, or leave; with unsaved changes only when asked twice."""
         if self.editor.brush is not None:
             self.editor.brush = None
         elif self._may_leave():
             super().escape()
 
     def close(self) -> None:
-        """Give back the panel too."""
+        """Release the panel, then the walk."""
         if not self.closed:
             self.window.switch_to()
             self.gui.release()
@@ -120,7 +120,7 @@ class EditWalk(Walk):
         return super().on_key_press(symbol, modifiers)
 
     def on_key_release(self, symbol: int, modifiers: int) -> None:
-        """Let a key go, here and in the panel."""
+        """Release a key, here and in the panel."""
         self.gui.use()
         events.tell_key(symbol, modifiers, down=False)
         super().on_key_release(symbol, modifiers)
@@ -131,7 +131,7 @@ class EditWalk(Walk):
             events.tell_text(text)
 
     def on_mouse_press(self, x: int, y: int, button: int, modifiers: int) -> None:
-        """Take hold of what is under the pointer: of the panel, a grip, a wind, or the grass."""
+        """Take hold of whatever is under the pointer: the panel, a grip, a wind, or the grass."""
         self._point(x, y)
         events.tell_button(button, modifiers, down=True)
         if self.gui.wants_mouse or button != mouse.LEFT:
@@ -145,7 +145,7 @@ class EditWalk(Walk):
             self._take_hold(place)
 
     def on_mouse_release(self, x: int, y: int, button: int, modifiers: int) -> None:
-        """Let go; what was pulled or painted is a step of its own."""
+        """Let go; the pull or the stroke becomes a step of its own."""
         self._point(x, y)
         events.tell_button(button, modifiers, down=False)
         if self._grip is not None or self._stroke is not None:
@@ -153,7 +153,7 @@ class EditWalk(Walk):
         self._grip = self._stroke = None
 
     def on_mouse_motion(self, x: int, y: int, dx: int, dy: int) -> None:
-        """Point somewhere else."""
+        """Move the pointer."""
         self._point(x, y)
         super().on_mouse_motion(x, y, dx, dy)
 
@@ -187,7 +187,7 @@ class EditWalk(Walk):
         super().on_deactivate()
 
     def on_close(self) -> bool:
-        """Leave, or say first that something is not saved."""
+        """Leave, or warn first of unsaved changes."""
         return super().on_close() if self._may_leave() else pyglet.event.EVENT_HANDLED
 
     def _may_leave(self) -> bool:
@@ -212,7 +212,7 @@ class EditWalk(Walk):
         events.tell_mouse(x, y)
 
     def _pointed(self) -> Place | None:
-        """Return where the pointer is on the ground, (x, z) [m]; None where it is on the panel or in the sky."""
+        """Return the ground position (x, z) [m] under the pointer; None on the panel and in the sky."""
         if self.gui.wants_mouse and self._grip is None and self._stroke is None:
             return None
         return self._sight().ground(self._pointer)
@@ -232,6 +232,6 @@ class EditWalk(Walk):
 
     def _paint(self, line: list[Place]) -> None:
         if self._stroke is not None:
-            own, self.editor.brush = self.editor.brush, self._stroke[1]
+            chosen, self.editor.brush = self.editor.brush, self._stroke[1]
             self.editor.paint(line)
-            self.editor.brush = own
+            self.editor.brush = chosen
