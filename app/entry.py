@@ -1,4 +1,4 @@
-"""Where the command `tallgrass` begins: a game that only draws has not installed what commands are made with."""
+"""Entry point of the command `tallgrass`, without imports: games may lack the packages that commands need."""
 
 import sys
 

@@ -40,8 +40,8 @@ def film(
     write = film_writer(output, take.size, fps)
     loaded = read_scene(take.scene)
     span = _span(loaded.scene, seconds, fps, frames)
-    told = about(loaded.scene, take, time=span.first / fps)
-    files = told if is_folder(output) else None
+    metadata = about(loaded.scene, take, time=span.first / fps)
+    files = metadata if is_folder(output) else None
     manifest, count = Manifest(span), span.end - span.first
     make_room(manifest.place(output))
     if on is None:
@@ -52,7 +52,7 @@ def film(
         shooting = shot_on(on, take, loaded, span, files)
     with shooting as shots:
         drawn = counted(shots, total=count, doing="filming")
-        write(Reel(manifest.noted(drawn), count, fps, told, span.first))
+        write(Reel(manifest.noted(drawn), count, fps, metadata, span.first))
     manifest.write(output, loaded, take)
 
 

@@ -64,14 +64,14 @@ class Manifest:
 
     def write(self, output: str, loaded: LoadedScene, take: Take) -> None:
         """Write the manifest beside a film, as JSON."""
-        told = {**_made_from(loaded, take), "renderer": self.renderer, **self._pictures()}
-        write_whole(json.dumps(told, indent=1) + "\n", self.place(output))
+        content = {**_made_from(loaded, take), "renderer": self.renderer, **self._pictures()}
+        write_whole(json.dumps(content, indent=1) + "\n", self.place(output))
 
     def _pictures(self) -> dict[str, object]:
         span = self.span
         rows = [
-            {"frame": number, "time": round(number / span.fps, 6), "sha256": told}
-            for number, told in enumerate(self.hashes, span.first)
+            {"frame": number, "time": round(number / span.fps, 6), "sha256": pixel_hash}
+            for number, pixel_hash in enumerate(self.hashes, span.first)
         ]
         return {"fps": span.fps, "frames": {"first": span.first, "end": span.end, "of": span.of}, "pictures": rows}
 

@@ -36,7 +36,7 @@ def walk_in(
         from .edit.window import EditWalk
 
         kind = EditWalk
-    scene = read_scene(take.scene).scene  # what is wrong with it is told before a window opens
+    scene = read_scene(take.scene).scene  # reports a scene's problems before a window opens
     window = open_window(take.size, fullscreen=fullscreen)
     suited = None if edit or take.preset else suited_preset(scene, moderngl.create_context(require=330))
     grow_ahead(take.scene, preset=take.preset or suited)

@@ -106,9 +106,9 @@ class Walk:
         self.frames: deque[float] = deque(maxlen=60)
         """Intervals between the last frames [ms]."""
         self._age = 0.0
-        self._told = 0.0
+        self._message_at = 0.0
         self._watch = Watch(prairie.files.values())
-        self._looked = 0.0
+        self._checked = 0.0
         self._top, self._bottom = Note(top=True), Note(top=False)
         self.tell(["F1 shows the keys"])
         window.push_handlers(self)
@@ -152,8 +152,8 @@ class Walk:
         """Move the viewer, and the prairie unless it is paused, on by `dt` [s]; at most by `LONGEST_STEP`."""
         self.frames.append(1000.0 * dt)
         self._age += dt
-        if self._age - self._looked >= GLANCE:
-            self._looked = self._age
+        if self._age - self._checked >= GLANCE:
+            self._checked = self._age
             if self._watch.changed():
                 self.reload()
         step = min(dt, LONGEST_STEP)
@@ -168,7 +168,7 @@ class Walk:
 
     def tell(self, lines: list[str], *, lasting: bool = False) -> None:
         """Show a message for a while, or until there is another."""
-        self._told = inf if lasting else self._age
+        self._message_at = inf if lasting else self._age
         self._bottom.write(lines)
 
     def reload(self) -> None:
@@ -180,7 +180,7 @@ class Walk:
         try:
             read()
         except SceneError as error:
-            self.tell(_told(error), lasting=True)
+            self.tell(_problem_lines(error), lasting=True)
             return
         self._watch.turn_to(self.prairie.files.values())
         self.settle()
@@ -243,8 +243,8 @@ class Walk:
             governor.hold = held
             picture = offscreen.read()
         try:
-            told = about(self.prairie.scene, self.take, time=self.prairie.time)
-            picture_writer(name)(picture, {**told, "camera": written(self.camera)})
+            metadata = about(self.prairie.scene, self.take, time=self.prairie.time)
+            picture_writer(name)(picture, {**metadata, "camera": written(self.camera)})
             self.tell([f"{name} is written"])
         except (InputError, OSError) as error:
             self.tell([str(error)])
@@ -346,7 +346,7 @@ class Walk:
             lines += [""] * bool(lines)
             lines += statistics_lines(self.prairie.statistics, frame_ms=frame_ms, time=self.prairie.time)
         self._top.write(lines)
-        if self._age - self._told > PATIENCE:
+        if self._age - self._message_at > PATIENCE:
             self._bottom.write([])
 
 
@@ -364,7 +364,7 @@ _ACTIONS = {
 """Names of the methods that keys call."""
 
 
-def _told(error: SceneError) -> list[str]:
+def _problem_lines(error: SceneError) -> list[str]:
     lines = [line for problem in error.problems[:MOST_TOLD] for line in str(problem).splitlines()]
     more = len(error.problems) - MOST_TOLD
     return lines + ([f"and {more} more problems"] if more > 0 else [])

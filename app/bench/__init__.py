@@ -1,1 +1,1 @@
-"""Measurements: how long a frame takes, and how true a picture is."""
+"""Benchmarks: frame times, fidelity of pictures, and visibility of changes."""

@@ -63,7 +63,7 @@ def measured_on(on: str, job: Job, takes: Sequence[Take], outputs: Sequence[str 
             yield {**finding.result, "scene": take.scene}
 
 
-def measured_here(parcel: Parcel, job: Job, pictures: bool, /) -> Finding:  # noqa: FBT001 - Dask hands on what it is given in order
+def measured_here(parcel: Parcel, job: Job, pictures: bool, /) -> Finding:  # noqa: FBT001 - Dask passes arguments by position
     """Run a benchmark for the scene of a parcel, in a Dask worker."""
     scratch = str(need_distributed().get_worker().local_directory)
     with _machine_lock() if job.timed else nullcontext():

@@ -1,1 +1,1 @@
-"""Editing a scene while one walks in it: what `tallgrass walk --edit` is made of."""
+"""Editing a scene while walking in it: `tallgrass walk --edit`."""

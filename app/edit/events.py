@@ -30,7 +30,7 @@ BUTTONS = {mouse.LEFT: 0, mouse.RIGHT: 1, mouse.MIDDLE: 2}
 
 def tell_key(symbol: int, modifiers: int, *, down: bool) -> None:
     """Forward a key that was pressed or released, and the modifiers held with it."""
-    own = OWN.get(symbol, 0)  # pyglet tells what was held before
+    own = OWN.get(symbol, 0)  # pyglet reports the modifiers held before this key
     tell_modifiers(modifiers | own if down else modifiers & ~own)
     if symbol in KEYS:
         imgui.get_io().add_key_event(KEYS[symbol], down)

@@ -83,8 +83,8 @@ class Panel:
             self._remember(name)
             imgui.end_disabled()
             imgui.same_line()
-        told = self.message if history.is_saved else ""
-        imgui.text_unformatted("growing ..." if self.editor.remaking.is_growing else told)
+        message = self.message if history.is_saved else ""
+        imgui.text_unformatted("growing ..." if self.editor.remaking.is_growing else message)
         refusal = self.editor.refusal
         if refusal is not None and refusal.way not in self.tree.boxes:
             show_refusal(refusal)

@@ -92,7 +92,7 @@ class _Spans:
 
 
 class RewriteError(ValueError):
-    """A text cannot be changed in this way; its text says why, and what to do."""
+    """A change that cannot be written; its text has the reason and the remedy."""
 
 
 def rewritten(text: str, values: dict[str, Any], /) -> str:

@@ -43,13 +43,13 @@ def written(name: str, value: Any) -> Any:
 def _number(key: Key, value: float) -> Any:
     pulled = imgui.is_mouse_down(imgui.MouseButton_.left)
     low, high = key.low, key.high
-    told = f"%.{5 if abs(value) < 1 else 6}g {key.unit}".rstrip()
+    number_format = f"%.{5 if abs(value) < 1 else 6}g {key.unit}".rstrip()
     if low is not None and high is not None and (high - low <= WIDE or low > 0.0):
         flags = imgui.SliderFlags_.logarithmic if high - low > WIDE or (low > 0.0 and high / low > WIDE) else 0
-        changed, new = imgui.slider_float(f"##{key.name}", value, low, high, told, flags)
+        changed, new = imgui.slider_float(f"##{key.name}", value, low, high, number_format, flags)
     else:
         least, most = (low if low is not None else 0.0), (high if high is not None else 0.0)
-        changed, new = imgui.drag_float(f"##{key.name}", value, max(abs(value), 1.0) * 0.01, least, most, told)
+        changed, new = imgui.drag_float(f"##{key.name}", value, max(abs(value), 1.0) * 0.01, least, most, number_format)
     return tidied(key, new, pulled=pulled) if changed else NOTHING
 
 

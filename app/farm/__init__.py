@@ -1,1 +1,1 @@
-"""Work on many machines, or on all cores of one: Dask's `distributed` hands it out, and takes back what was made."""
+"""Work on many machines, or on all cores of one, distributed by Dask's `distributed`."""

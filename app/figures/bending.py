@@ -117,8 +117,8 @@ def _over_time(axes: Axes, curves: Sequence[tuple[str, Response, Floats]], *, re
     for color, (name, response, curve) in zip(SERIES, curves, strict=False):
         time = response.step * np.arange(len(curve))
         peak = extreme(response, curve, rest=rest)
-        told = f"{peak.index:.2f} at {peak.time:.2f} s".replace("-", "\N{MINUS SIGN}")
-        axes.plot(time, curve, color=color, label=f"{name}: {told}")
+        peak_text = f"{peak.index:.2f} at {peak.time:.2f} s".replace("-", "\N{MINUS SIGN}")
+        axes.plot(time, curve, color=color, label=f"{name}: {peak_text}")
         axes.plot(peak.time, peak.index, "o", color=color, markersize=3.5)
     axes.axvline(0.0, color=INK, linewidth=0.8)
     axes.set(xlabel="time [s]", xlim=(-0.3, max(each.step * len(curve) for _, each, curve in curves)))

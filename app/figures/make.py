@@ -38,7 +38,7 @@ def make_figures(output: str, *, only: str | None = None, size: tuple[int, int],
 
 
 def choose(figures: Sequence["PaperFigure"], only: str, /) -> list["PaperFigure"]:
-    """Return the figures of these numbers, written as `6,8`; raises InputError for what is none."""
+    """Return the figures of these numbers, written as `6,8`; raises InputError for any other text."""
     numbers = [each.number for each in figures]
     words = [word.strip() for word in only.split(",")]
     for word in words:

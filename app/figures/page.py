@@ -72,10 +72,10 @@ def index_page(figures: Sequence[PaperFigure], /) -> str:
 
 
 def _figure(each: PaperFigure) -> str:
-    told = f"Figure {each.number}: {each.title}. {each.shows}"
+    caption = f"Figure {each.number}: {each.title}. {each.shows}"
     return f"""\
 <figure id="figure-{each.number}">
-<a href="{each.file}"><img src="{each.file}" alt="{escape(told)}" loading="lazy"></a>
+<a href="{each.file}"><img src="{each.file}" alt="{escape(caption)}" loading="lazy"></a>
 <figcaption>
 <strong>Figure {each.number}: {escape(each.title)}.</strong>
 <p>{escape(each.shows)}</p>

@@ -5,15 +5,15 @@ from typing import Any
 
 
 class InputError(Exception):
-    """What a person asked for cannot be done as asked: its text is one line per problem, each with its place."""
+    """Bad input; its text is one line per problem, each with its place."""
 
 
 class MachineError(Exception):
-    """The asked is right, but this machine cannot do it: its text is one sentence that says what would help."""
+    """Valid input that this machine cannot process; its text is one sentence with the remedy."""
 
 
 def needed(module: str, what: str, /, *, extra: str) -> Any:
-    """Return a module that only some commands need; raises MachineError with what it is for, and how to install it."""
+    """Import an optional module; raises MachineError with its purpose and the command that installs it."""
     try:
         return importlib.import_module(module)
     except ImportError:

@@ -61,7 +61,7 @@ class Offscreen:
 
 
 def standalone_context() -> moderngl.Context:
-    """Return a new context without a window; MachineError with what each way of making one said where none works."""
+    """Return a new context without a window; raises MachineError with the message of each way that failed."""
     try:
         return headless.standalone_context()
     except headless.NoContextError as error:
