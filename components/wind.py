@@ -88,7 +88,7 @@ class Grass:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TwinValues:
-    """Values that a wind's twin on the graphics card reads at one time, in addition to the wind's fields, as floats."""
+    """Values for a wind's twin on the graphics card at one time, in addition to the wind's fields; single precision."""
 
     numbers: Mapping[str, float | Sequence[float]] | Sequence[float] = ()
     """Fields of the twin's record by name, each one to four numbers; phases are best reduced to one turn here.

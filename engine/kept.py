@@ -42,7 +42,7 @@ def checksum(data: bytes | memoryview, key: str, /) -> bytes:
 
 
 def kept(name: str, key: str, /) -> memoryview | None:
-    """Return the bytes cached under a name; None where there are none, or they were not stored under this key."""
+    """Return the bytes cached under a name; None where there are none, or their checksum with the key is wrong."""
     folder = cache_folder()
     if folder is None:
         return None

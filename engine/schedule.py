@@ -209,7 +209,8 @@ class Schedule:
 
         A system that raises an Exception is logged and left out from then on, unless it is trusted. A system that waits
         for longer than `WAITED`, for a disk or another program, is logged once; in a `live` schedule it is left out
-        after three waits. A system that leaves a change for `come_back` to undo is left out at once.
+        after `PATIENCE` waits in its latest `WINDOW` turns. A system that leaves a change for `come_back` to undo is
+        left out at once.
         """
         for system in self:
             if first <= system.phase <= last:

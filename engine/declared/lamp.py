@@ -22,7 +22,7 @@ class LampOnPath(Placed):
     """Distance at which it has faded away [m]: the shorter, the cheaper."""
 
     cone: float | None = Field(default=None, gt=0.0, lt=180.0)
-    """Half the angle of a spot light, which fades over the outer third [degrees]; without it, it shines everywhere."""
+    """Half the angle of a spot light, fading over the outer third [degrees]; without it, it shines all around."""
 
     pitch: float = Field(default=0.0, ge=-180.0, le=180.0)
     """Elevation of a spot light's axis, positive up [degrees]."""

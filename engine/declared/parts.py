@@ -14,8 +14,8 @@ PARTS: tuple[PartName, ...] = ("sky", "ground", "grass", "beyond")
 Bodies come with the grass; `beyond` is all ground and grass beyond the terrain's edge."""
 
 DEPTHS = "near", "all", "none"
-"""Grass that writes depth: the nearest, or all that covers at least half a pixel. `none` is for pictures in which only
-the prairie has depth, before and after it is drawn."""
+"""Grass that writes depth: the nearest, or all that covers at least half a pixel. `none` is for pictures in which
+nothing but the prairie has depth, neither before nor after it is drawn."""
 
 
 def as_parts(names: object, /) -> frozenset[PartName]:

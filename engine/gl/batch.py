@@ -26,7 +26,7 @@ class DrawingGroup(Group):
         # A batch skips empty groups, so this one gets a triangle of zero size.
         vertices: dict[str, Any] = {"position": ("f", (0.0,) * 9)}
         if _STATES is not None:
-            mode = _as_state(self, self._program, self._draw_once)
+            mode = _as_state(self, self._program, self._draw_unless_deleted)
             vertices = {"position": (0.0,) * 9, "colors": (0.0,) * 12}
         self._triangle = self._program.vertex_list(3, mode, batch, self, **vertices)
 
@@ -36,7 +36,7 @@ class DrawingGroup(Group):
     def __hash__(self) -> int:
         return id(self)
 
-    def _draw_once(self) -> None:
+    def _draw_unless_deleted(self) -> None:
         if self._draw is not None:
             self._draw()
 
@@ -44,7 +44,7 @@ class DrawingGroup(Group):
 
         def set_state(self) -> None:
             """Draw; the batch calls this."""
-            self._draw_once()
+            self._draw_unless_deleted()
             self._program.use()
 
         def unset_state(self) -> None:

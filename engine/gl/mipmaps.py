@@ -66,7 +66,7 @@ def at_once(steps: Generator[None, None, Made]) -> Made:
 
 
 def mipmapping(ctx: moderngl.Context, made: list[Bytes], /) -> Generator[None, None, moderngl.TextureArray]:
-    """Do what `mipmapped` does in steps, each an upload of at most `PIECE` bytes or of one layer."""
+    """Do what `mipmapped` does in steps of about `PIECE` bytes, or of one layer; the first also allocates."""
     stack = stack_for(ctx, len(made[0]))
     if stack > 1:
         made = stacked(made[0], stack)

@@ -92,7 +92,7 @@ def compose(
     """Return a shader's source with each include in place once, and the origin of each of its lines.
 
     `made` maps file names to lines that replace the file; includes in these lines are not resolved. The source gets
-    only those `defines` whose names it contains, so that others do not miss the driver's cache.
+    only those `defines` whose names it contains, so that other defines do not make the driver's cache miss.
     """
     made = made or {}
     words = _words(name, frozenset(made)).union(_WORD.findall(_text(line for each in made.values() for line in each)))

@@ -35,7 +35,10 @@ def pick(terrain: Terrain, origin: Doubles, direction: Doubles, /, *, farthest: 
 
 
 def _between(y: float, rise: float, lowest: float, highest: float) -> tuple[float, float]:
-    """Return begin and end of a ray's stretch [m] between two heights, both 0 if it starts below them."""
+    """Return begin and end of the stretch of a ray [m] that may meet ground between two heights.
+
+    A ray that starts at a height below both meets it at 0. The end is before the begin where no ground can be met.
+    """
     if rise == 0.0:
         return 0.0, np.inf if y <= highest else -1.0
     ends = (highest - y) / rise, (lowest - y) / rise

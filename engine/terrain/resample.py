@@ -80,7 +80,7 @@ def fill_voids(heights: Floats, void: NDArray[np.bool_], /) -> Floats:
 
 
 def _fill(heights: Floats, known: Floats) -> Floats:
-    """Return `heights` with the cells filled where `known` is 0 (and the height is 0), not 1."""
+    """Return `heights` filled where `known` is 0; it is 1 at the other cells. Unknown heights must be 0."""
     if known.all():
         return heights
     weight = _halve(known)

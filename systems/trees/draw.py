@@ -131,7 +131,7 @@ class TreePart(Part):
             self._shade.use()
 
     def prepare(self) -> int:
-        """Choose each tree's level of detail, and draw shade maps that are pack; return the number of draw calls."""
+        """Choose each tree's level of detail, and draw shade maps that are due; return the number of draw calls."""
         if not self._kinds or self._outlook is None:
             return 0
         programs = self._make_programs()

@@ -1,4 +1,4 @@
-"""A kind of tree in one GL context: its twig's card, and its models with their pictures from all picture_outline."""
+"""A kind of tree in one GL context: its twig's card, and its models with their pictures from all sides."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -94,7 +94,7 @@ class GpuKind:
         self._vectors = {id(each): parameter.vectors({**self._uniforms, **each.numbers}) for each in self.models}
 
     def bake(self, programs: Programs) -> None:
-        """Bake its twig's card, and then its models' pictures from all picture_outline, unless they are cached."""
+        """Bake its twig's card, and then its models' pictures from all sides, unless they are cached."""
         key = kind_key(self.declared.habit, self._seed, self.ctx.info["GL_RENDERER"])
         found = kept_pictures(key, [(model.model.wide, model.model.lines) for model in self.models])
         if found is None:
@@ -125,7 +125,7 @@ class GpuKind:
             self._picture_cover = tuple((cover / cover[0]).tolist())
 
     def _twig_pictures(self, programs: Programs) -> list[Bytes]:
-        """Return the pictures of its twig, each with more and mip_levels leaves; the depth test is on meanwhile."""
+        """Return the pictures of its twig, each with more and finer leaves; the depth test is on meanwhile."""
         each = [self._twig_picture(programs, FINER_EACH**number) for number in range(OF_TWIGS)]
         return [np.concatenate(layers) for layers in zip(*each, strict=True)]
 
@@ -145,7 +145,7 @@ class GpuKind:
         return mip_levels(pictures(self.ctx, 1, 1, CARD, CARD, draw_twig))
 
     def _model_pictures(self, programs: Programs, model: GpuModel) -> tuple[list[Bytes], list[Bytes]]:
-        """Return a model's pictures from all picture_outline, and the optical depths before what they show."""
+        """Return a model's pictures from all sides, and the optical depths before what they show."""
         wood, cards = (programs.array(sort, model.bare, model, baked=True) for sort in (WOOD, PICTURED))
 
         def draw_tree(number: int) -> None:
