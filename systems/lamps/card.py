@@ -1,4 +1,4 @@
-"""Lamps and shades on the graphics card: the texture that `lib/grid_of.glsl` reads."""
+"""Lamps and shades on the graphics card: the texture that `lib/listed.glsl` reads."""
 
 from collections.abc import Callable, Sequence
 from math import cos, sin

@@ -125,7 +125,7 @@ class GpuKind:
             self._picture_cover = tuple((cover / cover[0]).tolist())
 
     def _twig_pictures(self, programs: Programs) -> list[Bytes]:
-        """Return the pictures of its twig, each with more and finer leaves; the depth test is on meanwhile."""
+        """Return the pictures of its twig, each with more and smaller leaves; the depth test is on meanwhile."""
         each = [self._twig_picture(programs, FINER_EACH**number) for number in range(OF_TWIGS)]
         return [np.concatenate(layers) for layers in zip(*each, strict=True)]
 
