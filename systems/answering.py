@@ -170,7 +170,7 @@ class Answering(Underflowing):
         return self._messages_at(as_places(xz), self.scene.number_of(kind), time=self.time)
 
     def patch_at(self, xz: ArrayLike, *, viewer: str = "main") -> NDArray[np.int64]:
-        """Return a viewer's entity, shape (n,), of the patch at each ground position (x, z) [m], shape (n, 2).
+        """Return the entity (n,) of the patch at each ground position (x, z) [m], shape (n, 2), around a viewer.
 
         It has the components `Patch` and `Lod`. It is 0 off the terrain, too far from the viewer for a patch to be
         kept, and everywhere before the viewer has looked once. Raises ValueError for positions that are no pairs,

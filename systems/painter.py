@@ -50,7 +50,7 @@ class Painter(Holding):
         """Indices of the first receivers of each representation's pools, by its name."""
 
     def preparing(self, site: Site, look: Callable[[], None], /) -> Iterator[None]:
-        """Make everything that a game may need, with winds of all kinds, in up to `steps` steps; then rehearse a frame.
+        """Make everything that a game may need, with winds of all kinds, and rehearse a frame, in up to `steps` steps.
 
         `look` uploads a frame to rehearse, and is called if no viewer has looked yet.
         """

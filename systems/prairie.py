@@ -138,7 +138,7 @@ class Prairie(Tending):
 
     @property
     def files(self) -> dict[str, Path]:
-        """Paths of the scene's file, if it has one, and of the files that it refers to, by their names in the scene."""
+        """Paths of the scene's file, if it has one, and of the files that it refers to, by name."""
         return self.loaded.paths
 
     @property

@@ -38,7 +38,7 @@ RATE = 30
 """Number of instants a second at which the poses of the scene's pressers are sampled; between them they go straight."""
 
 EVERY = 60.0
-"""Interval at which the scene's pressers begin new stretches [s]: a replay can begin there, after forgotten ones."""
+"""Interval at which the scene's pressers begin new stretches [s]: a replay starts there, and skips forgotten ones."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

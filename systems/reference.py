@@ -59,7 +59,10 @@ def terrain_cells(ground: Ground, /) -> Ints:
 
 
 def cells_within(ground: Ground, eye: Place, cone: tuple[float, float], /, *, sway: float) -> Ints:
-    """Return the cells of the terrain inside an eye's view cone, (n, 2); `sway` is as a site has it [m]."""
+    """Return the cells of the terrain inside an eye's view cone, (n, 2).
+
+    `sway` is the distance that grass may reach beyond its patch [m].
+    """
     cells = terrain_cells(ground)
     middles = (cells + np.float32(0.5)) * np.float32(ground.patch)
     radius = ground.patch * HALF_DIAGONAL + sway

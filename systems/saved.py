@@ -188,7 +188,7 @@ class State(Declaration):
     """Time at which the light had its hour [s]."""
 
     light_way: Way | None = Field(default=None)
-    """Progress of the light towards `light`; None if it has arrived."""
+    """Progress of the light towards `light`; None in older states, in which it has arrived."""
 
     declared: list[SavedWind | None]
     """The scene's winds; None for one that a game has deleted."""

@@ -224,10 +224,10 @@ class Saving:
         entities = dict[int, int]()
         for wind in state.added:
             entities[wind.entity] = self._give_wind(wind, sources, wind.entity if wind.entity in added else None)
-        added_now = list(entities.values())
+        added_now, not_own = list(entities.values()), {*declared, *added}
         for wind in state.winds:
             entity = became.get(wind.entity, wind.entity)
-            exists = entity in existing and entity not in {*declared, *added}
+            exists = entity in existing and entity not in not_own
             entities[wind.entity] = self._give_wind(wind, sources, entity if exists else self.world.give())
         pairs = zip(state.declared, declared_now, strict=True)
         now = entities | {wind.entity: entity for wind, entity in pairs if wind}

@@ -52,7 +52,7 @@ class Site(Grown):
         """Return the site where a fraction `came` of each kind's plants is replaced; empty if no kind is changing."""
         before, after = self.crowns
         parts = came or (0.0,) * len(before)
-        canopy = tuple(low + part * (high - low) for low, high, part in zip(before, after, parts, strict=True))
+        canopy = tuple(old + part * (new - old) for old, new, part in zip(before, after, parts, strict=True))
         return replace(self, came=came, canopy=canopy)
 
     @property

@@ -98,8 +98,8 @@ def strips_left(away: Floats | Doubles, /, *, reach: float) -> Floats:
 def appearance(weight: Floats, kept: Floats, /, *, transitions: Transitions, three: Three = (0, 1, 2)) -> Appearance:
     """Return the appearance of patches from their representations' weights, shape (representations, rows).
 
-    `kept` (rows,) comes from `strips_left`. Blades morph into strips, and strips grow out of the carpet (paper,
-    sections 4.2 and 4.3); `three` has the numbers of these representations. All other representations cross-fade.
+    `kept` (rows,) is the part of the strips that distance and view leave. Blades morph into strips, and strips grow out
+    of the carpet (paper, sections 4.2 and 4.3); `three` has the numbers of these three. All others cross-fade.
     """
     if not transitions.gradual:
         kept = np.ones_like(kept)

@@ -48,17 +48,17 @@ class Frame:
     parts: frozenset[PartName] = frozenset()
     """Parts that have been drawn."""
 
-    def goes_on(self, asked: Self, /) -> bool:
-        """Return whether the parts of `asked` belong to this same frame."""
-        if self.grown is not asked.grown or self.time != asked.time or not ONCE & asked.parts:
+    def goes_on(self, later: Self, /) -> bool:
+        """Return whether the parts of `later` belong to this same frame."""
+        if self.grown is not later.grown or self.time != later.time or not ONCE & later.parts:
             return False
         is_same = (
             np.array_equal(before, now)
             for before, now in (
-                (self.seen.view, asked.seen.view), (self.seen.projection, asked.seen.projection),
+                (self.seen.view, later.seen.view), (self.seen.projection, later.seen.projection),
             )
         )  # fmt: skip
-        return not ONCE & self.parts & asked.parts and all(is_same)
+        return not ONCE & self.parts & later.parts and all(is_same)
 
     def after(self, before: Self | None, /, *, depth: str) -> "tuple[Frame, Asked, bool]":
         """Return the frame once these parts are drawn, what to draw for that, and whether it goes on from `before`."""

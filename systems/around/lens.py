@@ -48,7 +48,7 @@ class Lens:
     """Largest discrete distance at which each representation is due without a lens."""
 
     room: tuple[int, ...] = ()
-    """Largest discrete distance that the pools of each representation have slots for."""
+    """Largest discrete distance at which each representation may be due, as its pools have slots for that."""
 
     @property
     def factor(self) -> float:

@@ -31,7 +31,7 @@ class _LastRun:
     """Inputs beside the patch table."""
 
     table: bytearray = field(default_factory=bytearray)
-    """Copy of `PatchTable.changing` before the run; empty if the run changed it."""
+    """Copy of `PatchTable.changing`, if the run left it unchanged and had settled; otherwise empty."""
 
     result: object = None
     """Result of the run, of a system that makes a new one in each frame."""
@@ -70,7 +70,7 @@ class Outlook:
     """Mean posture index that the winds of this frame bend grass to everywhere, in [0, 1]."""
 
     changing: int = 0
-    """Number of patches in the picture whose representation is changing in this frame."""
+    """Number of visible patches with grass whose representation changed, or was changing, in this frame."""
 
     drawn_at: float | None = None
     """Time of the last frame [s]; None before the first, and where time has leapt."""

@@ -30,15 +30,15 @@ EVERYWHERE = 1e9
 """Distance beyond all ground [m]."""
 
 BODY = np.dtype([("middle", "3f4"), ("radius", "f4"), ("axis", "3f4"), ("pressed", "f4")])
-"""A body that casts a shadow: middle and radius [m], 0 for none; its axis, a unit vector, and the factor that stretches
-the body along it into a ball."""
+"""A body that casts a shadow: middle and radius [m], 0 for none; its axis, a unit vector, and its flatness along that:
+diameter over height, minus 1, so that a ball has 0."""
 
 MAP = np.dtype([("clip_of", "16f4"), ("bias", "f4"), ("apart", "V12")])
 """A shadow map: matrix from the world to its clip space; bias, by which places are moved towards the sun [m]."""
 
 KIND = np.dtype(
     [
-        ("root", "3f4"), ("gloss", "f4"),  # pigment at the root; gloss of the scene
+        ("root", "3f4"), ("gloss", "f4"),  # pigment at the root; gloss as declared
         ("tip", "3f4"), ("taper", "f4"),  # pigment at the tip
         ("through", "3f4"), ("bloom", "f4"),  # transmittance of leaves, relative to their albedo
         ("grain_c", "3f4"), ("apart", "f4"),  # change of pigment with the cosine of twice the face normal's azimuth
@@ -89,7 +89,7 @@ FRAME = np.dtype(
         ("crown", f"({GROUPS},4)f4"),  # by kind, four in a vector: height of the canopy [m]
         ("leaf", f"({GROUPS},4)f4"),  # leaf area projected sideways, over the ground's area
         ("lying", f"({GROUPS},4)f4"),  # leaf area projected from above, over that projected sideways
-        ("understorey", f"({GROUPS},4)f4"),  # coverage of the ground by low leaves, of the largest
+        ("understorey", f"({GROUPS},4)f4"),  # coverage of the ground by low leaves, relative to their most
         ("undertone", f"({GROUPS},4)f4"),  # tone of low leaves: part of the tips' colour
         ("steepest", f"({GROUPS},4)f4"),  # slope of the ground at which a kind ends
         ("came", f"({GROUPS},4)f4"),  # fraction of plants replaced, where a kind is becoming another

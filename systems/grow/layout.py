@@ -81,7 +81,10 @@ class Layout:
 
 
 def layout_of(kind: GrassKind, quality: Quality, /) -> Layout:
-    """Return the layout of a kind at a quality: a coarser one has as many plants other than grass, of fewer organs."""
+    """Return the layout of a kind at a quality.
+
+    At a coarser quality grass has fewer blades. Other plants are as many, but have fewer petals and leaves.
+    """
     habit = HABITS[kind.plant]
     part = min(max(sqrt(quality.blades / FULL), FEWEST), 1.0)
     plants = max(round(habit.plants * quality.patch**2), 1) if kind.plants is None else kind.plants

@@ -29,7 +29,7 @@ def canopy_height(growth: Growth, /) -> float:
 
 
 def _tall(blades: Blades, /) -> Floats:
-    """Return the height of each plant, that of its tallest blade [m], shape (plants,)."""
+    """Return the height of each plant [m], shape (plants,): its longest organ, or its highest place on a stem."""
     row = np.maximum(blades.height, blades.stem * blades.part)
     first = np.flatnonzero(np.diff(blades.rank, prepend=np.float32(-1.0)))
     return np.asarray(np.maximum.reduceat(row, first), np.float32)
@@ -59,9 +59,9 @@ def top_over(ground: Ground, canopy: tuple[float, ...], /) -> Top:
 def top_at(ground: Ground, canopy: Sequence[float], place: Floats, /) -> Floats:
     """Return the elevation y of the top of the canopy at ground positions (x, z), shape (n, 2), [m], shape (n,).
 
-    `canopy` has the height of each kind's canopy [m]. Where kinds grow together, the tallest counts. Its height is
-    multiplied by its density, so that the top has no steps where a kind ends. Blades stand as in calm air, and cleared
-    grass counts as if it grew.
+    `canopy` has the height of each kind's canopy [m]. Each is multiplied by the kind's density, so that the top has
+    no steps where a kind ends; where kinds grow together, the highest product counts. Blades stand as in calm air, and
+    cleared grass counts as if it grew.
     """
-    canopy_height = np.asarray(canopy, np.float32)[:, None] * density_at(ground.density, place)
-    return np.asarray(height_at(ground.terrain, place) + canopy_height.max(axis=0), np.float32)
+    height = np.asarray(canopy, np.float32)[:, None] * density_at(ground.density, place)
+    return np.asarray(height_at(ground.terrain, place) + height.max(axis=0), np.float32)

@@ -75,6 +75,7 @@ def outside_cone(
 ) -> Floats | Doubles:
     """Return the distance of ground positions from the view cone [m], 0 or less inside it.
 
+    Behind the apex it is a lower bound: the larger of the distances from the apex's plane and the cone's sides.
     The shapes of `x` and `z` [m] are broadcast together: they may be (columns,) and (lines, 1) of a square.
     """
     middle, half = cone

@@ -12,9 +12,9 @@ RIPPLE = 0.45
 """Correlation length of the oscillations over the ground [m]."""
 
 FREQUENCIES = 2.0 * pi * 1.217, 2.0 * pi * 0.753, 2.0 * pi * 2.071
-"""Angular frequencies at a fixed place: along x, along z, and a second one along x [rad/s].
+"""Angular frequencies without the drift of the noise: along x, along z, and a second one along x [rad/s].
 
-No two have a common beat. The drift of the noise raises them to 1.3, 0.8 and 2.1 turns a second.
+No two have a common beat. The drift raises them to 1.3, 0.8 and 2.1 turns a second.
 """
 
 APART = 1.5

@@ -1,4 +1,5 @@
-// The resulting message of all winds at a receiver: the twin of systems/wind/blow.py. `systems/wind/card.py` fills the textures.
+// The resulting message of all winds at a receiver: the twin of systems/wind/blow.py.
+// `systems/wind/card.py` fills the textures.
 
 uniform sampler2D winds;             // a row for the frame, then one for each wind, the strongest claim first
 uniform sampler2DArray wind_sheets;  // tables that twins read
@@ -6,7 +7,7 @@ uniform sampler2D wind_curves;       // a row for each kind of grass: index afte
 uniform sampler2D wind_messages;     // of winds without a twin, to each receiver: message, weight
 
 const float LONGEST_SQUARED = 1e12;  // square of the longest valid message
-const float BEFORE_END = 0.001;  // distance from the end of a curve at which it is read at most, so that a next sample exists [samples]
+const float BEFORE_END = 0.001;  // curves are read up to this far before their last sample [samples]
 const int HEAD = 4;  // texels before a row's numbers
 
 struct Wind {
