@@ -1,1 +1,1 @@
-"""What happens: growth, tiling, culling, levels of detail, wind and drawing."""
+"""The systems of a prairie: growth, tiling, culling, levels of detail, wind and drawing."""

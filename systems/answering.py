@@ -69,7 +69,7 @@ class Answering(Underflowing):
 
     @property
     def wind_failures(self) -> dict[str, str]:
-        """Reason, a sentence, why each wind is left out now, by its name; `systems.failures` is the same of systems."""
+        """Reason for each wind that is left out now, one sentence, by the wind's name, like `systems.failures`."""
         return {source.name: why for source, why in self.winds.quarantine.reasons.items()}
 
     @property

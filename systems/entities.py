@@ -16,7 +16,7 @@ from .show.representation import Representation
 from .space.window import window_rows
 
 BATCH = 200
-"""Maximum number of entities made, and of those deleted, in one frame: it would take long when a viewer leaps."""
+"""Maximum number of entities made, and as many deleted, in one frame: more would make it long when a viewer leaps."""
 
 
 @dataclass(slots=True)

@@ -56,7 +56,7 @@ class Holding:
         self._deferred: Iterator[None] = iter(())
         """Makes programs that no frame has drawn with yet, a piece a frame."""
         self._kind_defines: dict[str, str | int] = {}
-        """Macros that depend on the kinds of grass."""
+        """Defines that depend on the kinds of grass."""
         self._prepared_winds: Sequence[WindPrimitive] | None = None
         """A wind of each kind that programs are made for; None if no game has prepared."""
 
@@ -147,7 +147,7 @@ class Holding:
         )  # fmt: skip
 
     def _defines_of(self, site: Site) -> dict[str, str | int]:
-        """Return the macros of programs for another site's grass."""
+        """Return the defines of programs for another site's grass."""
         others = {name: value for name, value in self.block.defines.items() if name not in self._kind_defines}
         return others | kind_defines(site)
 

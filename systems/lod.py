@@ -96,15 +96,15 @@ class ChooseLevels:
         patches = outlook.patches
         settled = patches.was_visible & patches.visible & (not outlook.viewer.jumped)
         unsettled = settled.view(np.int8) - np.int8(1)  # 0 where settled; elsewhere -1, whose bits are all set
-        held = patches.representation | unsettled
+        current = patches.representation | unsettled
         reach = outlook.lens.reach_in(self.reach)
-        patches.wanted[:] = wanted_representation(patches.away, held, reach=reach, slack=self.slack)
-        self._pass_on(outlook, held)
+        patches.wanted[:] = wanted_representation(patches.away, current, reach=reach, slack=self.slack)
+        self._pass_on(outlook, current)
 
-    def _pass_on(self, outlook: Outlook, held: Levels) -> None:
+    def _pass_on(self, outlook: Outlook, current: Levels) -> None:
         """Pass patches whose representation is unfit on to the next coarser one."""
         patches = outlook.patches
         for level, representation in enumerate(self.representations[:-1]):
             rows = (patches.visible & (patches.wanted == level)).nonzero()[0]
-            unfit = representation.unfit(outlook, rows, held[rows] == level, slack=self.slack)
+            unfit = representation.unfit(outlook, rows, current[rows] == level, slack=self.slack)
             patches.wanted[rows[unfit]] = level + 1

@@ -157,7 +157,7 @@ class SavedSeason(Declaration):
 
 
 class SavedScene(Declaration):
-    """What a scene must have in common with the state's; heights of its ground are an array."""
+    """Values that a scene must share with the one of the state; heights of its ground are an array."""
 
     seed: int
     size: tuple[float, float]
@@ -207,7 +207,7 @@ class State(Declaration):
     """Numbers of the scene's trees that are gone, or have become others among `things`."""
 
     wild_felled: list[tuple[int, int, int]] = Field(default=[])
-    """The same of a forest that is too large for numbers: each tree's square, and its number there."""
+    """Gone trees of a forest too large to number them all: each tree's square, and its number in that."""
 
     stood: list[tuple[float, float]] | None = Field(default=None)
     """Places (x, z) [m] of the trees of `felled` and then of `wild_felled`; None in format 3."""

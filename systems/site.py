@@ -126,8 +126,8 @@ def numbers_of(scene: Scene, preset: str | None = None, /) -> Quality:
     Kinds have fewer patch models if otherwise the pictures of all would not fit into a texture.
     """
     quality = scene.numbers(preset)
-    each = len(scene.grass) * max(one.layers(quality) for one in REPRESENTATIONS)
-    models = max(min(quality.models, LAYERS // each), 1)
+    layers = len(scene.grass) * max(each.layers(quality) for each in REPRESENTATIONS)  # for a model of each kind
+    models = max(min(quality.models, LAYERS // layers), 1)
     return quality if models == quality.models else quality.model_copy(update={"models": models})
 
 

@@ -19,7 +19,7 @@ class Staged:
 
     representations: Sequence[Representation]
     defines: dict[str, str | int]
-    """Macros of the programs that draw it."""
+    """Defines of the programs that draw it."""
 
     steps: Iterator[None] = field(default_factory=lambda: iter(()))
     """Uploads the rest, a piece a step."""
@@ -61,7 +61,7 @@ class Staged:
 
 @contextmanager
 def _defining(block: FrameBlock, defines: dict[str, str | int]) -> Iterator[None]:
-    """Make programs with other macros inside this context."""
+    """Make programs with other defines inside this context."""
     before, block.defines = block.defines, defines
     try:
         yield
@@ -70,7 +70,7 @@ def _defining(block: FrameBlock, defines: dict[str, str | int]) -> Iterator[None
 
 
 def _each_defining(block: FrameBlock, defines: dict[str, str | int], steps: Iterator[None]) -> Iterator[None]:
-    """Take each of some steps with other macros, which are not those of the frames between steps."""
+    """Take each of some steps with other defines than those of the frames between steps."""
     while True:
         with _defining(block, defines):
             if next(steps, "over") == "over":
@@ -79,7 +79,7 @@ def _each_defining(block: FrameBlock, defines: dict[str, str | int], steps: Iter
 
 
 def kind_defines(site: Site, /) -> dict[str, str | int]:
-    """Return the macros that depend on a site's kinds of grass."""
+    """Return the defines that depend on a site's kinds of grass."""
     return {name: value for each in site.representations for name, value in each.defines(site).items()}
 
 

@@ -13,7 +13,7 @@ from .record import Blades, Growth
 
 _POINTS = 9
 _TAPER = 1.0
-"""Taper of blades, of which no head is made."""
+"""Taper of blades, which has no effect, as no head is made of them."""
 
 _SAMPLES = 48
 """Number of samples across a head."""

@@ -32,7 +32,7 @@ class Fragments:
     """x of the fragment in the triangle's own coordinates, before wrapping [samples], shape (f,)."""
 
     y: Doubles
-    """y likewise, shape (f,)."""
+    """y of the fragment, in the same coordinates [samples], shape (f,)."""
 
 
 def rasterise(

@@ -1,4 +1,4 @@
-"""How a blade answers a wind that starts and stops, over time (paper, section 3.3, figure 8)."""
+"""Response of a blade to a wind that starts and stops: its index over time (paper, section 3.3, figure 8)."""
 
 from dataclasses import replace
 
@@ -13,7 +13,7 @@ from .simulate import LINKS, Chain, build_chain, lowest_swing, settle, simulate
 SAMPLES = 256
 
 _FINAL = 0.55
-"""Posture index at rest in the wind: that of a visible gust."""
+"""Posture index at rest in the simulated wind, as in a visible gust."""
 
 _REST = 0.01
 _CYCLES, _LONGEST, _STILL = 4.0, 16.0, 3.0
