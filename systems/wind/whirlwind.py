@@ -40,7 +40,7 @@ class Whirlwind(PlacedWind):
     """Which way it turns, seen from above."""
 
     turning: float = Field(default=0.35, ge=0.0, le=10.0)
-    """Speed at which its stronger sides go round [turns/s]."""
+    """Speed at which its stronger sides turn [turns/s]."""
 
     soft: float = Field(default=1.5, ge=0.0, le=1000.0)
     """Distance from its edge over which it sets in, unless winds meet by priority [m]."""

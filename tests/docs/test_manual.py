@@ -88,7 +88,7 @@ def test_every_row_of_the_reference_has_what_a_key_takes_and_what_it_is(referenc
 
 def test_ranges_units_and_defaults_are_those_of_the_models(reference: str) -> None:
     assert "| `speed` | a number | m/s | above 0.1, at most 60 | 8 | Speed at which it travels. |" in reference
-    assert "| `turning` | a number | turns/s | 0 to 10 | 0.35 | Speed at which its stronger sides go round. |" in reference
+    assert "| `turning` | a number | turns/s | 0 to 10 | 0.35 | Speed at which its stronger sides turn. |" in reference
     assert "| `tip` | a colour, `#a8b65a` or `red` |  |  | #a8b65a | Colour at the tip. |" in reference
 
 
