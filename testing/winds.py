@@ -58,12 +58,12 @@ def check_wind(primitive: WindPrimitive | type[WindPrimitive], /, *, seed: int =
 def wind_problems(primitive: WindPrimitive | type[WindPrimitive], /, *, seed: int = 0) -> list[str]:
     """Return the problems of a wind, or of a class's defaults, one sentence each.
 
-    Checked are its fields (a docstring, a default, bounds, the unit in brackets), its colour, what hovers over it, and
-    the answers of its methods along its timeline, for receivers in its extent, around it and 10 km away, for one alone
-    and for none. Answers have the right types and shapes and finite numbers; weights are within 0 and 1, and 0 outside
-    the extent; an index is at most 1. They do not depend on the way of asking, and take at most `MOST_COST` of
-    processor time for 10,000 receivers; an answer for fewer that takes longer ends the checks. Numpy's floating-point
-    errors (division by zero, overflow, invalid values) count as raised. `seed` is the wind's own.
+    Checked are its fields (a docstring, a default, bounds, the unit in brackets), its colour and the body that hovers
+    over it. Then its methods are called along its timeline, for receivers in its extent, around it and 10 km away, for
+    one alone and for none. Answers have the right types and shapes and finite numbers; weights are within 0 and 1, and
+    0 outside the extent; an index is at most 1. They do not depend on the way of asking, and take at most `MOST_COST`
+    of processor time for 10,000 receivers; an answer for fewer that takes longer ends the checks. Numpy's
+    floating-point errors (division by zero, overflow, invalid values) count as raised. `seed` is the wind's own.
     """
     kind: Any = primitive if isinstance(primitive, type) else type(primitive)
     if not issubclass(kind, WindPrimitive):

@@ -38,8 +38,9 @@ class TerrainSource(Declaration):
     all of it."""
 
     window: float | None = Field(default=None, ge=512.0, le=8192.0)
-    """For a function in `heights`: width of the ground around the viewer that it is called for [m], again and again as
-    the viewer goes on, up to 16384 m from the origin. Without it, it is called for all of the `size` while loading."""
+    """For a function in `heights`: width of the ground around the viewer for which it is called [m]. As the viewer goes
+    on, it is called for more, up to 16384 m from the origin. Without a window, it is called for all of the `size`
+    while loading."""
 
     feature: float | None = Field(default=None, ge=2.0, le=5000.0)
     """Distance between neighbouring hills of a noise landscape [m]; without it 60 for rolling, 90 for hills, 160 for

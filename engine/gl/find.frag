@@ -1,4 +1,4 @@
-// Counts the pixels that pass the depth test; nothing is written.
+// Drawn for a query whether any pixel passes the depth test; nothing is written.
 
 out vec4 pixel;
 

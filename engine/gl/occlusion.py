@@ -14,7 +14,7 @@ class OcclusionQuery:
     """Query whether any pixel drawn inside `asking` has passed the depth test, for drawing inside `if_so`.
 
     A card makes conditional drawing wait for the result. A software rasteriser does not wait, and draws all. So does a
-    card while a query of the host is active, as only one query of a kind can be.
+    card while a query of the host is active, as only one query of a kind can be active.
     """
 
     def __init__(self, ctx: moderngl.Context) -> None:
@@ -24,7 +24,7 @@ class OcclusionQuery:
 
     @contextmanager
     def asking(self) -> Iterator[None]:
-        """Count the pixels drawn inside that pass the depth test."""
+        """Ask whether any pixel drawn inside passes the depth test."""
         self._is_asked = not self._counts_for_host()
         if not self._is_asked:
             yield

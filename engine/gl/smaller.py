@@ -32,10 +32,10 @@ TEXTURE_UNITS = dict(zip(("host_depth", "small_color", "small_depth"), UNITS[-3:
 PASSES = {"find": ">", "bring": "1", "fit": ">", "deepen": "<", "enlarge": "1", "lay": "1"}
 """Depth test of each pass.
 
-`find` counts the pixels that the host has drawn, and `bring` copies their depth to the smaller buffer. `fit` blends the
-picture over them, and `deepen` writes its depth there. `enlarge` writes colour and depth where the host has drawn
-nothing. `find` and `fit` draw at the far plane. `lay`, where nothing else has depth, replaces `fit`, `deepen` and
-`enlarge`: it draws the picture over everything.
+`find` asks whether the host has drawn any pixel, and `bring` copies the host's depth to the smaller buffer. `fit`
+blends the picture over the host's pixels, and `deepen` writes its depth there. `enlarge` writes colour and depth where
+the host has drawn nothing. `find` and `fit` draw at the far plane. `lay`, where nothing else has depth, replaces `fit`,
+`deepen` and `enlarge`: it draws the picture over everything.
 """
 
 
