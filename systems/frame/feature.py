@@ -146,7 +146,7 @@ class Feature:
         return cls()
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
-        """Go on with a scene that was read again at a time [s]; `before` is the old one."""
+        """Take over a site that has changed or been replaced, at `time` [s]; `before` is the old one."""
 
     def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
         """Advance to a viewer's next frame, with its eye at (x, y, z) [m], at a time [s]."""
