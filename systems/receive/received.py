@@ -74,9 +74,10 @@ class Received:
 
 
 def numbers_of(outlook: Outlook, first: Mapping[str, Sequence[int]], /) -> NDArray[np.intp]:
-    """Return the numbers of all receivers that winds without a twin compute messages for, still ones last, shape (n,).
+    """Return the numbers of all receivers that winds without a twin send messages to, shape (n,).
 
-    `first` gives, by the representation's name, the number of the first receiver of each of its pools.
+    Those without the small oscillations come last. `first` gives, by the representation's name, the number of the first
+    receiver of each of its pools.
     """
     parts: list[tuple[bool, NDArray[np.intp]]] = []
     for name, kept in outlook.kept.items():

@@ -41,7 +41,7 @@ float depth_before(Span spans[SPANS], float high, float slope, float stands) {
 }
 
 // Height [m] up to which grass with this root is hidden, at most `tall`. `stands` is its height in the wind, of that at rest. It
-// is 0 where any grass is cut, or where grass is missing that the density map has.
+// is 0 in scenes with cut grass, or with grass missing where the density map has some.
 float hidden_height(vec3 root, float tall, float stands) {
     if (anything_is_cut() || anything_open > 0.5)
         return 0.0;

@@ -19,10 +19,10 @@ from ..show.registry import REPRESENTATIONS
 from ..show.representation import Seedling
 
 VARIANTS = 6
-"""Number of shapes of a blade in each posture."""
+"""Number of variants of a blade's shape at each posture index."""
 
 ROWS = 129
-"""Number of posture indices with a simulated posture."""
+"""Number of posture indices in the table of postures."""
 
 _MIPMAPS = 4.0 / 3.0
 """Size of a texture with its mip levels, over that of the finest level."""

@@ -33,7 +33,7 @@ float leaf_area_above(float h, vec2 leaves) {
     return leaves.x + leaves.y * deep * deep * (FILLS + (1.0 - FILLS) * deep);
 }
 
-// Depth below the canopy's top, as a part of its height, above which lies `part` of the leaf area: the inverse of that, to 1 %.
+// Depth below the canopy's top, as a part of its height, above which lies `part` of the leaf area: inverts leaf_area_above, to 1 %.
 float depth_of_leaf_area(float part) {
     return sqrt(part / (FILLS + (1.0 - FILLS) * sqrt(part)));
 }

@@ -8,7 +8,7 @@ float pixels_per_metre() {
     return half_screen.y * length(vec3(clip[0].y, clip[1].y, clip[2].y));
 }
 
-// Offset in clip-space z, before the division, that moves something back by `depth`, given in the usual range of -1 to 1.
+// Offset of z / w that moves something back by `depth`, which is given for the usual clip range of -1 to 1.
 float depth_offset(float depth) {
     return 0.5 * (depth_ends.y - depth_ends.x) * depth;
 }

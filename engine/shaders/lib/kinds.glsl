@@ -2,10 +2,10 @@
 #include "engine/declared/grass.py"
 
 #ifndef KINDS
-#define KINDS MOST_KINDS  // programs that are not told have room for all
+#define KINDS MOST_KINDS  // without a number, there is room for all
 #endif
 #define GROUPS ((KINDS + 3) / 4)
-#define FORMS (2 * KINDS)  // each kind as it has grown, and then as it is changing into, if it is
+#define FORMS (2 * KINDS)  // each kind's present form, then the form that it changes into, if any
 #define ByKind vec4[GROUPS]
 #if KINDS > 4
 #define GROUP(kind) ((kind) >> 2)

@@ -24,14 +24,14 @@ struct Painted {
     vec3 run;      // from the column's first edge to its second, along the ground
     vec3 middle;   // between their feet
     vec2 bend;     // mean of the two edges
-    vec3 top;      // likewise
-    vec2 back;
+    vec3 top;      // mean of the tops of their postures, from their feet
+    vec2 back;     // mean of the offsets of their tops
 };
 
 Edge strip_edge(vec4 base, int receiver, int edge, int kind, int form, int count, float height) {
-    vec4 told = received_by(receiver + edge);
-    vec2 at = base.xy + base.zw * float(edge), bend = bending(kind, told.xy);
-    vec3 foot = pulled_nearer(vec3(at.x, told.z, at.y), base.zw, count), top = posture(float(form) * posture_variants, bend, 1.0).place * height;
+    vec4 texel = received_by(receiver + edge);
+    vec2 at = base.xy + base.zw * float(edge), bend = bending(kind, texel.xy);
+    vec3 foot = pulled_nearer(vec3(at.x, texel.z, at.y), base.zw, count), top = posture(float(form) * posture_variants, bend, 1.0).place * height;
     return Edge(foot, bend, top, laid_back(base.zw, foot, top, height, count));
 }
 

@@ -59,7 +59,7 @@ float maps_visibility(vec3 place) {
 }
 
 // Where the sun's ray through a place passes an ellipsoid of revolution: the offset from its middle [radii], and the softness of the
-// shadow's edge in w. Space is scaled along the axis, so that the ellipsoid is a ball. A ray that starts in front is FAR_OFF.
+// shadow's edge in w. Space is scaled along the axis, so that the ellipsoid is a ball. An ellipsoid that is not towards the sun is FAR_OFF.
 vec4 ray_offset(vec3 apart, vec3 axis, float pressed, float radius) {
     vec3 way = apart + axis * (pressed * dot(axis, apart)), ray = sun + axis * (pressed * dot(axis, sun));
     float before = dot(way, ray) / dot(ray, ray), along = dot(apart, sun);
@@ -104,17 +104,17 @@ float box_visibility(vec3 apart, vec3 toward, vec3 size) {
     return 1.0 - (1.0 - smoothstep(-soft, soft, max(max(by.x, by.y), by.z))) / max(part * part, 1.0);
 }
 
-// Visibility of the sun behind a shade; `told` is a record as `shade_texels` packs it.
-float shade_visibility(mat3x4 told, vec3 place) {
-    vec3 apart = told[0].xyz - place, axis = told[1].xyz;
-    float deep = told[0].w, reach = told[1].w, radius = told[2].w;
+// Visibility of the sun behind a shade; `record` is as `shade_texels` packs it.
+float shade_visibility(mat3x4 record, vec3 place) {
+    vec3 apart = record[0].xyz - place, axis = record[1].xyz;
+    float deep = record[0].w, reach = record[1].w, radius = record[2].w;
     if (deep < 0.0)
         return capsule_visibility(apart, axis, reach, radius);
     if (deep == 0.0) {
         vec4 by = ray_offset(apart, axis, reach, radius);
         return body_visibility(length(by.xyz), by.w);
     }
-    mat3 axes = mat3(axis, told[2].xyz, cross(axis, told[2].xyz));
+    mat3 axes = mat3(axis, record[2].xyz, cross(axis, record[2].xyz));
     return box_visibility(apart * axes, sun * axes, vec3(reach, radius, deep));
 }
 

@@ -1,7 +1,7 @@
-// Cover of the carpet by patch.
+// The carpet's share on each patch: its cover there.
 uniform sampler2D shares;  // by patch of a window around the viewer, wrapping round
 
-// Beyond the window it is the same on all the terrain; beyond the terrain it is 1.
+// The carpet's share on a cell. Beyond the window it is the same on all the terrain; beyond the terrain it is 1.
 float share_at(ivec2 cell) {
     vec2 apart = abs(vec2(cell) - carpet_window.xy);
     if (max(apart.x, apart.y) > carpet_window.z) {

@@ -1,4 +1,4 @@
-// Heights of the terrain, interpolated as in numpy; hardware filters are too coarse for that.
+// Heights of the terrain, interpolated bilinearly, as numpy's are; hardware filters are too coarse for that.
 #include "lib/frame.glsl"
 #include "systems/land/heights.py"
 

@@ -106,7 +106,7 @@ class Ribbons:
         self._arrays: dict[int, moderngl.VertexArray] = {}
 
     def array(self, sort: int) -> moderngl.VertexArray:
-        """Return the vertex array of one of `SORTS`, made when first needed; `DEEP` needs a coverage of a half."""
+        """Return the vertex array of one of `SORTS`, made when first needed. `DEEP` writes depth by `deep.glsl`."""
         if sort not in self._arrays:
             program = self._make(self._defines[sort])
             program["segments"], program["counts"] = self.segments, len(self._counts)

@@ -47,7 +47,7 @@ def gather_morph(
     left: Floats,
     home: NDArray[np.bool_],
 ) -> Numbers:
-    """Return the numbers of the blades of morphing patches in drawing order, shape (n,); numbers are `gather_blades`'.
+    """Return the numbers, as of `gather_blades`, of the blades of morphing patches in drawing order, shape (n,).
 
     The sort key goes with the morph from the distance of the blade's own place, far to near, to patch after patch and
     strip after strip, so that blades change places one by one. `away` has the distances of their own places from the

@@ -37,8 +37,8 @@ PARTED = 1
 """Distance up to which the depth buffer sorts blades [patch sides]."""
 
 HIDING = 400
-"""Blades per patch from which on it pays to compute up to which height each is hidden. With 320 that costs a graphics
-card as much as it saves, with 160 more."""
+"""Blades per patch from which on it pays to compute the height up to which each is hidden. With 320 that costs a
+graphics card as much as it saves; with 160 it costs more than it saves."""
 
 READY_ROWS = 256
 """Rows of patch records that are allocated once a game has prepared."""
@@ -189,7 +189,7 @@ class BladesPainter(RepresentationPainter):
             ribbons.array(DEEP)
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
-        """Pretend that one blade morphs and one of each group stands, where fewer blades are shown."""
+        """Let the frame draw one morphing blade and one of each group, if it has as many, so that all programs run."""
         del record
         shelf = self.shelves.now
         if sum(shelf.counts) >= len(shelf.counts):

@@ -34,7 +34,7 @@ struct Way {
     vec3 from;
     vec2 heading;
     float fall;       // its descent [m/m]
-    float ground;     // height of the mesh's ground over that of height_filtered at its start [m]
+    float ground;     // height of height_filtered over the mesh's ground at its start [m]
     float high;       // height of the mesh over the ground [m]
     float mesh_lift;  // the same, as a fraction of the carpet's height on level ground
     float slope;      // slope to the ground [m/m]

@@ -44,8 +44,8 @@ OUTLINE = 0.88
 """Height of the carpet along outlines, as a fraction of the grass's: only a few thin tips stand out above."""
 
 APART = 1e-6
-"""Depth added to the layer under the carpet, as a fraction of the depth range: kilometres away, depth is too coarse to
-tell the two apart."""
+"""Depth added to the layer under the carpet, in the usual clip range of -1 to 1: kilometres away, depth is too coarse
+to tell the two apart."""
 
 MOST_COARSE = 4
 """Largest number of kinds that a coarse carpet draws: for more, there are too few varyings."""
@@ -54,7 +54,7 @@ COARSE_STRIDE = 2
 """Grid points from one vertex of a coarse mesh to the next."""
 
 PUSHED = 2.0 * APART
-"""Depth added to ground that is drawn before any grass, as a fraction of the depth range."""
+"""Depth added to ground that is drawn before any grass, in the usual clip range of -1 to 1."""
 
 THIN_UP_TO = 10.0
 """Largest grid spacing of tiles whose thin carpet is drawn by itself: half a kilometre away [m]."""

@@ -4,7 +4,7 @@
 #include "systems/show/carpet/mesh.glsl"
 #include "systems/show/carpet/floor.glsl"
 
-uniform float pushed;  // added depth, as a fraction of the depth range
+uniform float pushed;  // added depth, in the usual clip range of -1 to 1
 
 out vec3 place;
 centroid out vec3 haze;  // radiance of the haze before it

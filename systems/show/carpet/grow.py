@@ -30,10 +30,10 @@ class Carpet:
     """Tangent of the viewing elevation of each row of images, ascending, shape (slopes,)."""
 
     texels: Bytes
-    """Texels, premultiplied by coverage, shape (slopes, 4, r, r, 4). The channels are the place along the blade; the
-    height as a fraction of `height`; 0.5 + 0.5 c, where c is the cosine of twice the face normal's azimuth from the
-    view; coverage. For kinds whose heads have eyes, the third is the share of the eye's colour instead. The four
-    viewing directions are -z, +x, +z, -x in this order; rows go along z, columns along x."""
+    """Texels, premultiplied by coverage, shape (slopes, 4, r, r, 4). The channels are the tone, which of a grass blade
+    is the place along it; the height as a fraction of `height`; 0.5 + 0.5 c, where c is the cosine of twice the face
+    normal's azimuth from the view; coverage. For kinds whose heads have eyes, the third is the share of the eye's
+    colour instead. The four viewing directions are -z, +x, +z, -x in this order; rows go along z, columns along x."""
 
     height: float
     """Height of the canopy [m]."""

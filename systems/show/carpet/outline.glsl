@@ -1,7 +1,7 @@
 // Outlines: the silhouette of the carpet against what is behind a crest.
 #include "systems/show/carpet/sight.glsl"
 
-const float SPIKES = 18.0;  // growth of the leaves that are met along an outline with the height of plants, as an exponent
+const float SPIKES = 18.0;  // exponential growth of the leaves met along an outline, for each 1 of `taller`
 const float TALLER = 0.05;  // largest relative height of taller plants that counts
 const vec2 SPIKES_FROM = vec2(0.8, 1.0);  // shares of the carpet from which on they count: where it sinks, they would swim
 const float SHOWN_FROM = 1.0 / 3.0;  // share from which on an outline hides none of its own grass

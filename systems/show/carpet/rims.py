@@ -37,7 +37,7 @@ class Rims:
         """Cells of the terrain along a side of a square."""
         self._has_rim: Mask = np.zeros((-(-rows // step), -(-columns // step)), np.bool_)
         self.distance: Floats = np.full(self._has_rim.shape, NOWHERE, np.float32)
-        """Least distance of each square's middle from a rim [m], row 0 at the far edge (-z)."""
+        """Lower bound of the distance of each square's middle from the nearest rim [m], row 0 at the far edge (-z)."""
         self.any = False
         """Whether the terrain has rims."""
         self.version = 0

@@ -98,7 +98,8 @@ class CarpetStock:
     def layer_uniforms(self, seed: int, /, *, whole: bool) -> dict[str, object]:
         """Return uniforms by name that tell the texture layers of images; `seed` is the scene's.
 
-        If `whole`, images are stored with their sides rounded up to a power of two.
+        One of them is the coarsest mip level, whose side is 1 texel. If `whole`, images are stored with their sides
+        rounded up to a power of two.
         """
         example = carpet_of(self.forms[0].growth.models[0])
         slopes, side = example.slope, example.texels.shape[-2]

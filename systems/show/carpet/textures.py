@@ -45,7 +45,7 @@ def image_count(growths: Sequence[Growth], /) -> int:
 
 
 def _whole(images: Bytes) -> Bytes:
-    """Return images (layers, side, side, 4) resampled to the next power of two, as they repeat."""
+    """Return images (layers, side, side, 4) resampled to sides of a power of two, as they repeat beyond their edges."""
     side = images.shape[1]
     whole = 1 << (side - 1).bit_length()
     nearest = np.arange(whole) * side // whole

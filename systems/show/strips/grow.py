@@ -50,8 +50,8 @@ class Strips:
 _SEGMENTS = 12
 
 SLANT = 0.16
-"""Tangent of the angle below which heads are seen as they are painted: from above, and alike from both sides, as they
-are about round."""
+"""Tangent of the angle from which heads are painted, looking down. It is the same for the view from either side, as
+heads are about round."""
 
 
 _TEXELS_UP = 96, 140

@@ -45,8 +45,8 @@ class _Gathered:
     batches: list[Batch]
 
     distance: Floats
-    """Distance of each drawn patch [patch sides], far to near, shape (m,). It never rises, so that a nearer patch in
-    front of a farther one has the same."""
+    """Distance of each drawn patch [patch sides], in drawing order, shape (m,). It never rises: a patch that is drawn
+    after a nearer one has the distance of that."""
 
     ends: NDArray[np.int64]
     """Index after each drawn patch's last polygon strip, shape (m,)."""
