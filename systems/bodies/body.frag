@@ -82,7 +82,7 @@ float seam_coverage(Marks marks) {
 }
 
 // Colour of the hull with its seams and ring of lamps, the one ahead red.
-vec3 with_lamps(vec3 plate, Marks marks) {
+vec3 hull_colour(vec3 plate, Marks marks) {
     vec3 color = plate * (1.0 - SEAMS * seam_coverage(marks)), lamp = marks.is_first ? AHEAD : AROUND;
     float size = marks.is_first ? FIRST * LAMP : LAMP, off = marks.lamp, soft = marks.pixel.x, seen = min(1.0, size / soft);
     color *= 1.0 - RIM.y * seen * (1.0 - smoothstep(-soft, soft, off - RIM.x * size));
@@ -112,6 +112,6 @@ void main() {
     else if (material == FIN)
         color = mix(shade(Surface(sqrt(paint), 0.0, 0.0), light), mirrored, FIN_MIRRORS.x + FIN_MIRRORS.y * sheen);
     else
-        color = with_lamps(mix(shade(Surface(sqrt(metal), 0.0, 0.0), light), mirrored, HULL_MIRRORS.x + HULL_MIRRORS.y * sheen), marks);
+        color = hull_colour(mix(shade(Surface(sqrt(metal), 0.0, 0.0), light), mirrored, HULL_MIRRORS.x + HULL_MIRRORS.y * sheen), marks);
     pixel = vec4(tone_mapped(mix(color, haze_radiance(world_place), haze_opacity(world_place))), 1.0) * cover;
 }

@@ -41,6 +41,7 @@ class PressPart(TexturePart):
         self._settled = NOTHING
         self._fresh_rows, self._settled_rows = 4, 0
         self._is_empty = True
+        """Whether the uploaded texture is up to date and has no marks."""
         self.texture = self._new_texture()
 
     def make_ready(self, grown: Grown, /) -> None:
@@ -60,10 +61,8 @@ class PressPart(TexturePart):
         samples = len(growths[0].response.fall)
         for kind, growth in enumerate(growths):
             group, channel = divmod(kind, 4)
-            self._head[1 + 2 * group, channel], self._head[2 + 2 * group, channel] = (
-                recovery[kind],
-                growth.response.step,
-            )
+            self._head[1 + 2 * group, channel] = recovery[kind]
+            self._head[2 + 2 * group, channel] = growth.response.step
             self._head[ROW + group * samples :, channel][:samples] = growth.response.fall
         self._head[0, 2], self._is_empty = samples, False
 

@@ -22,7 +22,13 @@ SAME_TOUCH = 1e-3
 
 _LONG_AGO = -1e6
 
-GLSL = {"TREADS": TREAD_FRACTION, "FLAT": FLAT, "AHEAD": PUSH_ALONG, "SAME": SAME_TOUCH, "LONG_AGO": _LONG_AGO}
+GLSL = {
+    "TREAD_FRACTION": TREAD_FRACTION,
+    "FLAT": FLAT,
+    "PUSH_ALONG": PUSH_ALONG,
+    "SAME_TOUCH": SAME_TOUCH,
+    "LONG_AGO": _LONG_AGO,
+}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,8 +75,8 @@ def pressed(trodden: Trodden, place: Floats, grass: Grass, recovery: Floats, /) 
 def combined_message(message: Floats, pressing: Floats, /) -> Floats:
     """Add the bending of pressed grass (n, 2) to messages of the wind (n, 2), which its posture index weakens."""
     index = np.minimum(np.hypot(pressing[:, 0], pressing[:, 1]), np.float32(1.0))
-    sum_ = message * (np.float32(1.0) - index)[:, None] + pressing
-    return np.asarray(sum_ / np.maximum(np.hypot(sum_[:, 0], sum_[:, 1]), np.float32(1.0))[:, None], np.float32)
+    total = message * (np.float32(1.0) - index)[:, None] + pressing
+    return np.asarray(total / np.maximum(np.hypot(total[:, 0], total[:, 1]), np.float32(1.0))[:, None], np.float32)
 
 
 def touches(marks: Marks, place: Floats, /) -> bool:
@@ -137,9 +143,8 @@ def _contact(mark: Floats, place: Floats) -> tuple[Floats, Floats, Floats, Float
     half = np.sqrt(np.maximum(mark[:, REACH] * mark[:, REACH] - lateral * lateral, np.float32(0.0)))
     enters, leaves = (ahead - half) / safe_length, (ahead + half) / safe_length
     duration = mark[:, CAME] - mark[:, BEGUN]
-    begun = mark[:, BEGUN] + np.where(
-        is_still, np.float32(0.0), np.clip(enters, np.float32(0.0), np.float32(1.0)) * duration
-    )
+    entered = np.clip(enters, np.float32(0.0), np.float32(1.0))
+    begun = mark[:, BEGUN] + np.where(is_still, np.float32(0.0), entered * duration)
     ended = np.where(is_still | (leaves >= np.float32(1.0)), mark[:, LEFT], mark[:, BEGUN] + leaves * duration)
     return offset, distance, begun, ended
 
@@ -160,9 +165,8 @@ def _state_at(lying: Lying, then: Floats, grass: Grass, recovery: Floats) -> tup
     step = np.float32(TREAD_FRACTION) * np.maximum(flat - lying.trodden, np.float32(0.0))
     trodden = np.asarray(lying.trodden + step, np.float32)
     left = np.maximum(trodden - elapsed / recovery[grass.kind], np.float32(0.0))
-    index = (np.maximum(lying.depth, index_before) - _lasting_index(trodden)) * grass.after_stop(
-        elapsed
-    ) + _lasting_index(left)
+    swinging = np.maximum(lying.depth, index_before) - _lasting_index(trodden)
+    index = swinging * grass.after_stop(elapsed) + _lasting_index(left)
     towards = lying.depth[:, None] * lying.push + index_before[:, None] * lying.direction
     return np.asarray(index, np.float32), np.asarray(left, np.float32), _normalised(np.asarray(towards, np.float32))
 

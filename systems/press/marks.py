@@ -85,7 +85,7 @@ class Listing:
         return cls(ordered, *touched_squares(ordered))
 
     def kept_after(self, time: float, counts: NDArray[np.bool_]) -> "Listing":
-        """Return the stretches left after `time` [s], with the pairs that `counts` (m,) selects; drop those without."""
+        """Return the stretches that discs left after `time` [s], with the pairs where `counts` (m,); others go."""
         stays = self.stretches[:, LEFT] > time
         if stays.all() and counts.all():
             return self
@@ -94,7 +94,7 @@ class Listing:
         return Listing(self.stretches[stays], new_index[self.stretch_of_pair[pairs]], self.square_of_pair[pairs])
 
     def and_then(self, other: "Listing") -> "Listing":
-        """Append others."""
+        """Return these stretches followed by others."""
         stretch_of_pair = other.stretch_of_pair + np.int32(len(self.stretches))
         return Listing(
             np.concatenate([self.stretches, other.stretches]),
@@ -285,7 +285,7 @@ class Memory:
         return conversion
 
     def _settle(self, since: float) -> None:
-        """Settle the closed stretches that ended before a full second, minus `SETTLE_AFTER` [s]."""
+        """Settle the closed stretches that ended at least `SETTLE_AFTER` before the full second `since` [s]."""
         self.since = since
         settling = []
         for trail in self.trails:

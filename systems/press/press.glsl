@@ -7,7 +7,7 @@
 
 uniform sampler2D pressed;  // the frame; responses of kinds; the squares' lists; fresh marks, then settled ones
 
-const int SWINGS = PRESSED_ROW, SQUARES = 2 * PRESSED_ROW;  // their first texels
+const int SWINGS = PRESSED_ROW, SQUARES = 2 * PRESSED_ROW;  // first texels of responses and of squares
 
 const float PAST_END = 1.001;  // samples before the end of a table at which it is last read
 
@@ -43,7 +43,7 @@ float lasting_index(float trodden) {
 vec2 state_at(Lying lying, float then, int kind, out vec2 towards) {
     float elapsed = max(then - lying.until, 0.0);
     float before = max(lying.index, lasting_index(lying.trodden));
-    float trod = lying.trodden + TREADS * max(FLAT * (lying.depth * lying.depth) * (lying.depth * lying.depth) - lying.trodden, 0.0);
+    float trod = lying.trodden + TREAD_FRACTION * max(FLAT * (lying.depth * lying.depth) * (lying.depth * lying.depth) - lying.trodden, 0.0);
     float left = max(trod - elapsed / texel_of(1 + 2 * GROUP(kind))[IN_GROUP(kind)], 0.0);
     towards = normalised(lying.depth * lying.push + before * lying.direction);
     return vec2((max(lying.depth, before) - lasting_index(trod)) * response_after_stop(elapsed, kind) + lasting_index(left), left);
@@ -65,14 +65,14 @@ void apply_mark(inout Lying lying, int mark, vec2 place, int kind) {
     float enter = (at - half_way) / small, leave = (at + half_way) / small;
     float begun = times.x + (still ? 0.0 : clamp(enter, 0.0, 1.0) * took);
     float ended = still || leave >= 1.0 ? times.z : times.x + leave * took;
-    if (begun > lying.until + SAME) {
+    if (begun > lying.until + SAME_TOUCH) {
         vec2 towards, found = state_at(lying, begun, kind, towards);
         lying = Lying(towards, lying.push, max(found.x, 0.0), found.y, 0.0, LONG_AGO);
     }
     float part = far / reach, deep = how.x * (1.0 - part * part * part * part);
     if (deep > lying.depth) {
         lying.depth = deep;
-        lying.push = normalised(off / reach + AHEAD * (1.0 - part) * how.yz);
+        lying.push = normalised(off / reach + PUSH_ALONG * (1.0 - part) * how.yz);
     }
     lying.until = max(lying.until, ended);
 }

@@ -112,11 +112,8 @@ class Trail:
         stood = moved & ~jumped & (stretches[:, LEFT] - stretches[:, CAME] > LONGEST_STAND)
         stood |= moved & ~jumped & (stretches[:, LEFT] % self.every == 0.0) & (stretches[:, BEGUN] < stretches[:, LEFT])
         self._close(jumped | stood)
-        stretches[stood, FIRST], stretches[stood, BEGUN], self.way[stood] = (
-            stretches[stood, LAST],
-            stretches[stood, LEFT],
-            0.0,
-        )
+        stretches[stood, FIRST], stretches[stood, BEGUN] = stretches[stood, LAST], stretches[stood, LEFT]
+        self.way[stood] = 0.0
         completing = np.flatnonzero(moved & ~jumped & (self.way + distance >= _stretch_length(stretches[:, REACH])))
         if len(completing):
             self._close_passed(completing, step[completing], distance[completing], time)

@@ -21,7 +21,7 @@ class WalkState:
 
     pressers: list[EntityPresser]
     pose: Doubles
-    """Their poses, shape (n, 3)."""
+    """Pose of each presser, shape (n, 3)."""
 
     time: float
     """Time of these poses [s]."""
@@ -86,7 +86,7 @@ class Walk:
     def _set_pressers(self, pressers: list[EntityPresser]) -> NDArray[np.intp]:
         """Set the pressers; return each one's number of discs, shape (n,)."""
         discs = [discs_of(presser) for _, presser in pressers]
-        counts = np.array([len(discs) for discs in discs], np.intp)
+        counts = np.array([len(each) for each in discs], np.intp)
         self.pressers, self._presser_of_disc = pressers, np.repeat(np.arange(len(pressers)), counts)
         self._discs = np.concatenate([np.zeros((0, 3)), *discs])
         self._strength = np.array([presser.strength for _, presser in pressers])[self._presser_of_disc]
