@@ -30,8 +30,8 @@ def posture_texture(
 ) -> moderngl.TextureArray:
     """Return all kinds' posture tables as a texture array: columns are points, rows posture indices, layers variants.
 
-    While any kind is `coming`, layers of all present growths precede those of the coming ones. A texel holds a point's
-    position and the blade's tangent there, each as (along the bending direction, up).
+    While any kind is `coming`, a second set of layers follows, in which those kinds have their coming growths. A texel
+    holds a point's position and the blade's tangent there, each as (along the bending direction, up).
     """
     forms = [*growths, *(coming.get(kind, growth) for kind, growth in enumerate(growths) if coming)]
     table = np.concatenate([posture_table(growth) for growth in forms])

@@ -66,8 +66,8 @@ SILVER_DEPTH = 0.28
 """Optical depth for the silver lining, relative to the cloud's: light scattered almost straight on counts as
 unscattered.
 
-That fraction is the square of the droplets' asymmetry of 0.85 (Joseph, Wiscombe and Weinman, The Delta-Eddington
-Approximation for Radiative Flux Transfer, 1976)."""
+The fraction scattered so is the square of the droplets' asymmetry of 0.85 (Joseph, Wiscombe and Weinman, The
+Delta-Eddington Approximation for Radiative Flux Transfer, 1976)."""
 
 SHADED_BASE = 0.27, 0.3
 """Radiance of a base in full shade, relative to sunlight on level ground above it, and to skylight."""

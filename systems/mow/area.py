@@ -38,7 +38,7 @@ _DEEP_WITHIN = -1e9
 
 
 def must_be_area(area: object, pose: object, done: str, /) -> None:
-    """Raise TypeError for no area or pose, ValueError for one that is not finite; `done` is a participle."""
+    """Raise TypeError for no area or no pose, ValueError for a pose that is not finite; `done` is a participle."""
     if not isinstance(area, Footprint | Road):
         raise TypeError(f"grass is {done} under a Footprint or a Road, not under {area!r}")
     if not isinstance(pose, Pose):
@@ -71,8 +71,8 @@ def stroke(
 ) -> None:  # fmt: skip
     """Change the cells of a map whose middles are within `beyond` [m] of an area.
 
-    `alike` (1, 1, ...) is the value that all cells well within the area get, if it is one: plots are then shared, which
-    is faster.
+    `alike` (1, 1, ...) is the value of all cells well within the area, if they get the same one: plots then share a
+    page, which is faster.
     """
     parts = _reached_parts(plots, area, pose, max(beyond, least))
     if isinstance(area, Footprint) and 1 < len(parts) <= _FEW_PLOTS:
@@ -134,12 +134,10 @@ def _cell_distances(area: Footprint, pose: Pose, part: Part, *, beyond: float, l
     distances: Floats = along[0, :, None] + across[0]
     for right, down in zip(across[1:], along[1:], strict=True):
         np.maximum(distances, down[:, None] + right, out=distances)
-    row, column = np.nonzero(
-        (distances > 0.0) & (distances <= beyond)
-    )  # at a corner, the lines are nearer than the polygon
-    distances[row, column] = _line_distances(
-        np.concatenate([corner, corner[:1]]), np.stack([x[column], z[row]], axis=1)
-    )
+    # Outside a corner, the lines are nearer than the polygon.
+    row, column = np.nonzero((distances > 0.0) & (distances <= beyond))
+    outline, outside = np.concatenate([corner, corner[:1]]), np.stack([x[column], z[row]], axis=1)
+    distances[row, column] = _line_distances(outline, outside)
     return distances
 
 

@@ -83,7 +83,7 @@ class Mown:
         self.plots, self._cached_tops = after, {}
 
     def _stroke(self, area: Area, pose: Pose, change: Change) -> None:
-        """Change the cells whose middles are in an area, at least a cell wide."""
+        """Change the cells whose middles are in an area, whose radius is at least `LEAST_RADIUS` cells."""
         stroke(self.plots, area, pose, change, _uncut, beyond=0.0, least=LEAST_RADIUS * CELL)
 
     def _has_plot(self, cell: NDArray[np.int64]) -> NDArray[np.bool_]:

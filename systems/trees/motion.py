@@ -36,7 +36,7 @@ OWN_CROWN = 0.6
 """Greatest reach of a tree's own crown towards the sun, of its height: up to there, its depth is its own."""
 
 TONES, TONES_APART = (0.92, 1.1), (1.0, 1.7)
-"""Frequencies of a swing's two tones, of its own; their phases, of its random number [turns]."""
+"""Frequencies of a swing's two tones, relative to its own; their phases, as multiples of its random number [turns]."""
 
 CROWN_BENDS = 0.5
 """Displacement of a crown's middle, of the top's: it is at two thirds of the height of a cantilever."""

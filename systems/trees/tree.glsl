@@ -17,8 +17,8 @@ in float foliage;    // share of its leaves
 // Outputs of stand.vert.
 in vec4 wind_response;    // message of the wind; displacement of the trunk's top, of its height
 in vec4 haze_in_front;    // radiance of the haze in front, and its opacity
-in vec4 grass_about;      // of the grass about its foot: height [m], leaf area, optical depth of sunlight, of that straight down; and sun seen
-                          // past all but trees
+in vec4 grass_about;      // of the grass about its foot: height [m], leaf area, extinction of sunlight; and part of the sun seen past all but
+                          // trees
 in vec3 light_from_grass; // light reflected by the grass, as radiance of a white face that looks down
 vec2 message = wind_response.xy, trunk_sway = wind_response.zw;
 #else

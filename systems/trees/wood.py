@@ -10,16 +10,16 @@ OPAQUE, FAINTEST = 0.8, 0.02
 """Coverage from which on a pixel is opaque, and below which it is discarded."""
 
 SOLID = 0.58
-"""That coverage of twigs on cards, and of everything in a shadow map.
+"""Coverage from which on twigs on cards, and everything in a shadow map, are opaque.
 
 From a half on, as much would be opaque as is covered in the mean, but the soft edges of what sticks out come on top.
-Needles have a higher one, from `solid_above`.
+Needles have a higher limit, from `solid_above`.
 
 Soft parts are drawn from near to far: fainter ones let little of what is behind come to the front."""
 
 CLOSED = 0.9
-"""That coverage of pictures far off: most of a sparse crown covers a little less, and as opaque would hide up to a
-tenth too much of the sky."""
+"""Coverage from which on pictures far off are opaque: most of a sparse crown covers a little less, and as opaque would
+hide up to a tenth too much of the sky."""
 
 THINNEST = 0.5
 """Least half width of a stem [pixels]."""

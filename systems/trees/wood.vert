@@ -40,7 +40,7 @@ flat out float ribbon;    // 1 on a ribbon, which is shaded as if round
 out vec2 edge;            // softness of its edges; position of the vertex, of the stem's edge
 out float age;            // age of its bark, 0 to 1; or radius of the stem, of THICKEST
 out float grass_height;   // height over the ground, of the grass's
-flat out vec2 grass_here; // leaf area of that grass; optical depth of sunlight in it, of that straight down
+flat out vec2 grass_here; // leaf area of that grass; its extinction of sunlight
 
 const float ON_EDGE = 0.5;  // beyond it, a vertex is on a ribbon's edge: bytes have no 0
 
