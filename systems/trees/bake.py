@@ -16,7 +16,7 @@ CARD = 256
 """Side of a twig's card [pixels]."""
 
 DEPTH_RANGES = 4.0, 2.0
-"""Depth range of pictures to the front and back: of a tree, in half heights; of a twig, in usual lengths."""
+"""Depth range of pictures to the front and back: of a tree, in half heights; of a twig, in its usual lengths."""
 
 COARSEST = 1 << (LEVELS - 1)
 """Texels in a row of the finest mip level that the coarsest has one of."""
@@ -26,7 +26,7 @@ Draw = Callable[[int], None]
 
 
 def picture_size(breadth: float, /) -> tuple[int, int]:
-    """Return the height and width of a tree's pictures [texels]; `breadth` is the tree's, of their height."""
+    """Return the height and width of a tree's pictures [texels]; `breadth` is the tree's, relative to their height."""
     lines = _rounded_up(LINES)
     return lines, _rounded_up(lines * breadth)
 

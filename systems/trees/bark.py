@@ -37,7 +37,7 @@ SIDES = 12, 6, 3
 """Number of flat sides of a stem of each level."""
 
 MOST_OUTSET = 0.3
-"""Greatest distance of a tube's corners beyond the round stem, of its radius."""
+"""Greatest distance of a tube's corners beyond the round stem, relative to its radius."""
 
 PIXEL_RADII = 0.003, 0.006, 0.011, 0.017, 0.027
 """Radii of the model's stem that is a pixel wide [m]: trees between two of them draw the same wood."""
@@ -52,16 +52,16 @@ ALIKE = 1.3
 """Ratio of radii within which stems are sorted as equally thick."""
 
 FLARE, FLARE_HEIGHT = 0.55, 2.2
-"""Widening of a trunk at the ground, of its radius; height at which a third of that is left, of its radius."""
+"""Widening of a trunk at the ground, and height at which a third of that is left, both relative to its radius."""
 
 BUTTRESSES, BUTTRESS = 5, 0.6
-"""Number of buttress roots, and their height over the flare, of its widening."""
+"""Number of buttress roots, and their height over the flare, relative to its widening."""
 
 FOOT_RINGS = -1.2, 0.0, 0.8, 1.8, 3.2
-"""Heights of rings around a trunk's foot, of its radius: on a slope, some are under the ground."""
+"""Heights of rings around a trunk's foot, relative to its radius: on a slope, some are under the ground."""
 
 WHOLE_BEND = 1.5
-"""Length of bark across a ribbon, of its width: half a circumference over a diameter."""
+"""Length of bark across a ribbon, relative to its width: half a circumference over a diameter."""
 
 
 class Ranges(NamedTuple):

@@ -133,7 +133,7 @@ class Choice:
         height, middle, half, radius, hertz, self._leaf, spread = numbers
         self._height, self._ring = rows["height"].copy(), rows["ring"].copy()
         self._pictured = 2.0 * half / height / np.maximum(rows["foliage"], BAREST)
-        """Height of each tree's pictures, of its own height, greater by as much as it has fewer leaves."""
+        """Height of each tree's pictures, relative to its own, divided by its share of leaves, at least `BAREST`."""
         self._scale = self._height.astype(np.float64) / height
         self._middle: Doubles = rows["root"].astype(np.float64)
         self._middle[:, 1] += self._scale * middle

@@ -13,7 +13,7 @@ STEPS = 14
 """Steps of a ray through the crown."""
 
 RAY_LENGTH = 1.1
-"""Length of a ray, of that side."""
+"""Length of a ray, relative to the crown's longest side."""
 
 RAYS = 20
 """Rays from a place, in evenly spread directions."""
@@ -22,7 +22,7 @@ BORDER = 0.3
 """Border of the cells around the middles of all twigs [m]."""
 
 PROJECTED = 0.5
-"""Projected area of randomly oriented leaves, of their area (Ross, The Radiation Regime of Plants, 1981)."""
+"""Projected area of randomly oriented leaves, relative to their area (Ross, The Radiation Regime of Plants, 1981)."""
 
 CLUMPING = 0.4
 """Clumping index: leaves in clumps hide as much as this share of randomly strewn ones (Nilson, A Theoretical Analysis
@@ -33,10 +33,10 @@ LEAST_SHADE = 4.0
 """Least radius of a tree's shade on the grass [m]: the sky is broad."""
 
 SHADE_OF_HEIGHT = 0.35
-"""Least radius of its shade, of its height."""
+"""Least radius of a tree's shade, relative to its height."""
 
 SKY_MEETS = 0.75
-"""Mean optical depth of skylight, which comes from all sides, of that straight up."""
+"""Mean optical depth of skylight, which comes from all sides, relative to that straight up."""
 
 FOOT = 1.6
 """Distance from a trunk at which it hides sky from the grass and takes its water [m]: texels of the map are 1 m."""

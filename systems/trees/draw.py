@@ -306,7 +306,7 @@ class TreePart(Part):
         return self._calls.of_pass(Pass(edges, casts, self.leaves_from is not None, self._standing().in_rows))
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release all GL objects."""
         self._forget()
         release_all(*self._kinds)
         for each in (self._shade, self._placed, self._stood):

@@ -13,7 +13,7 @@ LINES = 256
 from above."""
 
 COARSER = 2
-"""Texel size of optical depths, of that of the pictures: depths change from twig to twig."""
+"""Texel size of optical depths, relative to the pictures': depths change from twig to twig."""
 
 FINER = 2
 """Supersampling: each texel is the mean of so many by so many pixels."""

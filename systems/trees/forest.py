@@ -32,19 +32,19 @@ GROVE = 45.0
 """Distance between groves, about [m]."""
 
 FINER, FINER_PART = 2.7, 0.4
-"""Frequency of the noise that makes groves uneven, and its amplitude, of that of groves."""
+"""Frequency of the noise that makes groves uneven, and its amplitude, both relative to the groves'."""
 
 GROVE_EDGE = 3.0
 """Steepness of a grove's density by its noise of -1 to 1: full from a third on."""
 
 DENSER = 4.0
-"""Density of trees in groves, of that on the whole ground."""
+"""Density of trees in groves, relative to the mean of the whole ground."""
 
 STEEPEST = 89.9
 """Greatest slope on which trees grow [degrees]: its tangent is a finite number."""
 
 LEAST_APART = 0.5
-"""Least distance from a tree of another kind, of its own spacing."""
+"""Least distance from a tree of another kind, relative to the kind's own spacing."""
 
 DIAMETER_DECAY = 1.5
 """Natural logarithm of the ratio of the thinnest to grown trunks in number: it falls by the same factor from each class

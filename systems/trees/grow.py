@@ -35,7 +35,7 @@ class Stems:
     """Index of the bearing stem in the level before, shape (n,)."""
 
     at: Doubles
-    """Position of the foot along the bearing stem, of its length, shape (n,)."""
+    """Position of the foot along the bearing stem, relative to its length, shape (n,)."""
 
     radius: Doubles
     """Radius at each point [m], shape (n, points)."""

@@ -50,7 +50,7 @@ class Leaf:
     """Angle from the twig [rad]."""
 
     area: float
-    """Area of a leaf, of its quad's."""
+    """Area of a leaf, relative to its quad's."""
 
     @property
     def quads(self) -> int:
@@ -72,13 +72,13 @@ class Habit:
     """How trees of a sort grow."""
 
     slender: float
-    """Diameter of the trunk near the ground, of the height."""
+    """Diameter of the trunk near the ground, relative to the height."""
 
     bare: float
     """Part of the trunk that bears no limbs."""
 
     crown: tuple[float, ...]
-    """Lengths of limbs at equal steps from the lowest to the highest, of the longest."""
+    """Lengths of limbs at equal steps from the lowest to the highest, relative to the longest."""
 
     straight: float
     """Straightness of the trunk: 1 is a pole."""

@@ -50,14 +50,14 @@ from .twig import PICTURES as OF_TWIGS
 from .wood import CLOSED, SOLID
 
 ASIDE, TURNED, BACK, ON = 0.95, 0.25, 0.3, 1.2
-"""Reach of leaves from their twig, of their length: aside, by the sine of their angle plus `TURNED`, as that varies;
+"""Reach of leaves from their twig, in leaf lengths: aside, by the sine of their angle plus `TURNED`, as that varies;
 back from its foot; on from its tip."""
 
 SHOOTS_ASIDE, HANGING_ASIDE = 0.7, 0.35
-"""Reach of side shoots aside, and of shoots that hang side by side, of the longest one's length."""
+"""Reach of side shoots aside, and of shoots that hang side by side, relative to the longest one's length."""
 
 DARKER = 0.62
-"""Pigment of a kind's darkest leaves, of its brightest, where a scene gives one colour for both."""
+"""Pigment of a kind's darkest leaves, relative to its brightest, where a scene gives one colour for both."""
 
 
 class Binding(NamedTuple):
@@ -83,7 +83,7 @@ class GpuKind:
         [m]."""
         self._normals = Normals()
         self._picture_cover: tuple[float, ...] = (1.0,) * OF_TWIGS
-        """Coverage of its card on each of its pictures, of that on the first."""
+        """Coverage of its card on each of its pictures, relative to that on the first."""
         self.bark = mipmapped(ctx, bark_noise())
         self.bark.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
         leaf, twig_length = self.habit.leaf, self.habit.twigs.length
@@ -211,7 +211,7 @@ class GpuKind:
         ]  # fmt: skip
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release all GL objects."""
         release_all(*self.models, self.bark)
         if self.card is not None:
             self.card.release()

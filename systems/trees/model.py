@@ -20,7 +20,7 @@ MODELS = 2
 """Models grown of a kind: each stands for many trees, turned and scaled."""
 
 MARGIN = 1.04
-"""Half the breadth and height of a tree's pictures, of its twigs' reach: leaves go beyond the twigs."""
+"""Half the breadth and height of a tree's pictures, relative to its twigs' reach: leaves go beyond the twigs."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,7 +63,7 @@ class Model:
 
     @property
     def aspect(self) -> float:
-        """Height of its pictures, of their width."""
+        """Height of its pictures, relative to their width."""
         return self.lines / self.wide
 
     @property

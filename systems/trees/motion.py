@@ -6,10 +6,10 @@ PERIOD = 1000.0
 """Period after which all motion repeats [s]: a long game's time stays as exact as its first."""
 
 TRUNK_LEANS, TRUNK_SWINGS = 0.035, 0.022
-"""Displacement of a trunk's top by a message of 1, and amplitude of its swing about that, of its height."""
+"""Displacement of a trunk's top by a message of 1, and amplitude of its swing about that, relative to its height."""
 
 LIMB_LEANS, LIMB_SWINGS = 0.09, 0.05
-"""Displacement and amplitude of a limb's tip, of its length."""
+"""Displacement of a limb's tip by a message of 1, and amplitude of its swing, relative to its length."""
 
 LIMB_STIFF = 1.6
 """Length at which a limb bends half as much as a long one [m]."""
@@ -18,28 +18,28 @@ LEAF_TURNS = 0.5
 """Amplitude of leaves' rotation in a message of 1 [rad]."""
 
 AIR_FADES = 0.38, 0.48
-"""Distances from the viewer between which patches' messages fade to their mean, of the side of all patches."""
+"""Distances from the viewer between which patches' messages fade to their mean, relative to the side of all patches."""
 
 TRUNK_HERTZ, LIMB_HERTZ, LEAF_HERTZ = (0.2, 0.5), (1.0, 3.0), (3.0, 10.0)
 """Ranges of the frequencies of trunks, limbs and leaves, with all their tones [Hz]."""
 
 TRUNK_ACROSS, LIMB_ACROSS = 1.06, 1.13
-"""Frequency of trunks and limbs across the wind, of that along it."""
+"""Frequency of trunks and limbs across the wind, relative to that along it."""
 
 SKY_FROM = 0.5
 """Mean sine of the elevation that skylight comes from."""
 
 SKY_MEETS_LESS = 0.65
-"""Effective optical depth of skylight, of the leaves before it: much of it is scattered from leaf to leaf."""
+"""Effective optical depth of leaves for skylight, relative to their own: much of it is scattered from leaf to leaf."""
 
 OWN_CROWN = 0.6
-"""Greatest reach of a tree's own crown towards the sun, of its height: up to there, its depth is its own."""
+"""Greatest reach of a tree's own crown towards the sun, relative to its height: up to there, its depth is its own."""
 
 TONES, TONES_APART = (0.92, 1.1), (1.0, 1.7)
 """Frequencies of a swing's two tones, relative to its own; their phases, as multiples of its random number [turns]."""
 
 CROWN_BENDS = 0.5
-"""Displacement of a crown's middle, of the top's: it is at two thirds of the height of a cantilever."""
+"""Displacement of a crown's middle, relative to the top's: it is at two thirds of the height of a cantilever."""
 
 
 def own_hertz(ends: tuple[float, float], across: float = 1.0, /) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from ...engine.terrain.record import Terrain
 from ...engine.terrain.sample import hole_at
 
 JITTER, MOST_JITTER = 0.3, 0.4
-"""Greatest sideways offset of trees in an uneven row, of their distance, and in all [m]."""
+"""Greatest sideways offset of trees in an uneven row: relative to their distance, and in all [m]."""
 
 MISSING = 0.125
 """Share of trees missing in a row as uneven as can be."""

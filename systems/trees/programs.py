@@ -119,7 +119,7 @@ class Programs:
         return self._programs[key]
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release all GL objects."""
         release_all(*self._arrays.values(), *self._programs.values(), *self._feedback_programs.values(), self._quads)
 
 

@@ -15,13 +15,13 @@ SQUARE = 64.0
 """Side of a square [m]; squares count from the origin, along x and z."""
 
 CANDIDATES = 0.7
-"""Side of a cell with one candidate, of the square root of the ground that density gives a tree."""
+"""Side of a cell with one candidate, relative to the square root of the ground that density gives a tree."""
 
 SAME_CELL, LEAST_RIVALS = 0.55, 0.02
 """Area of the disc of rivals within a candidate's own cell, about, and least number of rivals [cells]."""
 
 Share = Callable[[Floats], Floats]
-"""Returns the density at ground positions (n, 2) [m], of the greatest, in [0, 1], shape (n,)."""
+"""Function from ground positions (n, 2) [m] to densities relative to the greatest, in [0, 1], shape (n,)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class Scatter:
     seed: int
     share: Share
     densest: float
-    """Density where `share` is 1, of the kind's."""
+    """Density where `share` is 1, relative to the kind's."""
 
     level: int = 0
     """Cells and squares are 2 to this power times as long, and a tree stands for as many as would stand on its cell."""

@@ -36,7 +36,7 @@ STEPS = 8.0, 64.0, 32.0
 """Distance a viewer goes before each map is drawn anew about another place [m]."""
 
 USUAL_TRUNK = 0.03
-"""Mean diameter of trunks, of their height."""
+"""Mean diameter of trunks, relative to their height."""
 
 STEADY = 0.999995
 """Cosine of the sun's movement after which maps are drawn anew: 0.2 degrees."""
@@ -135,5 +135,5 @@ class ShadeMap:
             self._streams[id(model)].write(far_instances(rows, np.float32(model.model.height), np.float32(0.0)))
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release all GL objects."""
         release_all(*self._streams.values(), self._target, self._texture, self._sampler)

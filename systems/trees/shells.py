@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles
 
 SHELL = 0.75
-"""Near end of a shell, of its far end."""
+"""Distance of a shell's near end, relative to its far end's."""
 
 SHELLS = 7
 """Number of shells among the grass. The nearest goes to the eye: up to a quarter of its reach, grass is blades."""

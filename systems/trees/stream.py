@@ -154,7 +154,7 @@ class GpuModel:
         return empty
 
     def release(self) -> None:
-        """Give everything back."""
+        """Release all GL objects."""
         release_all(self.twigs, self.vertices, self.triangles, self.bare)
         release_all(*self.streams.values(), *self.stood.values(), *self.hung.values())
         release_all(*(each for each in (self.far, self.depths) if each is not None))

@@ -30,11 +30,11 @@ LEAF_PIXELS = 14.0, 22.0
 """Length of a leaf from which on twigs begin to be drawn leaf by leaf, and from which on all are [pixels]."""
 
 BEHIND = 0.5
-"""Depth behind the soft edges of leaves that must be clear for them to be drawn, of their twig's length: what is nearer
+"""Depth behind the soft edges of leaves that must be clear for them to be drawn, in twig lengths: what is nearer
 has their colour. Thin stems among leaves lie as far behind."""
 
 SHOOTS_OFF, SHOOTS_LONG = 0.85, 0.62
-"""Angle of side shoots from their twig [rad]; length of the longest, of the twig's."""
+"""Angle of side shoots from their twig [rad]; length of the longest, relative to the twig's."""
 
 HANGING_OFF = 0.3
 """Angle between twigs that hang side by side, where a card shows several without side shoots [rad]."""
@@ -43,8 +43,8 @@ PICTURES, FINER_EACH = 3, 1.6
 """Number of a twig's pictures, and ratio of leaf sizes from each to the next."""
 
 TWIGS_EACH = FINER_EACH**2
-"""Number of twigs that a picture stands for, of the one before: the distance between leaves is in proportion to their
-size. If leaves were denser, a near tree's cards would look like plates."""
+"""Number of twigs that a picture stands for, relative to the one before: the distance between leaves is in proportion
+to their size. If leaves were denser, a near tree's cards would look like plates."""
 
 GLSL = record_lookup("Twig", TWIG, "tree_twigs", ROW) + emitted(
     {

@@ -40,7 +40,7 @@ FLAT = 1e-9
 """Determinant below which a matrix has no perspective."""
 
 SWAYS = 0.1
-"""Greatest displacement by the wind, of a tree's reach."""
+"""Greatest displacement by the wind, relative to a tree's reach."""
 
 GLSL = {
     "OPAQUE": OPAQUE, "FAINTEST": FAINTEST, "THINNEST": THINNEST, "AWAY": AWAY, "THINS": THINS, "FADES": FADES,
