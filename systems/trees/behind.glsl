@@ -31,7 +31,7 @@ vec4 clip_position_among_leaves(vec3 place, float leafy, float leaf, float high)
 #endif
 }
 
-// Depth offset of soft edges, of the usual depths: opaque pixels hide what soft ones would discard, before they are shaded. It is a
+// Depth offset of soft edges, relative to the usual depths: opaque pixels hide what soft ones would discard, before they are shaded. It is a
 // few steps of 24 bits.
 const float JUST_BEHIND = 4e-7;
 

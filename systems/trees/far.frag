@@ -74,7 +74,7 @@ float tile_cover(vec2 at) {
 #ifdef IN_ROWS
 const vec3 APART = vec3(0.618, 0.755, 0.57);  // steps of the random height, place and side from tree to tree in a row
 const vec3 ROWS_APART = vec3(7.0, 11.0, 13.0);  // and from row to row
-const vec2 LOWER = vec2(1.0, 0.35);  // height of a row's picture, of its trees' least, and range of it
+const vec2 LOWER = vec2(1.0, 0.35);  // height of a row's picture, relative to its trees': least, and range
 
 // Position of a pixel on the picture of its tree in the row.
 vec2 own_picture() {
@@ -129,9 +129,9 @@ vec2 clump_shares(float clump) {
     return clamp(clump_progress.xy - clump_progress.z * clump, 0.0, 1.0);
 }
 
-const float BARE = 0.15;  // coverage by stems where clumps are gone that hid them, of the clumps'
+const float BARE = 0.15;  // coverage by the stems that missing clumps hid, relative to the clumps'
 
-const float UNCLUMPED = 2.5;  // leaves behind the first of a clump that is seen, of the optical depth: 1 / CLUMPING
+const float UNCLUMPED = 2.5;  // leaves behind the first of a clump that is seen, relative to the optical depth: 1 / CLUMPING
 
 // Share of a clump that is left where a tree has few leaves: of many behind one another, one is seen.
 float clump_left(float clump, vec4 shading) {

@@ -36,16 +36,16 @@ flat out vec3 old_pigment;    // mean pigment of its old bark
 flat out vec2 picture_texels; // size of its pictures, across and up [texels]
 flat out vec2 limb_phases;    // phases of its limbs' swing, along and across its picture [rad]
 flat out vec3 clump_progress; // progress of clumps of leaves from the first picture to the second, both ways, and their spread
-flat out float grass_scale;   // its height, of that of the grass about its foot
+flat out float grass_scale;   // its height, relative to that of the grass about its foot
 #endif
 
 out vec3 on;                // position on its picture, each way from 0 to 1, or across a row, with CAST of half its height; height over its foot,
                             // of the tree's
 flat out vec4 tile_corners; // corners of the mixed pictures in their texture, the first and the second
 flat out vec2 mix_shares;   // share of the second
-flat out vec4 motion;       // its random number; amplitude of its limbs and displacement of its top, of its picture; mip level
-flat out vec2 row_of_trees; // number of trees in a row; distance between them, of a picture
-flat out float texel_side;  // size of the coarser texels that are read, of a picture
+flat out vec4 motion;       // its random number; amplitude of its limbs and displacement of its top, relative to its picture; mip level
+flat out vec2 row_of_trees; // number of trees in a row; distance between them, relative to a picture
+flat out float texel_side;  // size of the coarser texels that are read, relative to a picture
 
 const vec2 MIXES = vec2(0.3, 0.7);  // parts of the angle from one picture to the next between which they are mixed
 const float ASKEW_ROWS = 2.0;  // range of the yaws of rows of trees: else all would be parallel [rad]
@@ -54,7 +54,7 @@ const float OVERHEAD = 0.999;  // sine of the elevation from which on a tree cou
 const vec2 SHIMMER_HERTZ = vec2(1.7, 1.3);  // frequencies of limbs along and across a picture [Hz]
 const float CLUMP_CHANGE = 0.25;  // part of the angle from one picture to the next over which a clump of leaves gives way
 const float CHANGE_PER_LEVEL = 2.0;      // growth of that part with each mip level, until a pixel is many clumps
-const float SHIMMER = 0.12;  // apparent amplitude of limbs, of their own, on a picture
+const float SHIMMER = 0.12;  // apparent amplitude of limbs, relative to their own, on a picture
 const float UPRIGHT_RADIANCE = 0.25;  // radiance of an upright stem under level light from behind the eye, per half turn of its side [1/rad]
 
 #ifdef CAST
@@ -78,7 +78,7 @@ float reach_of(ivec4 pictures, int side, int corner) {
 }
 
 const float SPREADS = 2.0;  // spread of a coarser picture [texels], and in pixels
-const float LEANS_OFF = 0.2;  // greatest distance of a bent trunk from a line to its top, of the top's displacement: at 0.42 of its height
+const float LEANS_OFF = 0.2;  // greatest distance of a bent trunk from a line to its top, relative to the top's displacement: at 0.42 of its height
 
 // A corner of its outline, where a pixel is so many texels, widened by mip levels and the wind. Rows of trees have none.
 vec2 corner_offset(ivec4 pictures, float texels) {

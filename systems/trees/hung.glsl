@@ -1,6 +1,6 @@
 // Values of a twig packed in few bytes: two numbers of 16 bits in one of 32.
 const float MAX16 = 65535.0;  // greatest number of 16 bits
-const float LONGEST = 2.0;  // greatest length of an axis, of the twig's
+const float LONGEST = 2.0;  // greatest length of an axis, relative to the twig's
 const float BRIGHTEST = 64.0;  // greatest radiance; its root is packed, as dark ones need finer steps
 const float MAX14 = 16383.0;  // greatest number of 14 bits, which are left beside a picture's index
 const int PICTURE_BITS = 2;

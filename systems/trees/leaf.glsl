@@ -7,7 +7,7 @@
 
 uniform int form;
 
-// Outlines: powers of the distance from the foot and from the tip; width, of the quad's.
+// Outlines: powers of the distance from the foot and from the tip; width, relative to the quad's.
 const vec3 OVATE_OUTLINE = vec3(0.55, 0.8, 1.95), LOBED_OUTLINE = vec3(0.55, 0.35, 1.38);
 const vec2 LOBES = vec2(0.2, 26.0);  // depth of lobes; their frequency [rad]
 const vec2 DELTOID_FOOT = vec2(-0.02, 0.2), DELTOID_TIP = vec2(0.85, 1.12);  // where it widens; as of outlines, without the foot
@@ -17,7 +17,7 @@ float leaf_outline(float along, vec3 shape) {
     return shape.z * pow(along, shape.x) * pow(1.0 - along, shape.y);
 }
 
-// Half the width of a leaf at a part of its length, of its quad's.
+// Half the width of a leaf at a part of its length, relative to its quad's.
 float half_width(float along) {
     if (form == LANCE)
         return sin(PI * pow(along, LANCE_FOOT));
@@ -29,10 +29,10 @@ float half_width(float along) {
 }
 
 const float TUFT_NEEDLES = 3.5;  // to either side of the middle of a tuft
-const float TUFT_FOOT = 0.25;  // width at its foot, of that at its tip
+const float TUFT_FOOT = 0.25;  // width at its foot, relative to that at its tip
 const float TUFT_ROUNDED = 0.18;  // shortening of its outermost needles
-const float NEEDLE_TAPERS = 0.2;  // narrowing of needles towards their tip, of their spacing
-const vec2 NEEDLES_BLUR = vec2(0.8, 0.45);  // pixel size from which needles blur, of their spacing; coverage when blurred
+const float NEEDLE_TAPERS = 0.2;  // narrowing of needles towards their tip, relative to their spacing
+const vec2 NEEDLES_BLUR = vec2(0.8, 0.45);  // pixel size from which needles blur, relative to their spacing; coverage when blurred
 
 // Coverage by needles, which fan out from their foot.
 float needles_cover(vec2 on) {

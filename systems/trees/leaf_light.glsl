@@ -1,6 +1,6 @@
 // Radiance of leaves.
-const vec3 TRANSMITTED = vec3(0.92, 1.08, 0.42);  // transmitted light, of the reflected: more yellow
-const float FACE_GAIN = 1.25;  // radiance of a white face lit from straight ahead, of that of randomly oriented leaves
+const vec3 TRANSMITTED = vec3(0.92, 1.08, 0.42);  // transmitted light, relative to the reflected: more yellow
+const float FACE_GAIN = 1.25;  // radiance of a white face lit from straight ahead, relative to that of randomly oriented leaves
 const float RANDOM_SHARE = 0.45;  // share of a twig's leaves that are randomly oriented, whatever its face
 
 // Radiance of randomly oriented leaves under the sun.

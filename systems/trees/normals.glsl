@@ -9,7 +9,7 @@ uniform vec4 leaf_normals[NORMALS];  // as in normals.py
 struct LeafMean {
     vec3 radiance;    // mean radiance under the sun
     float up;         // mean of the normals' y, towards the eye
-    float darkening;  // mean of the displayed colours, of that of the mean radiance: a dark and a bright leaf together look darker
+    float darkening;  // mean of the displayed colours, relative to that of the mean radiance: a dark and a bright leaf together look darker
     float sun_gain;   // relative gain in brightness of leaves that face the sun, by how much they do
     vec3 normal_mean; // mean normal in its picture
 };

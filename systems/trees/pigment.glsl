@@ -1,11 +1,11 @@
 // Pigments of a kind of tree.
 #include "systems/trees/parameter.py"
 
-const float FURROWED_MEAN = 0.925, BANDED_MEAN = 0.88;  // mean brightness of furrowed and banded bark, of its ground
-const vec2 SOILED = vec2(0.3, 2.8);  // heights between which soil and moss on bark end, of the grass's, with noise added
-const float SOIL_TONE = 0.62;  // brightness of bark below them, of clean bark
+const float FURROWED_MEAN = 0.925, BANDED_MEAN = 0.88;  // mean brightness of furrowed and banded bark, relative to its ground
+const vec2 SOILED = vec2(0.3, 2.8);  // heights between which soil and moss on bark end, relative to the grass's, with noise added
+const float SOIL_TONE = 0.62;  // brightness of bark below them, relative to clean bark
 
-// Brightness of bark under soil and moss at a height, of the grass's.
+// Brightness of bark under soil and moss at a height, relative to the grass's.
 float soil_tone(float height) {
     return mix(SOIL_TONE, 1.0, smoothstep(SOILED.x, SOILED.y, height));
 }

@@ -12,12 +12,12 @@ out vec4 out_haze;
 out vec4 out_grass;
 out vec3 out_light_from_grass;
 
-const vec3 TRUNK_ASIDE = vec3(0.5, TRUNK_ACROSS, 0.37);  // of the trunk across the wind: amplitude and frequency, of those along it; phase
+const vec3 TRUNK_ASIDE = vec3(0.5, TRUNK_ACROSS, 0.37);  // of the trunk across the wind: amplitude and frequency, relative to those along it; phase
 const vec2 GRASS_REFLECTS = vec2(0.5, 0.55);  // part of the sun's and of the sky's light that grass reflects, with its gaps
 const float GRASS_TONE_AT = 0.7;  // height on its blades whose pigment is seen from above
 const float LOWEST_LIGHT = 0.12;  // least sine of the sun's elevation for that light
 
-// Displacement of the trunk's top, of its height.
+// Displacement of the trunk's top, relative to its height.
 vec2 sway_of_trunk(vec2 message) {
     vec2 aside = vec2(-message.y, message.x);
     float across = swing(hertz * TRUNK_ASIDE.y, phase + TRUNK_ASIDE.z);

@@ -6,16 +6,16 @@
 #include "systems/trees/parameter.py"
 
 in vec3 root;        // place [m]
-in float scale;      // size, of its model's
+in float scale;      // size, relative to its model's
 in vec2 turn;        // cosine and sine of its yaw
 in float phase;      // random number, 0 to 1
-in float tint;       // brightness, of its kind's
+in float tint;       // brightness, relative to its kind's
 in float twig_share; // share of its twigs that are drawn, each larger so that together they hide as much
 in float far_fade;   // fade from these to its picture far off, 0 to 1
 in float foliage;    // share of its leaves
 #ifdef STANDS
 // Outputs of stand.vert.
-in vec4 wind_response;    // message of the wind; displacement of the trunk's top, of its height
+in vec4 wind_response;    // message of the wind; displacement of the trunk's top, relative to its height
 in vec4 haze_in_front;    // radiance of the haze in front, and its opacity
 in vec4 grass_about;      // of the grass about its foot: height [m], leaf area, extinction of sunlight; and part of the sun seen past all but
                           // trees
@@ -31,9 +31,9 @@ const vec3 light_from_grass = vec3(0.0);
 
 uniform float moment;  // time, within PERIOD [s]
 
-const vec3 LIMB_ASIDE = vec3(0.7, LIMB_ACROSS, 1.7);  // of a limb across the wind: amplitude and frequency, of those along it; factor of its
+const vec3 LIMB_ASIDE = vec3(0.7, LIMB_ACROSS, 1.7);  // of a limb across the wind: amplitude and frequency, relative to those along it; factor of its
                                                       // phase
-const float OVER_TOP = 1.2;  // height up to which a tree bends, of its model's: twigs and pictures go beyond that
+const float OVER_TOP = 1.2;  // height up to which a tree bends, relative to its model's: twigs and pictures go beyond that
 const float LOWEST_ARC = 0.5;  // twice the least height, for the drop of what is bent aside [m]
 
 // Swing of a lightly damped stem in gusty air, -1 to 1: a narrow band about its own frequency (Crandall and Mark, Random Vibration in

@@ -7,7 +7,7 @@
 uniform int form;           // outline of its leaves
 uniform int twigs;          // number of its model's twigs
 uniform vec4 card;          // extent: left and right, back from its foot, and along [usual length of a twig]
-uniform vec3 picture_cover; // coverage of each picture of its card, of the first one's
+uniform vec3 picture_cover; // coverage of each picture of its card, relative to the first one's
 uniform float twig_length;  // usual length of a twig [m]
 uniform vec3 leaf_shape;    // length, half the greatest width, angle from the twig [usual length of a twig; rad]
 #ifdef BAKED
@@ -18,7 +18,7 @@ uniform vec2 leaf_pixels; // length of a leaf from which on twigs begin to be dr
 
 const uvec4 BYTES_AT = uvec4(0u, 8u, 16u, 24u);  // offsets of the bytes of a number [bits]
 const float ASKEW = 0.01;  // keeps two directions from being one
-const vec2 FLUTTERS = vec2(0.4, 0.25);  // displacement of a twig's tip out of its face and aside, of its leaves' rotation
+const vec2 FLUTTERS = vec2(0.4, 0.25);  // displacement of a twig's tip out of its face and aside, relative to its leaves' rotation
 const vec2 CARD_TONES = vec2(0.9, 0.2);  // least tone of a card, and its range
 const float NEAREST_TWIG = 0.1;  // least distance of a twig [m]
 
@@ -33,7 +33,7 @@ float twig_picture(float chance) {
     return clamp(floor(more + chance), 0.0, float(PICTURES) - 1.0);
 }
 
-// Size of a twig with such a picture, of its own: 0 where it is left out.
+// Size of a twig with such a picture, relative to its own: 0 where it is left out.
 float twig_size(float rank, int picture) {
     float shown = min(twig_share * (1.0 - far_fade), 1.0) * foliage;
     float kept = clamp((shown - rank) * RANKS + 0.5, 0.0, 1.0) * min(foliage * RANKS, 1.0);  // none is left without leaves
@@ -65,7 +65,7 @@ float leaf_rotation(vec4 chance) {
     return LEAF_TURNS * min(length(message), 1.0) * swing(mix(LEAF_HERTZ.x, LEAF_HERTZ.y, chance.x), chance.y + phase);
 }
 
-// Displacement of a twig's tip by that, of its length.
+// Displacement of a twig's tip by that, relative to its length.
 vec3 tip_offset(vec3 face, vec3 aside, float rotation) {
     return rotation * (FLUTTERS.x * face + FLUTTERS.y * aside);
 }

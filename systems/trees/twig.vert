@@ -30,17 +30,17 @@ flat out vec3 leaf_colour;   // its displayed colour
 flat out vec3 midrib_colour; // that of its midrib
 #endif
 
-const float STEM = 0.006;  // half the width of a side shoot at its foot, of its twig's length
-const float STEM_TAPERS = 0.6, STEM_OF_TWIG = 1.6;  // narrowing of its tip; width of the twig itself, of that
+const float STEM = 0.006;  // half the width of a side shoot at its foot, relative to its twig's length
+const float STEM_TAPERS = 0.6, STEM_OF_TWIG = 1.6;  // narrowing of its tip; width of the twig itself, relative to that
 const float SHOOTS_UP_TO = 0.62, SHOOTS_SHORTEN = 0.5;  // position of a twig's last side shoot; its shortening
-const vec2 ANGLES = vec2(0.8, 0.4);  // least angle of shoots and leaves, of the usual one, and its range
-const vec2 LEAF_ANGLES = vec2(1.1, 0.55);  // usual angle of leaves at the foot and the tip of a shoot, of the kind's
-const float FIRST_LEAF = 0.1;  // position of a shoot's first leaf, of its length
+const vec2 ANGLES = vec2(0.8, 0.4);  // least angle of shoots and leaves, relative to the usual one, and its range
+const vec2 LEAF_ANGLES = vec2(1.1, 0.55);  // usual angle of leaves at the foot and the tip of a shoot, relative to the kind's
+const float FIRST_LEAF = 0.1;  // position of a shoot's first leaf, relative to its length
 const float LEAVES_AROUND = 1.4;  // range of the angle of leaves around it, about its left and right [rad]
 const float NODS = 0.35, TILTED = 0.6;  // drooping of leaves; turn about their stalks
-const vec2 LEAF_SIZES = vec2(0.75, 0.45);  // least size of a leaf, of its kind's, and its range
-const float STALK = 0.12;  // length of the stalk, of the leaf's
-const float RIBBED = 0.8;  // tone of a leaf's midrib, of the leaf's
+const vec2 LEAF_SIZES = vec2(0.75, 0.45);  // least size of a leaf, relative to its kind's, and its range
+const float STALK = 0.12;  // length of the stalk, relative to the leaf's
+const float RIBBED = 0.8;  // tone of a leaf's midrib, relative to the leaf's
 const vec2 LEAF_TONES = vec2(0.25, 0.75);  // least tone of a leaf, and its range
 
 // A side shoot of a twig: sine and cosine of its angle; position, and length. The first is the twig itself.
@@ -95,7 +95,7 @@ vec2 corner_of(int vertex) {
 }
 
 // A corner of a leaf or a stem of a twig, in its axes [its usual length], no stem narrower than `narrowest`. `values` is its tone, 1 on
-// a stem, and its width, of that drawn.
+// a stem, and its width, relative to that drawn.
 vec3 corner_on(int twig, int leaf, vec2 corner, float narrowest, out vec3 normal, out vec3 values) {
     if (leaf < leaf_count) {
         values = vec3(LEAF_TONES.x + LEAF_TONES.y * random(twig, leaf, 4).x, 0.0, 1.0);
@@ -139,7 +139,7 @@ void main() {
         gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 }
 #else
-// Half a pixel at a twig, of its length: narrower stems are drawn as wide, with less coverage.
+// Half a pixel at a twig, relative to its length: narrower stems are drawn as wide, with less coverage.
 float half_pixel() {
     return 0.5 * distance(eye, hung_at.xyz) / (pixels_per_metre() * hung_at.w);
 }

@@ -32,15 +32,15 @@ out vec4 pixel;
 
 const vec2 FURROWS = vec2(26.0, 4.0), BANDS = vec2(5.0, 26.0);  // number per metre around and along a stem
 const float WINDINGS = 6.0;  // bends of furrows per metre
-const float FINER = 3.1;  // frequency of cracks, of the furrows'
+const float FINER = 3.1;  // frequency of cracks, relative to the furrows'
 const float DEEP = 0.7;  // share of furrows in the brightness of bark, beside cracks
-const vec2 RIDGES = vec2(0.55, 0.75);  // brightness of a furrow's ground, of the bark's, and added brightness of a ridge
+const vec2 RIDGES = vec2(0.55, 0.75);  // brightness of a furrow's ground, relative to the bark's, and added brightness of a ridge
 const vec2 BAND = vec2(0.58, 0.74);  // noise over which a band fades in
 const vec3 BANDED = vec3(0.7, 0.5, 1.7);  // of that noise, the part all over, and the part in spots; spots per metre
 const vec2 FOOT = vec2(0.1, 1.2);  // positions along a stem between which its foot ends, which has dark spots [m]
 const vec2 SPOTS = vec2(9.0, 5.0);  // spots per metre around and along it
 const vec2 SPOT = vec2(0.28, 0.5);  // noise over which a spot fades in
-const float BAND_TONE = 0.42;  // brightness of bands and spots, of the bark's
+const float BAND_TONE = 0.42;  // brightness of bands and spots, relative to the bark's
 const vec2 FINEST_BARK = vec2(1.5, 18.0);  // furrows show where a pixel is under 1/36 m of bark, and vanish over 1/12;
 const float BROADER = 4.0;  // bands are larger, and show at pixels as many times as large
 const float SHARPER = 1.7;  // contrast gain in pictures of trees, whose texels are interpolated
@@ -49,7 +49,7 @@ const float SOFTER = 1.2;  // widening of a band's fade by the size of a pixel [
 const float SHARPER_BY = -1.5, BANDS_SHARPER = -2.5;  // bias of the noise's mip level: furrows and bands are its peaks, which a mean would lose
 
 #ifdef SOFT
-// Brightness of the bark, of its mean.
+// Brightness of the bark, relative to its mean.
 float bark_brightness() {
     return soil_tone(grass_height);
 }
@@ -62,20 +62,20 @@ float noise(vec2 at) {
     return noise(at, SHARPER_BY);
 }
 
-// Brightness of bark with dark bands across its stem, of its ground.
+// Brightness of bark with dark bands across its stem, relative to its ground.
 float banded_bark(vec2 on, float broad, float pixel) {
     float band = smoothstep(BAND.x - SOFTER * pixel, BAND.y + SOFTER * pixel, noise(on * BANDS, BANDS_SHARPER) * (BANDED.x + BANDED.y * broad));
     float foot = (1.0 - smoothstep(FOOT.x, FOOT.y, on.y)) * smoothstep(SPOT.x, SPOT.y, noise(on * SPOTS));
     return mix(1.0, BAND_TONE, max(band, foot));
 }
 
-// Brightness of bark with furrows along its stem, of its ground.
+// Brightness of bark with furrows along its stem, relative to its ground.
 float furrowed_bark(vec2 on, float broad) {
     float furrows = noise(on * FURROWS + 2.0 * broad), cracks = noise(on * (FURROWS * FINER));
     return mix(1.0, RIDGES.x + RIDGES.y * (DEEP * furrows + (1.0 - DEEP) * cracks), rough);
 }
 
-// Brightness of old bark, of its ground: furrows along it, or dark bands across it; and the broadest octave of its noise.
+// Brightness of old bark, relative to its ground: furrows along it, or dark bands across it; and the broadest octave of its noise.
 vec2 old_bark() {
     float pixel = max(fwidth(bark_at.x), fwidth(bark_at.y)), finest = FINEST_BARK.y / (rough < 0.0 ? BROADER : 1.0);
     float broad = noise(bark_at * (rough < 0.0 ? BANDED.z : WINDINGS));
@@ -83,7 +83,7 @@ vec2 old_bark() {
     return vec2(mix(bark_mean(), old, clamp(FINEST_BARK.x - finest * pixel, 0.0, 1.0)), broad);
 }
 
-// Brightness of the bark, of its ground.
+// Brightness of the bark, relative to its ground.
 float bark_brightness() {
     vec2 old = old_bark();
     return soil_tone(grass_height + old.y - 0.5) * mix(1.0, old.x, age);

@@ -13,7 +13,7 @@ in vec4 side;    // direction of the vertex from the middle, a unit vector, and 
                  // -1 or 1 on its edge
 in vec4 surface; // position around the stem and along it [m]; random number and frequency of its limb
 in vec3 pivot;   // foot of its limb
-in vec4 shading; // optical depth, linear in direction about 0.5 and in the mean, of the greatest
+in vec4 shading; // optical depth, linear in direction about 0.5 and in the mean, relative to the greatest
 
 uniform vec4 stem_least;    // ranges, as in bark.py
 uniform vec4 stem_range;
@@ -37,9 +37,9 @@ flat out vec3 haze_colour;
 #endif
 out float stem_cover;     // coverage
 flat out float ribbon;    // 1 on a ribbon, which is shaded as if round
-out vec2 edge;            // softness of its edges; position of the vertex, of the stem's edge
+out vec2 edge;            // softness of its edges; position of the vertex, relative to the stem's edge
 out float age;            // age of its bark, 0 to 1; or radius of the stem, of THICKEST
-out float grass_height;   // height over the ground, of the grass's
+out float grass_height;   // height over the ground, relative to the grass's
 flat out vec2 grass_here; // leaf area of that grass; its extinction of sunlight
 
 const float ON_EDGE = 0.5;  // beyond it, a vertex is on a ribbon's edge: bytes have no 0
