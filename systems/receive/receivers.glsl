@@ -18,7 +18,7 @@ int receiver_number() {
 
 // A receiver's message (x, z), the height of the ground [m], and the density of its kind.
 vec4 receiver_texel(vec2 place, int kind, int number) {
-    float grows = density_at(place, kind);
+    float dense = density_at(place, kind);
     vec2 message = combined_message(hear(place, kind, false, pool.x * RECEIVED_ROW + number), pressing(place, kind));
-    return vec4(message, height_at(place), grows);
+    return vec4(message, height_at(place), dense);
 }

@@ -21,7 +21,7 @@ from tallgrass.systems.show.blades.plant import (
 from tallgrass.systems.show.blades.pool import BLADE, BladePool
 from tallgrass.systems.show.strips.grow import strips_of, targets_on
 from tallgrass.systems.show.strips.plant import growing_on, plant_strips
-from tallgrass.systems.show.strips.pool import StripPool, falls, strip_edges
+from tallgrass.systems.show.strips.pool import StripPool, is_reversed, strip_edges
 from tallgrass.systems.show.strips.stock import stock_strips
 from tallgrass.systems.space.ground import Ground, turned
 
@@ -158,7 +158,7 @@ def test_g3_strips_are_parallel_planes_stored_by_rising_place(growths: list[Grow
     assert (np.diff(feet[0, :, 0, 1 - along]) > 0.0).all()
     np.testing.assert_allclose(np.diff(feet[0, :, 0, 1 - along]), PATCH / len(strips.plane), atol=1e-5)
     rising = list(range(len(strips.plane)))
-    (backwards,) = falls(np.array([(along + turn) % 2]), np.array([along]), np.array([turn]))
+    (backwards,) = is_reversed(np.array([(along + turn) % 2]), np.array([along]), np.array([turn]))
     assert order[0].tolist() == (rising[::-1] if backwards else rising)
 
 

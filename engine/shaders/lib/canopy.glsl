@@ -19,8 +19,8 @@ float leaf_area_above(float height, ByKind area) {
 }
 
 // Leaf area index above a kind's top, and below it.
-vec2 leaf_area_split(ByKind grows, int k) {
-    ByKind area = leaf_areas(grows);
+vec2 leaf_area_split(ByKind densities, int k) {
+    ByKind area = leaf_areas(densities);
     float over = leaf_area_above(OF(crown, k), area);
     return vec2(over, total(area) - over);
 }

@@ -10,7 +10,7 @@ const float COARSEST = 16.0;  // a mip level beyond the last of any texture: its
 
 // Pigment of soil and litter; white on a game's own ground, whose pigment pixels multiply in. Programs for scenes without one are
 // compiled with PLAIN.
-vec3 soil_pigment(Lie lies, ByKind grows) {
+vec3 soil_pigment(Lie lies, ByKind densities) {
 #ifndef PLAIN
     if (earth_side != 0.0)
         return vec3(1.0);
@@ -19,21 +19,21 @@ vec3 soil_pigment(Lie lies, ByKind grows) {
     float covers = 0.0;
     for (int kind = 0; kind < KINDS; kind++) {
         OF(tipped, kind) = FALLEN_TIPPED * kinds[kind].bloom * kinds[kind].bloom;
-        covers += OF(grows, kind) * min(OF(understorey, kind) * LITTER_FROM, 1.0);
+        covers += OF(densities, kind) * min(OF(understorey, kind) * LITTER_FROM, 1.0);
     }
-    return mix(soil, mean_pigment(grows, tipped), LITTER * min(covers, 1.0)) * dryness_tint(lies.slow);
+    return mix(soil, mean_pigment(densities, tipped), LITTER * min(covers, 1.0)) * dryness_tint(lies.slow);
 }
 
 // Pigment of the understorey's leaves relative to the soil's; 1 where there are none.
-vec3 understorey_pigment(Lie lies, ByKind grows) {
-    vec3 between = soil_pigment(lies, grows);
+vec3 understorey_pigment(Lie lies, ByKind densities) {
+    vec3 between = soil_pigment(lies, densities);
     ByKind tipped;
     for (int group = 0; group < GROUPS; group++) {
-        grows[group] *= understorey[group];
+        densities[group] *= understorey[group];
         tipped[group] = undertone[group];
     }
-    vec3 leaves = mean_pigment(grows, tipped) * dryness_tint(lies.slow);
-    return mix(vec3(1.0), leaves / max(between, BLACKEST), min(total(grows), 1.0));
+    vec3 leaves = mean_pigment(densities, tipped) * dryness_tint(lies.slow);
+    return mix(vec3(1.0), leaves / max(between, BLACKEST), min(total(densities), 1.0));
 }
 
 // Factor of litter and understorey on the soil's pigment: `lying` is read from `repeating`, `lush` is understorey_pigment's.
@@ -65,11 +65,11 @@ Light light_on_soil(vec3 place, Lie lies, float leaves) {
 }
 
 // The soil as a surface, without litter's pattern.
-Surface soil_surface(Lie lies, ByKind grows) {
-    return Surface(soil_pigment(lies, grows), 0.0, 0.0);
+Surface soil_surface(Lie lies, ByKind densities) {
+    return Surface(soil_pigment(lies, densities), 0.0, 0.0);
 }
 
 // Radiance of the soil under a leaf area index.
-vec3 soil_radiance(vec3 place, Lie lies, ByKind grows, float leaves) {
-    return shade(soil_surface(lies, grows), light_on_soil(place, lies, leaves));
+vec3 soil_radiance(vec3 place, Lie lies, ByKind densities, float leaves) {
+    return shade(soil_surface(lies, densities), light_on_soil(place, lies, leaves));
 }

@@ -37,17 +37,17 @@ vec4 density_left(vec2 place, int group) {
 // Density of each kind at a place; where a game has sown or cleared, the mean over squares of `side` [m].
 ByKind density_about(vec2 place, float side) {
     vec2 at = on_terrain_map(place);
-    ByKind grows;
+    ByKind densities;
     for (int group = 0; group < GROUPS; group++)
-        grows[group] = textureLod(density, vec3(at, float(group)), 0.0);
+        densities[group] = textureLod(density, vec3(at, float(group)), 0.0);
     if (anything_is_sown()) {
         Plot plot = sown_plot(place);
         if (plot.sown > 0) for (int group = 0; group < GROUPS; group++)
-            grows[group] = page_texel(plot.sown + group, plot.cell, page_mip(side));
+            densities[group] = page_texel(plot.sown + group, plot.cell, page_mip(side));
     }
     for (int group = 0; group < GROUPS; group++)
-        grows[group] *= density_left(place, group);
-    return grows;
+        densities[group] *= density_left(place, group);
+    return densities;
 }
 
 ByKind density_at(vec2 place) {
@@ -57,18 +57,18 @@ ByKind density_at(vec2 place) {
 // Density of one kind.
 float density_at(vec2 place, int kind) {
     vec2 at = on_terrain_map(place);
-    float grows = textureLod(density, vec3(at, float(GROUP(kind))), 0.0)[IN_GROUP(kind)];
+    float dense = textureLod(density, vec3(at, float(GROUP(kind))), 0.0)[IN_GROUP(kind)];
     if (anything_is_sown()) {
         Plot plot = sown_plot(place);
         if (plot.sown > 0)
-            grows = page_texel(plot.sown + GROUP(kind), plot.cell, 0.0)[IN_GROUP(kind)];
+            dense = page_texel(plot.sown + GROUP(kind), plot.cell, 0.0)[IN_GROUP(kind)];
     }
-    return grows * density_left(place, GROUP(kind))[IN_GROUP(kind)];
+    return dense * density_left(place, GROUP(kind))[IN_GROUP(kind)];
 }
 
 // Leaf area index of each kind.
-ByKind leaf_areas(ByKind grows) {
+ByKind leaf_areas(ByKind densities) {
     for (int group = 0; group < GROUPS; group++)
-        grows[group] *= leaf[group];
-    return grows;
+        densities[group] *= leaf[group];
+    return densities;
 }

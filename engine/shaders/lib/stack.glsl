@@ -5,21 +5,21 @@ vec2 quarter_turned(vec2 place, int turn) {
     return turn == 0 ? place : turn == 1 ? vec2(-place.y, place.x) : turn == 2 ? -place : vec2(place.y, -place.x);
 }
 
-// Whether a model's planes are numbered against the axis that they are stacked on; `own` is the orientation of the model's planes.
-bool is_reversed(int own, int along, int turn) {
-    return own == 0 ? turn == (along == 0 ? 2 : 1) : turn == (along == 0 ? 3 : 2);
+// Whether a model's planes are numbered against the axis that they are stacked on; `orientation` is theirs in the model.
+bool is_reversed(int orientation, int along, int turn) {
+    return orientation == 0 ? turn == (along == 0 ? 2 : 1) : turn == (along == 0 ? 3 : 2);
 }
 
 // The place in the stack of a plane of the model, and also the plane of a place.
-int stack_place(int plane, int count, int own, int along, int turn) {
-    return is_reversed(own, along, turn) ? count - 1 - plane : plane;
+int stack_place(int plane, int count, int orientation, int along, int turn) {
+    return is_reversed(orientation, along, turn) ? count - 1 - plane : plane;
 }
 
 // Foot of a strip's vertical edge on the patch of a cell (x, z) [m].
-vec2 edge_foot(vec2 cell, int turn, int own, int plane, int count, int edge, int columns, float margin) {
+vec2 edge_foot(vec2 cell, int turn, int orientation, int plane, int count, int edge, int columns, float margin) {
     float side = patch_side, u = -margin + (side + 2.0 * margin) * float(edge) / float(columns);
     float v = (float(plane) + 0.5) * (side / float(count));
-    vec2 local = (own == 0 ? vec2(u, v) : vec2(v, u)) - 0.5 * side;
+    vec2 local = (orientation == 0 ? vec2(u, v) : vec2(v, u)) - 0.5 * side;
     return cell * side + quarter_turned(local, turn) + 0.5 * side;
 }
 
@@ -58,11 +58,11 @@ const float LEAST_LEAVES = 0.1;  // least leaf area index, and least optical dep
 // the mean, where strips at a spacing stop it, each with an optical depth x: by half a spacing times 1 / tanh(x / 2) in place of
 // 2 / x; half of that counts from the top of the grass on. `run` is along the strips; `strips` stand on a patch; `tall` is the
 // height of the grass [m].
-float depth_correction(vec2 run, vec3 foot, int strips, ByKind grows, float tall) {
+float depth_correction(vec2 run, vec3 foot, int strips, ByKind densities, float tall) {
     tall = max(tall, LOWEST_CROWN);
     vec2 off = normalize(vec2(-run.y, run.x)), ray = foot.xz - eye.xz;
     float away = max(length(ray), CLOSEST), slope = max((eye.y - foot.y + dot(gradient_at(foot.xz), ray)) / away, FLATTEST_SIGHT);
-    float way = patch_side / float(strips) * away / max(abs(dot(off, ray)), CLOSEST), area = max(total(leaf_areas(grows)), LEAST_LEAVES);
+    float way = patch_side / float(strips) * away / max(abs(dot(off, ray)), CLOSEST), area = max(total(leaf_areas(densities)), LEAST_LEAVES);
     float deep = mean_depth_met(area / slope), leaves = max(way * 2.0 * area * deep / tall, LEAST_LEAVES);
     return deep / (deep + 0.5 * slope * way / tall * (0.5 / tanh(0.5 * leaves) - 1.0 / leaves));
 }
@@ -77,10 +77,10 @@ float breadth_ratio(float whole, float painted) {
 // Factor on the coverage of painted blades: the ratio of the breadths that the eye sees of real blades, which face all ways and lean
 // to `top`, and of painted ones, which face as their strip does. That runs along `run` and leans to `top` and `back`.
 float coverage_factor(int kind, vec2 run, vec3 middle, vec3 top, vec2 back) {
-    vec3 ray = normalize(middle - eye), own = cross(top + vec3(back.x, 0.0, back.y), ray);
+    vec3 ray = normalize(middle - eye), painted_across = cross(top + vec3(back.x, 0.0, back.y), ray);
     vec2 all = cross(top, ray).xz;
     float lies = OF(lying, kind) * top.y * ray.y, whole = sqrt(dot(all, all) + lies * lies);
-    return breadth_ratio(whole, dot(run, own.xz));
+    return breadth_ratio(whole, dot(run, painted_across.xz));
 }
 
 // The same factor for heads. These are as broad from all sides, so that flat ones keep their breadth, which on a strip they would
@@ -89,8 +89,8 @@ float head_coverage_factor(int kind, vec2 run, vec3 middle, vec3 top, vec2 back)
     float leaves = coverage_factor(kind, run, middle, top, back);
     if (OF(bears, kind) < 0.5)
         return leaves;
-    vec3 ray = normalize(middle - eye), own = cross(top + vec3(back.x, 0.0, back.y), ray);
-    return max(leaves, breadth_ratio(length(cross(top, ray)), dot(run, own.xz)));
+    vec3 ray = normalize(middle - eye), painted_across = cross(top + vec3(back.x, 0.0, back.y), ray);
+    return max(leaves, breadth_ratio(length(cross(top, ray)), dot(run, painted_across.xz)));
 }
 
 const vec2 HEADED = vec2(0.1, 0.6);  // painted tones: those of stems and leaves are below, those of petals and florets above

@@ -151,14 +151,14 @@ Light light_at(vec3 place, Reflector reflector, float high, float seen) {
 }
 
 // The light on leaves of a kind that are bent by `bend`; `seen` is the sun's visibility.
-Light leaf_light(int kind, vec2 bend, vec3 place, Lie lies, ByKind grows, float seen) {
+Light leaf_light(int kind, vec2 bend, vec3 place, Lie lies, ByKind densities, float seen) {
     Light light = light_at(place, Reflector(kind, bend, lies.normal, 1.0), lies.sun_sine, seen);
-    light.leaves = leaf_area_split(grows, kind);
+    light.leaves = leaf_area_split(densities, kind);
     return light;
 }
 
-Light leaf_light(int kind, vec2 bend, vec3 place, Lie lies, ByKind grows) {
-    return leaf_light(kind, bend, place, lies, grows, sun_visibility(place, lies.visibility));
+Light leaf_light(int kind, vec2 bend, vec3 place, Lie lies, ByKind densities) {
+    return leaf_light(kind, bend, place, lies, densities, sun_visibility(place, lies.visibility));
 }
 
 // The light on a kind where all is cut at `top` [m], so that leaves above shade nothing. `area` is each kind's leaf area.

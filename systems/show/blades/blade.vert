@@ -149,12 +149,12 @@ vec3 set_pigments(Blade blade, vec2 across, bool has_section, bool is_round, vec
 // Set its painted place.
 void set_painted(Standing on_patch, int blade, int k, int form) {
     int ring = int(on_patch.ring), model = int(on_patch.model_turn) / 4, turn = int(on_patch.model_turn) % 4;
-    int along = int(on_patch.along), own = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;
-    int row = (model * 2 + own) * each + blade, slice = ring * models * 2 * each + row;
+    int along = int(on_patch.along), orientation = (along + turn) % 2, count = stacks[ring].z, columns = stacks[ring].x;
+    int row = (model * 2 + orientation) * each + blade, slice = ring * models * 2 * each + row;
     int plane = int(texelFetch(slices, ivec2(slice % SLICES_ROW, slice / SLICES_ROW), 0).r);
-    int strip = k * count + stack_place(plane, count, own, along, turn);
-    vec2 first = edge_foot(on_patch.cell, turn, own, plane, count, 0, columns, sizes[form].x);
-    vec2 second = edge_foot(on_patch.cell, turn, own, plane, count, 1, columns, sizes[form].x);
+    int strip = k * count + stack_place(plane, count, orientation, along, turn);
+    vec2 first = edge_foot(on_patch.cell, turn, orientation, plane, count, 0, columns, sizes[form].x);
+    vec2 second = edge_foot(on_patch.cell, turn, orientation, plane, count, 1, columns, sizes[form].x);
     float receiver = on_patch.first_edge + float(strip * (columns + 1));
     base = vec4(first, second - first);
     painted = vec4(receiver, float(row), sizes[form].y * on_patch.growth, on_patch.morph);
@@ -187,8 +187,8 @@ void main() {
     lean_across = vec4(bent(blown * give_of(int(blade.organ)), blade.rest), 0.5 * blade.width * across);
 
     Lie lies = lie_at(blade.root.xz);
-    ByKind grows = density_at(blade.root.xz);
-    Light light = leaf_light(k, blown, blade.root, lies, grows);
+    ByKind densities = density_at(blade.root.xz);
+    Light light = leaf_light(k, blown, blade.root, lies, densities);
     if (any_lamps()) {
         float suns;
         light = add_lamps(light, blade.root, Reflector(k, blown, lies.normal, 1.0), suns);
@@ -200,7 +200,7 @@ void main() {
     canopy_organ.xyz = vec3(up.y / canopy_height, blade.height / canopy_height, blade.organ);
     if (anything_is_cut()) {
         float top = cut_height_at(blade.root.xz);
-        light = light_when_cut(top, light, k, leaf_areas(grows));
+        light = light_when_cut(top, light, k, leaf_areas(densities));
         top -= foot_on_stem(blade, stem_rest(blade)).y;
         canopy_organ.z += min(1.0 - cut_at(blade, top / blade.height), MOST_CUT);
     }

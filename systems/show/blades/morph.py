@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from ....components.arrays import Floats
 from ...around.outlook import Outlook
 from ..strips.gather import lies_ahead
-from ..strips.pool import falls
+from ..strips.pool import is_reversed
 from ..strips.representation import StripRepresentation
 from .gather import Numbers, far_first
 from .pool import BladePool
@@ -59,11 +59,11 @@ def gather_morph(
     patches, rows = outlook.patches, shown.rows
     ring, along = strips.ring_and_axis(outlook, rows)
     model, turn = patches.model[rows], patches.turn[rows]
-    own = (along + turn) % 2
+    orientation = (along + turn) % 2
     counts = np.array([declared.strips for declared in strips.quality.strip_rings])[ring]
-    plane = strips.stock.slices[ring, model, own]
+    plane = strips.stock.slices[ring, model, orientation]
     # Strips are counted from the far side, planes in the order of the model.
-    backwards = falls(own, along, turn) != lies_ahead(patches.cell[rows], outlook.viewer.centre, along)
+    backwards = is_reversed(orientation, along, turn) != lies_ahead(patches.cell[rows], outlook.viewer.centre, along)
     slices = np.where(backwards[:, None], counts[:, None] - 1 - plane, plane)
     assert outlook.appearance is not None
     side, moved = strips.quality.patch, outlook.appearance.morph[rows][:, None]

@@ -206,11 +206,11 @@ float eyed_seen(Point point, float t) {
 // Radiance of a blade of kind `k` at its painted place, with tone `t`, a fraction `eyed` of the eye's colour and face normal `face`.
 vec3 painted_radiance(int k, float t, float eyed, vec2 face, Painted target) {
     Lie lies = lie_at(target.middle.xz);
-    ByKind grows = density_at(target.middle.xz);
-    float deep = depth_correction(target.run.xz, target.middle, stacks[int(level_kind.w)].z, grows, OF(crown, k) * lodged(target.bend));
+    ByKind densities = density_at(target.middle.xz);
+    float deep = depth_correction(target.run.xz, target.middle, stacks[int(level_kind.w)].z, densities, OF(crown, k) * lodged(target.bend));
     vec3 pigment = pigment_at(k, mix(1.0, t, deep), eyed) * dryness_tint(lies.slow) * azimuth_tint(k, doubled_angle(face));
     pigment *= facing_tint(k, normalize(target.run.xz), target.middle, target.top);
-    Light light = leaf_light(k, target.bend, target.middle, lies, grows);
+    Light light = leaf_light(k, target.bend, target.middle, lies, densities);
     if (has_casters())
         light = shadowed(light, casters_visibility(target.place), 1.0);
     if (any_lamps()) {
@@ -219,7 +219,7 @@ vec3 painted_radiance(int k, float t, float eyed, vec2 face, Painted target) {
     }
     light = hazed(light, target.middle);
     if (anything_is_cut())
-        light = light_when_cut(cut_height_at(target.place.xz), light, k, leaf_areas(grows));
+        light = light_when_cut(cut_height_at(target.place.xz), light, k, leaf_areas(densities));
     return shade(leaf_surface(pigment, mix(1.0, target.h, deep)), light);
 }
 

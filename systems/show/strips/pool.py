@@ -23,16 +23,16 @@ def strip_edges(strips: Strips, columns: int, along: Ints, turn: Ints, /, *, pat
     count, orientation = len(strips.plane), (along + turn) % 2
     u = np.linspace(-strips.margin, patch + strips.margin, columns + 1, dtype=np.float32)
     # The edges of a strip and the planes of a patch are symmetric about its middle: a turn only reverses their order.
-    is_reversed = (turn == 2) | (turn == np.where(orientation == 0, 3, 1))
-    run = np.where(is_reversed[:, None], u[::-1], u)[:, None, :]
+    runs_back = (turn == 2) | (turn == np.where(orientation == 0, 3, 1))
+    run = np.where(runs_back[:, None], u[::-1], u)[:, None, :]
     feet = np.empty((len(turn), count, columns + 1, 2), np.float32)
     for axis in (0, 1):
         feet[..., axis] = np.where((along == axis)[:, None, None], run, strips.plane[:, None])
     order = np.arange(count, dtype=np.int32)
-    return feet, np.where(falls(orientation, along, turn)[:, None], order[::-1], order)
+    return feet, np.where(is_reversed(orientation, along, turn)[:, None], order[::-1], order)
 
 
-def falls(orientation: Ints, along: Ints, turn: Ints, /) -> NDArray[np.bool_]:
+def is_reversed(orientation: Ints, along: Ints, turn: Ints, /) -> NDArray[np.bool_]:
     """Return whether the order of a model's planes is reversed along the axis that they are stacked on, shape (m,).
 
     `orientation` is that of the strips in the model, `along` the axis that they run along on the turned patch.

@@ -166,13 +166,13 @@ vec2 corner_of(Column column, vec4 extent, vec2 pixel, float level, vec2 side, f
 
 // Set the varyings of a column's pigment: blades that face the eye are seen most. In dense grass, fragments are lit and coloured
 // as less deep in the canopy than they are.
-void set_pigment(Column column, vec2 run, vec3 middle, vec3 top, float lying, vec2 slow, ByKind grows) {
+void set_pigment(Column column, vec2 run, vec3 middle, vec3 top, float lying, vec2 slow, ByKind densities) {
     vec3 mean_face = facing_tint(column.kind, run, middle, top), dry = dryness_tint(slow) * mean_face;
     float aside = 1.0 - smoothstep(0.0, 1.0, view_sine(middle)), turned = column.turn % 2 == 0 ? 1.0 : -1.0;
     float arched = 1.0 - ARCHED * inversesqrt(float(stacks[column.ring].y)) * lying * aside;
     if (OF(bears, column.kind) > 0.5)  // heads are on top, even on lying stems
         arched = 1.0;
-    float deep = depth_correction(run, middle, stacks[column.ring].z, grows, OF(crown, column.kind) * (1.0 - lying));
+    float deep = depth_correction(run, middle, stacks[column.ring].z, densities, OF(crown, column.kind) * (1.0 - lying));
     uv.w = mix(1.0, uv.w, deep);
     pigment_change.rgb = (pigment_at(column.kind, 1.0) - pigment_at(column.kind, 0.0)) * dry * arched;
     root_pigment.rgb = pigment_at(column.kind, 0.0) * dry + pigment_change.rgb * (1.0 - deep);
@@ -296,7 +296,7 @@ void main() {
     uv = vec4(at, corner.x, point.w);
 
     Lie lies = lie_at(rooted.xz);
-    ByKind grows = density_at(rooted.xz);
+    ByKind densities = density_at(rooted.xz);
     float seen = distant_visibility(rooted, lies.visibility);
 #ifdef SHADED
     seen *= bodies_visibility(rooted, nearest_body(a.rooted, b.rooted));
@@ -305,7 +305,7 @@ void main() {
 #ifdef CUT
     cut = cut_near(column, rooted.xz, middle, pixels, 2.0 * distance(a.foot.xz, b.foot.xz));
 #endif
-    Light light = leaf_light(k, bend, rooted, lies, grows, seen);
+    Light light = leaf_light(k, bend, rooted, lies, densities, seen);
     float suns = 1.0;
     if (any_lamps())
         light = add_lamps(light, rooted, Reflector(k, bend, lies.normal, 1.0), suns);
@@ -316,7 +316,7 @@ void main() {
     set_tree_shade(point.xyz, rooted, suns);
 #endif
     lit = pack_light(light, vec3(extent.w, level, boost));
-    set_pigment(column, run, middle, top, 1.0 - lodged(bend), lies.slow, grows);
+    set_pigment(column, run, middle, top, 1.0 - lodged(bend), lies.slow, densities);
     root_pigment.a = column.placement.cover;
 #ifdef DEEP
     number = place_number(rooted.xz);

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from tallgrass.components.arrays import Doubles
 from tallgrass.systems.grow.bend import bending
 from tallgrass.systems.light.draw import LightPart
-from tallgrass.systems.show.strips.pool import falls
+from tallgrass.systems.show.strips.pool import is_reversed
 from tallgrass.systems.show.strips.shown import StripsShown
 
 FILTERED = 0.02
@@ -84,7 +84,7 @@ def test_w1_a_strip_stands_between_two_edges_on_the_ground_each_bent_as_numpy_sa
         turn, along = patches.turn[ring.rows], ring.along
         own = (along + turn) % 2
         np.testing.assert_array_equal(picture, (patches.model[ring.rows] * 2 + own)[patch])
-        stack = np.where(falls(own, along, turn)[patch], count - 1 - plane, plane)
+        stack = np.where(is_reversed(own, along, turn)[patch], count - 1 - plane, plane)
         places = receiving.pool.places(ring.slots)
         heard = receiving.messages.heard(ring.slots).reshape(places.shape)
         height = np.array([strips.height for strips in stock.strips[0]])[kind] * scene.appears.growth[ring.rows][patch]

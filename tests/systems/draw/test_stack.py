@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.systems.grow.record import Growth
-from tallgrass.systems.show.strips.pool import StripPool, falls
+from tallgrass.systems.show.strips.pool import StripPool, is_reversed
 from tallgrass.systems.show.strips.stock import stock_strips
 from tallgrass.systems.site import Site
 
@@ -52,7 +52,7 @@ def test_g3_edges_stand_in_the_same_places_on_the_card_and_in_numpy_whichever_wa
     told = probe(ASK % words, np.array(rows, np.float32), record, {}, 4)
     np.testing.assert_allclose(told[:, :2], pool.places(slots).reshape(-1, 2), atol=2e-5)
     along, turn = ways.T
-    backwards = np.repeat(falls((along + turn) % 2, along, turn), kinds * count * edges)
+    backwards = np.repeat(is_reversed((along + turn) % 2, along, turn), kinds * count * edges)
     np.testing.assert_array_equal(told[:, 3], backwards)
     stack = np.array(rows)[:, 1]
     np.testing.assert_array_equal(told[:, 2], np.where(backwards, count - 1 - stack, stack))
