@@ -39,8 +39,8 @@ vec3 pulled_nearer(vec3 foot, vec2 run, int strips) {
 const float SPREAD = 2.0;  // spacings of strips that each must hide of the ground behind it
 
 // Extra offset (x, z) [m] of a strip's top away from the eye, beyond its posture's `top` [m]. A strip seen along its bent blades is
-// a thin line with bare ground on both sides, while real blades are rooted all over a slice of ground and hide it. `run` is along the
-// strip; `strips` stand on a patch.
+// a thin line with bare ground on both sides, while real blades are rooted all over a slice of ground and hide it: the more, the more
+// the ground falls away from the eye. `run` is along the strip; `strips` stand on a patch.
 vec2 laid_back(vec2 run, vec3 foot, vec3 top, float height, int strips) {
     vec2 off = normalize(vec2(-run.y, run.x)), ray = foot.xz - eye.xz;
     off *= sign(dot(off, ray));

@@ -56,7 +56,8 @@ out vec4 root_pigment;  // pigment at the root; row of the posture table
 out vec4 tip_pigment;   // pigment at the tip; fraction of its length, from the foot on, that is hidden
 out mat4 lit;           // bundled light on it, and the relative change of pigment to its sides
 out vec4 canopy_organ;  // height of its foot in the canopy, and its length, both relative to the canopy; organ + fraction cut off; cover
-out vec4 level_kind;    // sub-level + slide to the next; coverage from which on it hides what is behind; kind + fraction of light from lamps; ring of strips, or visibility of teeth
+out vec4 level_kind;    // sub-level + slide to the next; coverage from which on it hides what is behind; kind + fraction of
+                        // light from lamps; ring of strips, or visibility of teeth
 
 const float MOST_CUT = 0.999;  // largest fraction of a blade that is cut off
 const float PARTED = 0.5;  // coverage from which on a blade near by hides what is behind it
