@@ -29,7 +29,7 @@ def short(monkeypatch: pytest.MonkeyPatch) -> None:
         (still, "WARM_UP", 2), (scale, "SIDES", (100.0,)), (noop, "FRAMES", 2),
     ):  # fmt: skip
         monkeypatch.setattr(module, name, value)
-    monkeypatch.setattr(scale, "_alone", scale._measured)  # noqa: SLF001 - another process would draw many frames
+    monkeypatch.setattr(scale, "_in_new_process", scale._measured)  # noqa: SLF001 - another process would draw many frames
     monkeypatch.setattr(pop, "MOST_PROCESSES", 1)
     monkeypatch.setattr(pop, "legs", lambda prairie: stroll.legs(prairie)[:1])
 

@@ -99,7 +99,7 @@ def test_n3_strips_that_are_too_bright_are_named_as_drift(
     def brightened(name: str, *how: Any) -> tuple[str, list[shaders.Line]]:
         source, lines = real(name, *how)
         if name == "systems/show/strips/strips.frag":
-            source = source.rstrip().removesuffix("}") + "    pixel.rgb *= 1.0 + 0.3 * foot.a;\n}\n"
+            source = source.rstrip().removesuffix("}") + "    pixel.rgb *= 1.0 + 0.3 * root_pigment.a;\n}\n"
         return source, lines
 
     monkeypatch.setattr(shaders, "compose", brightened)

@@ -148,7 +148,7 @@ def test_x5_even_grass_looks_the_same_where_pixels_look_for_its_edges(
     pictures = []
     for looks in (False, True):
         if looks:
-            monkeypatch.setattr(Edges, "at", lambda *told: np.ones_like(sum(told[-1]), np.bool_))
+            monkeypatch.setattr(Edges, "touch", lambda *told: np.ones_like(sum(told[-1]), np.bool_))
         prairie = load(HILLS)
         prairie.cut(Footprint(radius=150.0), np.inf)  # which cuts nothing
         for x, z, eye, pitch in ((0.0, 40.0, 1.5, 0), (10.0, 60.0, 2.5, 0), (0.0, 70.0, 9.0, -8)):
