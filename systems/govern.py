@@ -82,7 +82,7 @@ RUNGS = _rungs()
 
 
 @dataclass(frozen=True, slots=True)
-class Pace:
+class GovernorState:
     """The governor's state for one viewer: its rung, and how its frames keep to their time."""
 
     rung: int = 0
@@ -104,39 +104,39 @@ class Pace:
     """Whether the last change was a climb to a finer rung."""
 
 
-def paced(pace: Pace, seconds: float, /, *, hold: float) -> Pace:
-    """Return the pace after a frame on its rung has taken `seconds`; `hold` is the frame time held [s].
+def next_state(state: GovernorState, seconds: float, /, *, hold: float) -> GovernorState:
+    """Return the state after a frame on its rung has taken `seconds`; `hold` is the frame time held [s].
 
     It descends fast, and climbs only as far as the frame time is sure to allow. So it comes to rest under any steady
     load, and does not oscillate. After a climb that had to be taken back, the next climb waits longer.
     """
-    if pace.uncounted:
-        return replace(pace, uncounted=pace.uncounted - 1)
-    times = (*pace.times, seconds)
+    if state.uncounted:
+        return replace(state, uncounted=state.uncounted - 1)
+    times = (*state.times, seconds)
     if len(times) < FEWEST or sum(times) < WATCHED:
-        return replace(pace, times=times)
-    pace, over = replace(pace, times=()), log(max(median(times), 1e-6) / hold)
+        return replace(state, times=times)
+    state, over = replace(state, times=()), log(max(median(times), 1e-6) / hold)
     if over > ABOVE:
         rungs = ceil(EAGER * over / RUNG)
-        return _descended(pace, rungs if over > SUDDEN else min(rungs, GENTLE), hold)
-    if over < -BELOW and pace.short + 1 < pace.patience:
-        return replace(pace, short=pace.short + 1)
-    return _climbed(pace, floor(-over / RUNG), hold) if over < -BELOW else replace(pace, short=0)
+        return _descended(state, rungs if over > SUDDEN else min(rungs, GENTLE), hold)
+    if over < -BELOW and state.short + 1 < state.patience:
+        return replace(state, short=state.short + 1)
+    return _climbed(state, floor(-over / RUNG), hold) if over < -BELOW else replace(state, short=0)
 
 
-def _descended(pace: Pace, rungs: int, hold: float) -> Pace:
-    rung = min(len(RUNGS) - 1, pace.rung + rungs)
-    if rung == pace.rung:
-        return pace
-    patience = min(LONGEST_PATIENCE, 2 * pace.patience) if pace.climbed else 1
-    return Pace(rung, _frames_of_change(pace.rung, rung, hold), patience=patience)
+def _descended(state: GovernorState, rungs: int, hold: float) -> GovernorState:
+    rung = min(len(RUNGS) - 1, state.rung + rungs)
+    if rung == state.rung:
+        return state
+    patience = min(LONGEST_PATIENCE, 2 * state.patience) if state.climbed else 1
+    return GovernorState(rung, _frames_of_change(state.rung, rung, hold), patience=patience)
 
 
-def _climbed(pace: Pace, rungs: int, hold: float) -> Pace:
-    rung = max(0, pace.rung - min(rungs, GENTLE))
-    if rung == pace.rung:
-        return replace(pace, short=0)
-    return Pace(rung, _frames_of_change(pace.rung, rung, hold), patience=pace.patience, climbed=True)
+def _climbed(state: GovernorState, rungs: int, hold: float) -> GovernorState:
+    rung = max(0, state.rung - min(rungs, GENTLE))
+    if rung == state.rung:
+        return replace(state, short=0)
+    return GovernorState(rung, _frames_of_change(state.rung, rung, hold), patience=state.patience, climbed=True)
 
 
 def _frames_of_change(rung: int, other: int, hold: float) -> int:
@@ -158,7 +158,7 @@ class Governor:
         self.resting = False
         """Whether rungs and ranges stay as they were in the frame before."""
 
-        self._paces: dict[str, Pace] = {}
+        self._states: dict[str, GovernorState] = {}
         self._rungs: dict[str, int] = {}
         """Rung at which the present frame is drawn, by viewer."""
         self._begun = 0.0
@@ -182,7 +182,7 @@ class Governor:
         """
         name, self._begun = outlook.viewer.name, perf_counter()
         if not self.resting and not goes_on:
-            self._rungs[name] = 0 if self.hold is None else self._paces.setdefault(name, Pace()).rung
+            self._rungs[name] = 0 if self.hold is None else self._states.setdefault(name, GovernorState()).rung
             outlook.lens.range = eased(
                 outlook.lens.range, RUNGS[self._rungs[name]].range, dt=change_step(outlook.viewer)
             )
@@ -198,13 +198,13 @@ class Governor:
         A graphics card's own time is measured, which arrives some frames later. Where there is no card, the processor's
         time since the frame began is added.
         """
-        if self.hold is None or viewer not in self._paces:  # a system may have set `hold` since the frame began
+        if self.hold is None or viewer not in self._states:  # a system may have set `hold` since the frame began
             yield self.fineness(viewer)
             return
         watch, spent = painter.stopwatch, perf_counter() - self._begun
         with watch.timing((viewer, self._rungs.get(viewer, 0))):
             yield self.fineness(viewer)
         for (name, rung), seconds in watch.read():
-            pace = self._paces[name]
-            if rung == pace.rung and not self.resting:
-                self._paces[name] = paced(pace, seconds + (spent if watch.waits else 0.0), hold=self.hold)
+            state = self._states[name]
+            if rung == state.rung and not self.resting:
+                self._states[name] = next_state(state, seconds + (spent if watch.waits else 0.0), hold=self.hold)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tallgrass.systems.govern import ABOVE, BELOW, RUNG, RUNGS, Governor, Pace, eased, paced
+from tallgrass.systems.govern import ABOVE, BELOW, RUNG, RUNGS, Governor, GovernorState, eased, next_state
 
 HOLD = 0.05
 LAST = len(RUNGS) - 1
@@ -15,11 +15,11 @@ LAST = len(RUNGS) - 1
 shares = st.floats(0.0, 10.0)
 
 
-def walked(times: list[float], *, frames: int = 4000, pace: Pace | None = None) -> list[int]:
+def walked(times: list[float], *, frames: int = 4000, state: GovernorState | None = None) -> list[int]:
     """Return the rungs of so many frames where each rung takes a time of its own [s]."""
-    now, rungs = pace or Pace(), []
+    now, rungs = state or GovernorState(), []
     for _ in range(frames):
-        now = paced(now, times[now.rung], hold=HOLD)
+        now = next_state(now, times[now.rung], hold=HOLD)
         rungs.append(now.rung)
     return rungs
 
@@ -66,40 +66,40 @@ def test_n11_where_it_rests_the_time_is_held_and_no_more_is_left_out_than_that_t
 
 @given(st.lists(st.floats(0.0, 1e6), max_size=300), st.floats(1e-3, 10.0))
 def test_n11_whatever_frames_take_it_stays_on_the_ladder(times: list[float], hold: float) -> None:
-    pace = Pace()
+    state = GovernorState()
     for seconds in times:
-        pace = paced(pace, seconds, hold=hold)
-        assert 0 <= pace.rung <= LAST
+        state = next_state(state, seconds, hold=hold)
+        assert 0 <= state.rung <= LAST
 
 
 @given(st.integers(0, LAST), st.floats(0.3, 3.0))
 def test_n11_when_the_load_goes_everything_is_drawn_again(rung: int, load: float) -> None:
-    heavy = walked(takes(0.2, 0.5 * load, load), pace=Pace(rung))
-    assert walked(takes(0.1, 0.1, 0.1), pace=Pace(heavy[-1]))[-1] == 0
+    heavy = walked(takes(0.2, 0.5 * load, load), state=GovernorState(rung))
+    assert walked(takes(0.1, 0.1, 0.1), state=GovernorState(heavy[-1]))[-1] == 0
 
 
 def test_n11_a_load_that_comes_and_goes_is_followed_ever_more_patiently() -> None:
-    pace, climbs = Pace(), []
+    state, climbs = GovernorState(), []
     for _ in range(6000):
-        before, alone = pace, 0.84 if pace.rung else 1.2  # as if all of a frame's time went at once
-        pace = paced(pace, HOLD * alone, hold=HOLD)
-        climbs.append(pace.rung < before.rung)
+        before, alone = state, 0.84 if state.rung else 1.2  # as if all of a frame's time went at once
+        state = next_state(state, HOLD * alone, hold=HOLD)
+        climbs.append(state.rung < before.rung)
     early, late = sum(climbs[:500]), sum(climbs[-500:])
     assert 0 < 2 * late <= early
 
 
 def test_n11_a_single_slow_frame_changes_nothing() -> None:
-    pace = Pace()
+    state = GovernorState()
     for number in range(600):
-        pace = paced(pace, 0.4 if number % 10 == 7 else 0.9 * HOLD, hold=HOLD)
-        assert pace.rung == 0
+        state = next_state(state, 0.4 if number % 10 == 7 else 0.9 * HOLD, hold=HOLD)
+        assert state.rung == 0
 
 
 def test_n11_the_first_frames_do_not_count() -> None:
-    pace = Pace()
+    state = GovernorState()
     for seconds in (3.0, 0.5, *[0.9 * HOLD] * 30):
-        pace = paced(pace, seconds, hold=HOLD)
-        assert pace.rung == 0
+        state = next_state(state, seconds, hold=HOLD)
+        assert state.rung == 0
 
 
 def test_ranges_follow_little_by_little_and_arrive() -> None:
