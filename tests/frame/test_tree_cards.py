@@ -163,7 +163,7 @@ def test_far_off_level_leaves_let_the_sun_through_to_who_looks_up_at_them(stage:
     assert prairie.painter is not None
     part = vars(prairie.painter.part(TreePart))
     oak, programs = part["_kinds"][0], vars(part["_programs"])["_programs"].values()
-    kept = [each.lies for each in oak.models]
+    kept = [each.normals for each in oak.models]
 
     def let_lie(all_lies: list[Normals]) -> None:
         for model, lies in zip(oak.models, all_lies, strict=True):
