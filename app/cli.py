@@ -1,4 +1,4 @@
-"""The command `tallgrass`: what each of its commands takes, and how it ends.
+"""The command `tallgrass`: the arguments of its commands, and their exit status.
 
 Every command exits with 0 on success, with 2 on bad input (one line per problem), and with 1 on a failure of its own.
 """
@@ -41,7 +41,9 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.add_typer(bench, name="bench")
-plugins = typer.Typer(help="Kinds of wind and systems that other packages bring.", no_args_is_help=True)
+plugins = typer.Typer(
+    help="List and check winds and systems of installed packages, or begin a wind of your own.", no_args_is_help=True
+)
 app.add_typer(plugins, name="plugins")
 begin = typer.Typer(help="Begin a game, or a wind of your own.", no_args_is_help=True)
 app.add_typer(begin, name="new")
@@ -50,10 +52,10 @@ app.add_typer(begin, name="new")
 def main() -> None:
     """Run the command line and leave Python with its exit status.
 
-    Asked to end, as by `kill`, it takes away what is half written, and exits with 143.
+    On SIGTERM it removes half-written files, and exits with 143.
     """
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, TextIOWrapper):  # what a terminal cannot show, as `\u8349`, is better than nothing said
+        if isinstance(stream, TextIOWrapper):  # a character that a terminal lacks shows as `\u8349`
             stream.reconfigure(errors="backslashreplace")
     asked: list[int] = []
 
@@ -67,9 +69,9 @@ def main() -> None:
 
 
 def run(arguments: list[str], /) -> int:
-    """Run one command and return its exit status; what went wrong is told on standard error, without a traceback.
+    """Run one command and return its exit status; errors go to standard error, without a traceback.
 
-    With `TALLGRASS_TRACEBACK` in the environment, failures of our own keep theirs.
+    With `TALLGRASS_TRACEBACK` in the environment, unexpected errors keep theirs.
     """
     try:
         status = typer.main.get_command(app).main(arguments, prog_name="tallgrass", standalone_mode=False)
@@ -82,7 +84,7 @@ def run(arguments: list[str], /) -> int:
         return _tell(str(error), status=2)
     except MachineError as error:
         return _tell(str(error), status=1)
-    except Exception as error:  # noqa: BLE001 - whatever it is, it gets a sentence
+    except Exception as error:  # noqa: BLE001 - any error is told in one sentence
         return _unexpected(error)
 
 
@@ -93,15 +95,17 @@ def walk(
     preset: Preset = None,
     *,
     fullscreen: Fullscreen = False,
-    seconds: Annotated[float | None, typer.Option(min=0.1, max=36000.0, help="Close by itself after so long.")] = None,
+    seconds: Annotated[
+        float | None, typer.Option(min=0.1, max=36000.0, help="Close by itself after so many seconds.")
+    ] = None,
     overlay: Laid = None,
     hold: Hold = None,
     edit: Edit = False,
 ) -> None:
     """Walk through a scene in a window; F1 shows the keys.
 
-    60 frames a second are held, and 20 where there is no graphics card: what takes too long is drawn with fewer pixels.
-    With --edit the scene is changed while one walks in it, and written back.
+    Holds 60 frames a second, or 20 without a graphics card, by drawing fewer pixels and less distant grass.
+    With --edit you change the scene while you walk, and save it into its file.
     """
     take = Take(scene, size_of(size), preset, overlay=overlay_of(overlay))
     from .walk import walk_in
@@ -113,14 +117,18 @@ def walk(
 def shot(
     output: Output,
     scene: Scene = "meadow",
-    time: Annotated[float, typer.Option(min=0.0, max=36000.0, help="Instant of the scene, in seconds.")] = 0.0,
+    time: Annotated[float, typer.Option(min=0.0, max=36000.0, help="Time of the scene, in seconds.")] = 0.0,
     size: Size = "1280x720",
     preset: Preset = None,
-    lod: Annotated[LodName, typer.Option(help="Representation, the same one everywhere unless auto.")] = "auto",
+    lod: Annotated[LodName, typer.Option(help="One representation for all grass, or auto: by distance.")] = "auto",
     *,
     reference: Reference = False,
     camera: Annotated[
-        str | None, typer.Option(metavar="X,Y,Z,YAW,PITCH", help="Metres and degrees; Y is absolute.")
+        str | None,
+        typer.Option(
+            metavar="X,Y,Z,YAW,PITCH",
+            help="Camera in metres and degrees; Y is a height in the scene, not above ground.",
+        ),
     ] = None,
     overlay: Laid = None,
 ) -> None:
@@ -137,16 +145,16 @@ def shot(
 def film(
     output: Output,
     scene: Scene = "meadow",
-    seconds: Annotated[float | None, typer.Option(min=0.0, max=36000.0, help="How long it lasts.")] = None,
+    seconds: Annotated[
+        float | None, typer.Option(min=0.0, max=36000.0, help="Seconds of film; by default those of the camera's path.")
+    ] = None,
     fps: Annotated[int, typer.Option(min=1, max=120, help="Frames per second.")] = 24,
     size: Size = "640x360",
     preset: Preset = None,
     *,
     reference: Reference = False,
     overlay: Laid = None,
-    frames: Annotated[
-        str | None, typer.Option(metavar="A:B", help="Only frame A to the one before B of the whole film.")
-    ] = None,
+    frames: Annotated[str | None, typer.Option(metavar="A:B", help="Only frames A to B - 1 of the film.")] = None,
     on: On = None,
 ) -> None:
     """Film a scene along its camera's path, without a window: .webp, .gif, .mp4, or a folder of pictures."""
@@ -160,7 +168,7 @@ def film(
 
 @app.command()
 def check(scenes: Scenes) -> int:
-    """Validate scenes, and tell every problem of each."""
+    """Validate scenes, and print every problem of each."""
     from .check import check
 
     return check(scenes)
@@ -168,7 +176,7 @@ def check(scenes: Scenes) -> int:
 
 @app.command()
 def grow(scenes: Scenes, preset: Preset = None, on: On = None) -> None:
-    """Grow the grass of scenes beforehand, so that they open at once."""
+    """Grow the grass of scenes in advance, so that they open at once."""
     from .grow import grow
 
     grow(scenes, preset=preset, on=on)
@@ -177,11 +185,11 @@ def grow(scenes: Scenes, preset: Preset = None, on: On = None) -> None:
 @app.command()
 def figures(
     output: Output,
-    only: Annotated[str | None, typer.Option(metavar="N,...", help="Numbers of some figures, as 6,8.")] = None,
+    only: Annotated[str | None, typer.Option(metavar="N,...", help="Only these figures, such as 6,8.")] = None,
     size: Size = "960x540",
     preset: Preset = None,
 ) -> None:
-    """Draw the figures of the paper into a folder, with a page index.html that shows them."""
+    """Draw the figures of the paper that tallgrass follows into a folder, and a page index.html that shows them."""
     pixels = size_of(size)
     from .figures.make import make_figures
 
@@ -190,9 +198,9 @@ def figures(
 
 @app.command()
 def schema() -> None:
-    """Print the JSON Schema of scene files, installed plugins included, for an editor.
+    """Print the JSON Schema of scene files, for editors; it includes installed winds.
 
-    A language server for YAML finds it by a comment anywhere in a scene: # yaml-language-server: $schema=FILE
+    Save it as FILE. A language server for YAML finds it by a comment in a scene: # yaml-language-server: $schema=FILE
     """
     from .check import schema
 
@@ -201,7 +209,7 @@ def schema() -> None:
 
 @app.command()
 def doctor() -> int:
-    """Tell what this machine has, and for each thing missing the line that installs it."""
+    """Check packages, OpenGL, windows and winds on this machine; for each missing thing, print how to install it."""
     from .doctor import doctor
 
     return doctor()
@@ -209,28 +217,28 @@ def doctor() -> int:
 
 @plugins.command("list")
 def list_(*, json: Json = False) -> None:
-    """Tell every kind of wind and every installed system, who brings it, and whether another claims it."""
+    """List winds and installed systems, each with its package, and whether another package claims its name."""
     from .plugins import list_plugins
 
     list_plugins(json=json)
 
 
 @plugins.command("check")
-def check_(name: Annotated[str, typer.Argument(metavar="NAME", help="A kind of wind.")]) -> int:
-    """Tell every problem of a kind of wind: its fields, and what it answers all along its timeline."""
+def check_(name: Annotated[str, typer.Argument(metavar="NAME", help="The kind of wind, as scenes call it.")]) -> int:
+    """Check a kind of wind: its fields, and what it computes all along its timeline."""
     from .plugins import check_plugin
 
     return check_plugin(name)
 
 
-Folder = Annotated[str | None, typer.Option("-o", "--output", help="A new folder; by default NAME.")]
+Folder = Annotated[str | None, typer.Option("-o", "--output", help="Folder to make; by default NAME.")]
 WindName = Annotated[str, typer.Argument(metavar="NAME", help="The kind of wind, as scenes will call it.")]
 
 
 @plugins.command("new")
 @begin.command("wind")
 def wind(name: WindName, output: Folder = None) -> None:
-    """Begin a plugin: an installable package with one kind of wind that works, and its test."""
+    """Begin a wind of your own: an installable package with one kind of wind that works, and its test."""
     from .scaffold import new_wind
 
     new_wind(name, output)
@@ -238,10 +246,10 @@ def wind(name: WindName, output: Folder = None) -> None:
 
 @begin.command("game")
 def game(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="The game, as its window is called.")],
+    name: Annotated[str, typer.Argument(metavar="NAME", help="The game's name, also its window's title.")],
     output: Folder = None,
 ) -> None:
-    """Begin a game: a walk through a prairie, with a wind by key, a pause, settings for quality, and a test."""
+    """Begin a game: a walk through a prairie with a gust on a key, a pause, a choice of quality, and a test."""
     from .scaffold import new_game
 
     new_game(name, output)

@@ -1,4 +1,4 @@
-"""Options and arguments that several commands take, and what is read from them."""
+"""Options and arguments that several commands take, and functions that parse them."""
 
 import math
 from collections.abc import Callable
@@ -17,7 +17,7 @@ Value = TypeVar("Value")
 
 
 def bundled(beginning: str) -> list[str]:
-    """Return the bundled scenes whose names begin so; where there are none, a shell goes on with files."""
+    """Return the bundled scenes whose names begin with `beginning`; a shell adds files where there are none."""
     from ..engine.scene import bundled_scenes
 
     return [name for name in bundled_scenes() if name.startswith(beginning)]
@@ -28,25 +28,31 @@ Scene = Annotated[
     typer.Argument(metavar="SCENE", help="A scene file, or the name of a bundled scene.", autocompletion=bundled),
 ]
 Scenes = Annotated[
-    list[str], typer.Argument(metavar="SCENE...", help="Files or bundled names.", autocompletion=bundled)
+    list[str],
+    typer.Argument(metavar="SCENE...", help="Scene files, or names of bundled scenes.", autocompletion=bundled),
 ]
 Size = Annotated[str, typer.Option(metavar="WxH", help="Width and height in pixels.")]
-Preset = Annotated[PresetName | None, typer.Option(help="Quality, in place of the scene's own.")]
-Reference = Annotated[bool, typer.Option("--reference", help="Draw every blade in 3D, supersampled.")]
-Laid = Annotated[
-    str | None, typer.Option("--overlay", metavar="PART,...", help=f"Show how it works: {', '.join(LAYERS)}, or all.")
+Preset = Annotated[PresetName | None, typer.Option(help="Quality preset that replaces the scene's own quality.")]
+Reference = Annotated[
+    bool, typer.Option("--reference", help="Draw every blade in 3D, supersampled: slow, for comparison.")
 ]
-Output = Annotated[str, typer.Option("-o", "--output", help="Where it is written.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Laid = Annotated[
+    str | None,
+    typer.Option("--overlay", metavar="PART,...", help=f"Draw on top how it works: {', '.join(LAYERS)}, or all."),
+]
+Output = Annotated[str, typer.Option("-o", "--output", help="File or folder to write.")]
+Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
 Hold = Annotated[
     float | None,
-    typer.Option(min=0.0, max=1000.0, metavar="FPS", help="Frames a second to hold, by drawing less; 0 draws it all."),
+    typer.Option(min=0.0, max=1000.0, metavar="FPS", help="Frame rate to hold by drawing less; 0 never draws less."),
 ]
 On = Annotated[
     str | None,
-    typer.Option(metavar="PLACE", help="Let workers do it: local, local:4, or the address of a Dask scheduler."),
+    typer.Option(
+        metavar="PLACE", help="Share the work among processes: local, local:4, or a Dask scheduler's address."
+    ),
 ]
-Edit = Annotated[bool, typer.Option("--edit", help="Change the scene by a panel and on the ground.")]
+Edit = Annotated[bool, typer.Option("--edit", help="Edit the scene: in a panel, and on the ground.")]
 Fullscreen = Annotated[bool, typer.Option("--fullscreen", help="Fill the screen.")]
 
 
@@ -59,7 +65,7 @@ def size_of(text: str, /, *, reference: bool = False) -> tuple[int, int]:
 
 
 def overlay_of(text: str | None, /, *, reference: bool = False) -> frozenset[Layer]:
-    """Return the parts of `--overlay`."""
+    """Return the layers of `--overlay`; a reference has none."""
     if text is None:
         return frozenset()
     if reference:
@@ -78,7 +84,7 @@ def camera_of(text: str, /) -> Camera:
 
 
 def _read(option: str, parse: Callable[[str], Value], text: str) -> Value:
-    """Return what an option's text says; raises InputError with what is wrong with it."""
+    """Return the parsed text of an option; raises InputError for a text that cannot be parsed."""
     try:
         return parse(text)
     except ValueError as error:

@@ -20,9 +20,9 @@ def walk_in(
 ) -> None:
     """Open a window on a scene and return when it is closed: by the user, or after `seconds` by itself.
 
-    So many frames a second as `hold` says are held; with None what suits the machine, with 0 none. Without a graphics
-    card a preset is `low` unless the take asks for another. With `edit`, a panel changes the scene. Raises `SceneError`
-    where the scene is wrong, MachineError where no window can be opened, or no panel.
+    `hold` is the frame rate to hold [1/s]: None is the one that suits the machine, 0 is none. Without a graphics card,
+    presets finer than `low` become `low`, unless the take names one. With `edit`, a panel changes the scene. Raises
+    `SceneError` where the scene is wrong, MachineError where no window can be opened, or no panel.
     """
     if edit:
         needed("imgui_bundle", "the panel of --edit is drawn by imgui-bundle", extra="edit")

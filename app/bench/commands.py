@@ -1,4 +1,4 @@
-"""The commands of `tallgrass bench`: what each of them takes."""
+"""The commands of `tallgrass bench` and their arguments."""
 
 from typing import Annotated
 
@@ -8,10 +8,18 @@ from ..options import Hold, Json, On, Output, Preset, Scene, Size, bundled, size
 from ..studio.take import Take
 
 Scenes = Annotated[
-    str, typer.Argument(metavar="SCENE", help="A scene file, a bundled scene, or a folder.", autocompletion=bundled)
+    str,
+    typer.Argument(
+        metavar="SCENE",
+        help="A scene file, the name of a bundled scene, or a folder of scenes.",
+        autocompletion=bundled,
+    ),
 ]
 
-bench = typer.Typer(help="Measure: what frames take, how true they are, and whether they pop.", no_args_is_help=True)
+bench = typer.Typer(
+    help="Measure frame times, how close pictures are to every blade in 3D, and whether anything pops.",
+    no_args_is_help=True,
+)
 
 
 @bench.command("frame")
@@ -21,9 +29,9 @@ def frame(
     size: Size = "1280x720",
     *,
     json: Json = False,
-    viewers: Annotated[int, typer.Option(min=1, max=16, help="Viewers in every frame, side by side.")] = 1,
+    viewers: Annotated[int, typer.Option(min=1, max=16, help="Number of viewers in each frame, side by side.")] = 1,
 ) -> None:
-    """Measure how long a frame takes, and what it is made of."""
+    """Measure how long a frame takes, and each part of it."""
     take = Take(scene, size_of(size), preset)
     from .frame import frame_measured
     from .machine import tell
@@ -38,10 +46,12 @@ def picture(
     size: Size = "1280x720",
     *,
     json: Json = False,
-    output: Annotated[str | None, typer.Option("-o", "--output", help="A folder for pictures with references.")] = None,
+    output: Annotated[
+        str | None, typer.Option("-o", "--output", help="Folder for the pictures and their references.")
+    ] = None,
     on: On = None,
 ) -> None:
-    """Measure how far a picture is from every blade in 3D, supersampled; of a folder, those of all its scenes."""
+    """Measure how far a picture is from a reference with every blade in 3D; takes a folder of scenes, too."""
     take = Take(scene, size_of(size), preset)
     from .many import bench_many
     from .picture import SURVEY
@@ -56,15 +66,19 @@ def pop(
     size: Size = "640x360",
     *,
     json: Json = False,
-    parts: Annotated[bool, typer.Option("--parts", help="Also leave out each part of the transitions alone.")] = False,
-    output: Annotated[str | None, typer.Option("-o", "--output", help="A folder for pictures of what shows.")] = None,
+    parts: Annotated[
+        bool, typer.Option("--parts", help="Also measure walks without each part of the transitions.")
+    ] = False,
+    output: Annotated[
+        str | None, typer.Option("-o", "--output", help="Folder for pictures of the worst frames.")
+    ] = None,
     hold: Hold = None,
     climb: Annotated[
         bool, typer.Option("--climb", help="Climb up to 60 m instead of walking, and then look straight down.")
     ] = False,
     on: On = None,
 ) -> None:
-    """Measure whether a change of representation can be seen on a walk; of a folder, in all its scenes."""
+    """Measure whether changes of representation can be seen on a walk; takes a folder of scenes, too."""
     take = Take(scene, size_of(size), preset)
     from .many import bench_many
     from .pop import must_be_large, pop_survey
@@ -75,7 +89,7 @@ def pop(
 
 @bench.command("walk")
 def walk(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False) -> None:
-    """Measure whether frames keep taking the same time on a walk."""
+    """Measure how even frame times are on a walk."""
     take = Take(scene, size_of(size), preset)
     from .machine import tell
     from .walk import walk_measured
@@ -87,7 +101,10 @@ def walk(scene: Scene = "meadow", preset: Preset = None, size: Size = "1280x720"
 def scale(
     scene: Scenes = "meadow", preset: Preset = None, size: Size = "1280x720", *, json: Json = False, on: On = None
 ) -> None:
-    """Measure what a larger terrain costs, up to 10 km; by workers, on one scene at a time on each machine."""
+    """Measure frame times on larger and larger terrains, up to 10 km.
+
+    With --on, each machine measures one scene at a time.
+    """
     take = Take(scene, size_of(size), preset)
     from .many import bench_many
     from .scale import SURVEY
@@ -101,10 +118,10 @@ def all_(
     scene: Scene = "meadow",
     preset: Preset = None,
     size: Annotated[
-        str | None, typer.Option(metavar="WxH", help="Of all pictures; else each benchmark has its own.")
+        str | None, typer.Option(metavar="WxH", help="Width and height in pixels; by default each benchmark's own.")
     ] = None,
     against: Annotated[
-        str | None, typer.Option(metavar="FILE", help="The bench.json of another version, to be shown beside.")
+        str | None, typer.Option(metavar="FILE", help="The bench.json of an earlier run, to compare with.")
     ] = None,
     *,
     json: Json = False,

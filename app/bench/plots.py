@@ -116,7 +116,7 @@ def _pop(results: Sequence[Result]) -> Figure:
     left, right = figure.subplots(1, 2, width_ratios=(2, 3))
     keys = (("flicker", "ratio"), ("drift", "mean"), ("ghosting", "max"))
     rows = [(key, [each[key][part] / each["limits"][key] for each in results]) for key, part in keys]
-    bars(left, rows, unit="of what is not to be seen")
+    bars(left, rows, unit="relative to the limit")
     left.axvline(1.0, color=SERIES[1], linewidth=1.0)
     found = [{row["change"]: row["mean_drift"] for row in each["changes"]} for each in results]
     names = list(dict.fromkeys(name for each in reversed(found) for name in each))
@@ -129,10 +129,10 @@ def _inner(value: dict[str, float] | None, key: str) -> float | None:
 
 
 PLOTS = (
-    Plot("A frame", "To its end on the graphics card, and what every blade in 3D would take.", "frame", _frame),
-    Plot("Systems", "What each system takes in that frame, at the median.", "frame", _systems),
-    Plot("A walk", "Frames of a walk in gusts, and the memory at its beginning and end.", "walk", _walk),
+    Plot("A frame", "Frame time, and what every blade in 3D takes, in such frames.", "frame", _frame),
+    Plot("Systems", "Median time of each system in that frame, on the CPU.", "frame", _systems),
+    Plot("A walk", "Frame times of a walk in gusts, and the memory at its beginning and end.", "walk", _walk),
     Plot("Larger terrains", "The same scene on larger and larger ground.", "scale", _scale),
-    Plot("A picture", "How far it is from every blade in 3D, supersampled; less is truer.", "picture", _picture),
-    Plot("Changes of representation", "In terms of their limits: above 1 they can be seen.", "pop", _pop),
+    Plot("A picture", "FLIP against the reference (less is truer), and brightness by distance.", "picture", _picture),
+    Plot("Changes of representation", "Relative to their limits: above 1 they can be seen.", "pop", _pop),
 )

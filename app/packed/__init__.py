@@ -1,8 +1,8 @@
-"""What a packer has to know: PyInstaller finds the hook in this folder by an entry point (`pyinstaller40`)."""
+"""The hook for PyInstaller, which finds this folder by the entry point `pyinstaller40`."""
 
 from pathlib import Path
 
 
 def hook_folders() -> list[str]:
-    """Return where hooks for PyInstaller are."""
+    """Return the folders of hooks for PyInstaller."""
     return [str(Path(__file__).parent)]

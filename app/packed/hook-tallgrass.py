@@ -1,6 +1,6 @@
-"""What PyInstaller packs with tallgrass: its files, and the winds and systems of all that is installed.
+"""Files and modules that PyInstaller packs with tallgrass, also those of all installed winds and systems.
 
-Winds and systems are imported by name when a scene asks for them, which no packer sees.
+Scenes import winds and systems by name at run time, so a packer cannot find them in the code.
 """
 
 from PyInstaller.utils.hooks import collect_data_files, collect_entry_point, copy_metadata
@@ -18,7 +18,7 @@ FILES = {
         "light/repeating.py",
     ],
 }
-"""What is read at run time, by package. So is the code that grows: what was grown by other code is grown again."""
+"""Files read at run time, by package. Code that grows grass is read, too: its hash is a part of the cache's keys."""
 
 datas = copy_metadata("tallgrass")
 hiddenimports = []
@@ -29,4 +29,4 @@ for group in ("tallgrass.wind", "tallgrass.systems"):
     datas += found
     hiddenimports += modules
     for name in {module.partition(".")[0] for module in modules} - {"tallgrass"}:
-        datas += collect_data_files(name, includes=["**/*.glsl"])  # the twins of others' winds
+        datas += collect_data_files(name, includes=["**/*.glsl"])  # twins of plugins' winds

@@ -72,14 +72,14 @@ class _Bar:
         self._done += worth
         self.show(0.0)
 
-    def show(self, share: float) -> None:
-        """Show the work done, including a fraction `share` of the next part; a bar never goes back."""
+    def show(self, fraction: float) -> None:
+        """Show the work done, including a fraction of the next part; a bar never goes back."""
         if self._total is not None:
-            self._furthest = max(self._furthest, self._done + share * self.worth)
+            self._furthest = max(self._furthest, self._done + fraction * self.worth)
             self.progress.update(self._task, completed=self._furthest)
-            share = self._furthest / self._total if self._total else 1.0
+            fraction = self._furthest / self._total if self._total else 1.0
         if self is not _shown[0]:
-            _shown[_shown.index(self) - 1].show(min(1.0, share))
+            _shown[_shown.index(self) - 1].show(min(1.0, fraction))
 
     def end(self) -> None:
         """Remove the bar."""

@@ -26,7 +26,7 @@ class Studio:
     """A prairie, and a framebuffer to draw it into; a context manager.
 
     The scene is `loaded` if given, else the take's. Raises `SceneError` where the scene is wrong,
-    RuntimeError where there is no OpenGL.
+    MachineError where there is no OpenGL.
     """
 
     def __init__(self, take: Take, loaded: LoadedScene | None = None) -> None:

@@ -1,1 +1,1 @@
-"""What `tallgrass new` writes: the files of a game and of a wind, for their author to change."""
+"""Templates of the files that `tallgrass new` writes: a game and a wind, for their author to change."""

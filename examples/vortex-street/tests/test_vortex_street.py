@@ -1,4 +1,4 @@
-"""The vortex street keeps to what tallgrass asks of every wind, and its whirls turn the way a rock sheds them."""
+"""The vortex street keeps the rules of winds, and its vortices turn and drift as behind a rock."""
 
 import numpy as np
 from vortex_street import VortexStreet
@@ -10,13 +10,13 @@ STREET = VortexStreet(rock=2.0, speed=1.0, strength=1.0)
 GRASS = Grass(np.zeros(2, np.intp), *np.ones((3, 1, 2), np.float32))
 
 
-def test_it_is_a_wind_as_tallgrass_asks() -> None:
-    """Its kit checks all that."""
+def test_it_keeps_the_rules_of_winds() -> None:
+    """A failure lists each broken rule in one sentence."""
     check_wind(VortexStreet)
 
 
-def test_its_twin_on_the_graphics_card_says_the_same() -> None:
-    """Wherever there is one, and a software rasteriser counts."""
+def test_its_twin_computes_the_same() -> None:
+    """It needs OpenGL, but no graphics card: a software rasteriser will do."""
     with headless_context() as ctx:
         assert twin_problems(STREET, ctx) == []
 
@@ -31,7 +31,7 @@ def test_whirls_on_either_side_blow_ahead_outside_and_back_inside() -> None:
 
 
 def test_whirls_drift() -> None:
-    """Two seconds on, everything is 2 m farther from the rock, but for having grown."""
+    """Two seconds later everything is 2 m farther from the rock, and a little larger."""
     place = np.array([[2.9, -7.5], [2.9, -9.0]], np.float32)
     before = STREET.action(place, time=22.5, seed=0, grass=GRASS)
     after = STREET.action(place - np.array([0.0, 2.0], np.float32), time=24.5, seed=0, grass=GRASS)
