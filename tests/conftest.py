@@ -1,4 +1,4 @@
-"""What all tests share: numbers that fail loudly, one headless GL context, a private world, a display."""
+"""Fixtures of all tests: numpy errors raise; one headless GL context, a private world, a display, a cache."""
 
 import ctypes
 import gc
@@ -34,15 +34,15 @@ from tallgrass.systems.stock import cache
 from tallgrass.systems.stock.cache import cached_growth, growth_key
 from tallgrass.testing import NoContextError, headless_context, private_world
 
-# The floor of what is supported, so that nothing newer is used by accident; only Mesa reads these.
+# The oldest supported OpenGL, so that no test uses anything newer; only Mesa reads these.
 os.environ.setdefault("MESA_GL_VERSION_OVERRIDE", "3.3FC")
 os.environ.setdefault("MESA_GLSL_VERSION_OVERRIDE", "330")
 
-# A test's pictures are small: to compile a program well takes Mesa's software rasteriser longer than to draw with it as
-# it is. Pixels are the same.
+# Pictures in tests are small: Mesa's software rasteriser would optimise a program for longer than it draws with it.
+# Pixels are the same.
 os.environ.setdefault("GALLIVM_PERF", "nopt")
 
-# The same examples on every machine, however slow it is.
+# The same examples on every machine, with no limit of time.
 settings.register_profile("tallgrass", deadline=None, derandomize=True, max_examples=25)
 settings.load_profile("tallgrass")
 
@@ -50,20 +50,20 @@ Python = Callable[..., str]
 OnCard = list[tuple[Receiving, NDArray[np.float32]]]
 
 REMEMBERED, KEPT = 24, 120
-"""Growths that are held in memory, of a few megabytes each, and in the cache."""
+"""Numbers of growths kept in memory, of a few megabytes each, and in the cache."""
 
 PROGRAMS = 40
-"""How many that were released are kept for the next prairie: a software rasteriser's take 5 MB each."""
+"""Number of released programs kept for the next prairie; each takes 5 MB in a software rasteriser."""
 
 SEEDS = 64
-"""Seeds whose ground and clouds are remembered, less than a megabyte each."""
+"""Number of seeds whose ground and clouds are kept, less than a megabyte each."""
 
 QUICK = "test_drawing_twice_at_the_same_time_gives_the_same_picture"
 SLOW_FOLDERS = "app", "docs", "examples", "hosts", "packaging"
-"""Of what is drawn, all that a quick run has; and the folders of `tests` that it leaves out."""
+"""The only test of a quick run that draws, and the folders of `tests` that a quick run leaves out."""
 
 PARENT = Path(__file__).with_name("parent_program.py")
-"""Has imported all that programs import, and becomes one each time that it is told of one."""
+"""Program that imports what all programs import, and forks to run each of them."""
 
 LITTLE_GRASS = """
 from tallgrass.engine.declared.grass import GrassKind
@@ -80,27 +80,27 @@ def _grow_little(mechanics=models._Mechanics.of(GrassKind()), postures=models._p
 
 _grow_little()
 """
-"""What is run first in a program whose grass matters little: all presets are coarse, and all grass bends alike."""
+"""Code that makes a program's grass grow in a moment: all presets are coarse, and all kinds bend alike."""
 
 _HOME = pytest.StashKey[moderngl.Framebuffer]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Offer a run of less than a minute."""
+    """Add the option `--quick`, for a run of less than a minute."""
     parser.addoption(
-        "--quick", action="store_true", help="only what takes a moment: engine, systems and scenes, and one picture"
+        "--quick", action="store_true", help="only quick tests: of engine, systems and scenes, and one picture"
     )
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Leave out folders whose tests start programs, where a run is to be quick."""
+    """Leave out `SLOW_FOLDERS`, whose tests start programs, in a quick run."""
     return True if config.option.quick and collection_path.name in SLOW_FOLDERS else None
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark what draws, and run what opens windows last: a window takes the current GL context away.
+    """Mark tests that draw, and run those that open windows last: a window takes the current GL context away.
 
-    What takes other people's programs, or long, is left out unless `-m` names its mark.
+    Tests marked `hosts` or `slow` are left out unless `-m` names the mark.
     """
     for mark in ("hosts", "slow"):
         if mark not in config.option.markexpr:
@@ -115,10 +115,10 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def pytest_collection_finish() -> None:
-    """Let the collector of garbage go through what tests make, and not through all of them."""
+    """Exclude all objects made until now from garbage collection, which would go through them again and again."""
     gc.collect()
     gc.freeze()
-    gc.collect()  # how much it found last decides when it goes through all again
+    gc.collect()  # the number of objects in this one decides when the next full collection is due
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -129,7 +129,7 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_teardown(item: pytest.Item) -> None:
-    """Make them current for what fixtures give back, too: elsewhere it would not be given back at all."""
+    """Make them current for the release of fixtures, too: in another context nothing would be released."""
     _come_home(item)
 
 
@@ -141,7 +141,7 @@ def _come_home(item: pytest.Item) -> None:
 
 
 def _do_without(reason: str) -> NoReturn:
-    """Skip a test that cannot run on this machine, or fail it where everything has to run."""
+    """Skip a test that cannot run on this machine; with TALLGRASS_REQUIRE_GL=1, fail it."""
     if os.environ.get("TALLGRASS_REQUIRE_GL") == "1":
         pytest.fail(f"TALLGRASS_REQUIRE_GL=1, but {reason}")
     pytest.skip(reason)
@@ -149,17 +149,17 @@ def _do_without(reason: str) -> NoReturn:
 
 @pytest.fixture(autouse=True)
 def _numbers_fail_loudly() -> Iterator[None]:
-    # An underflow to zero is what exponential fall-offs are meant to end in.
+    # Exponentials may underflow to zero.
     with np.errstate(divide="raise", over="raise", invalid="raise", under="ignore"):
         yield
 
 
 @pytest.fixture(scope="session", autouse=True)
 def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Grow into a cache of our own, which workers beside one another share, and leave the user's as it is.
+    """Grow into a cache of the tests' own, which parallel workers share; the user's cache stays as it is.
 
-    Where no bytecode may lie beside sources, it has a folder here too: more than half of what programs that tests start
-    would do is to compile the same modules again.
+    If Python writes no bytecode beside sources, bytecode goes into a folder here: programs that tests start would spend
+    more than half of their time compiling the same modules again.
     """
     folder = tmp_path_factory.getbasetemp()
     if "PYTEST_XDIST_WORKER" in os.environ:
@@ -170,13 +170,13 @@ def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
             patch.delenv("PYTHONDONTWRITEBYTECODE", raising=False)
             patch.setenv("PYTHONPYCACHEPREFIX", str(folder / "bytecode"))
         yield
-    if sys.pycache_prefix is not None:  # what is compiled of our own folder is of no use to anybody after it
+    if sys.pycache_prefix is not None:  # bytecode of the tests' own folder is of no use later
         shutil.rmtree(Path(sys.pycache_prefix, *folder.parts[1:]), ignore_errors=True)
 
 
 @pytest.fixture(scope="session", autouse=True)
 def _grown_once() -> Iterator[None]:
-    """Let prairies share what was grown last: to read it from the cache again takes longer than many tests."""
+    """Keep the last growths in memory: reading one from the cache takes longer than many tests."""
     grown: OrderedDict[tuple[Path | None, str], Growth] = OrderedDict()
 
     def remembered(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
@@ -198,17 +198,17 @@ def _grown_once() -> Iterator[None]:
 
 @pytest.fixture(scope="session", autouse=True)
 def _programs_as_they_are_drawn() -> Iterator[None]:
-    """Make programs as they are drawn, as for films: to compile those of a game takes longer than most tests."""
+    """Compile programs when first drawn, as films do: compiling all that a game needs takes longer than most tests."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(holding, "AHEAD", False)
         yield
 
 
 class _Programs:
-    """Programs of the shared context that were released, and are taken again by who asks for the same.
+    """Pool of released programs of the shared context; a prairie that asks for an equal program gets one of them.
 
-    Each has its uniforms as they were when it was made. To have the driver read one from its cache takes longer than to
-    draw a small picture with it, and each is asked for by tens of prairies, one after the other.
+    Its uniforms are reset to their first values. The driver would take longer to read a program from its cache than to
+    draw a small picture with it, and tens of prairies ask for each program, one after another.
     """
 
     def __init__(self, ctx: moderngl.Context) -> None:
@@ -217,7 +217,7 @@ class _Programs:
         self._make, self._release = moderngl.Context.program, moderngl.Program.release
 
     def lend(self, ctx: moderngl.Context, *shaders: Any, **how: Any) -> moderngl.Program:
-        """Give one that is there, or make it."""
+        """Return a program from the pool, or else make it."""
         if ctx is not self._ctx or shaders or not how.keys() <= {"vertex_shader", "fragment_shader", "varyings"}:
             return self._make(ctx, *shaders, **how)
         key = how["vertex_shader"], how.get("fragment_shader"), tuple(how.get("varyings", ()))
@@ -232,7 +232,7 @@ class _Programs:
         return made
 
     def take_back(self, program: moderngl.Program) -> None:
-        """Keep one that is released, under another name: whoever uses it after that is told so as ever."""
+        """Put a released program into the pool, as a copy: using the released object is still an error."""
         key, values = self._lent.pop(id(program), (None, {}))
         if key is None or key in self._free:
             self._release(program)
@@ -245,20 +245,20 @@ class _Programs:
 
 @pytest.fixture
 def ahead(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Have all programs before the first frame, as a game does."""
+    """Compile all programs before the first frame, as a game does."""
     monkeypatch.setattr(holding, "AHEAD", True)
 
 
 @pytest.fixture
 def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Make programs, and draw nothing with them: a software rasteriser compiles the most of one when it first draws."""
+    """Draw nothing: a software rasteriser compiles most of a program when it first draws with it."""
     for name in ("render", "transform"):
         monkeypatch.setattr(moderngl.VertexArray, name, lambda *_, **__: None)
 
 
 @pytest.fixture(scope="session")
 def ctx(pytestconfig: pytest.Config) -> Iterator[moderngl.Context]:
-    """A headless GL context that all tests draw in."""
+    """Headless GL context that all tests draw in."""
     with ExitStack() as stack:
         try:
             context = stack.enter_context(headless_context())
@@ -266,8 +266,8 @@ def ctx(pytestconfig: pytest.Config) -> Iterator[moderngl.Context]:
             _do_without(str(error))
         pytestconfig.stash[_HOME] = context.fbo
         programs, patch = _Programs(context), stack.enter_context(pytest.MonkeyPatch.context())
-        patch.setattr(moderngl.Context, "program", lambda *given, **how: programs.lend(*given, **how))  # noqa: PLW0108 - so that it is a method
-        patch.setattr(moderngl.Program, "release", lambda program: programs.take_back(program))  # noqa: PLW0108 - the same
+        patch.setattr(moderngl.Context, "program", lambda *given, **how: programs.lend(*given, **how))  # noqa: PLW0108 - a function becomes a method
+        patch.setattr(moderngl.Program, "release", lambda program: programs.take_back(program))  # noqa: PLW0108 - as above
         yield context
 
 
@@ -276,15 +276,16 @@ def _gl_is_left_without_errors(request: pytest.FixtureRequest) -> Iterator[None]
     yield
     if "ctx" in request.fixturenames:
         context = request.getfixturevalue("ctx")
-        context.__enter__()  # and never leave it: none would be current for what modules give back
+        context.__enter__()  # never left: modules release their fixtures in it later
         assert context.error == "GL_NO_ERROR"
 
 
 @pytest.fixture(scope="session")
 def on_card() -> Callable[[Prairie], OnCard]:
-    """Read what the graphics card told receivers of blades and strips in the last frame, by their pools.
+    """Return the function that reads the receivers of blades and strips of the last frame from the graphics card.
 
-    Of each receiver of the patches shown: message, height of the ground, density of its kind, shape (m, n, 4).
+    It returns for each pool, and each receiver of the patches shown: message, height of the ground, and density of the
+    receiver's kind, shape (patches, receivers, 4).
     """
 
     def read(prairie: Prairie) -> OnCard:
@@ -306,16 +307,17 @@ def on_card() -> Callable[[Prairie], OnCard]:
 
 @pytest.fixture
 def world() -> Iterator[World]:
-    """A prairie's world inside an esper world that no other test sees."""
+    """World of a prairie in an esper world that no other test sees."""
     with private_world() as made:
         yield made
 
 
 @pytest.fixture(scope="session")
 def python(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Python]:
-    """Run a program in a folder and a process of its own, and return what it says: `python(folder, name, *arguments)`.
+    """Return the function that runs a program in a process of its own: `python(folder, name, *arguments)`.
 
-    `place` is set in its environment; `before` is run first. Nothing is imported anew that every program imports.
+    It returns the program's output. `place` is added to the environment; the code `before` runs first. Modules that all
+    programs import are imported already.
     """
     output = tmp_path_factory.mktemp("python") / "output"
     command = [sys.executable, "-W", "error", "-W", "ignore:This process:DeprecationWarning", str(PARENT)]
@@ -340,7 +342,7 @@ def python(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Python]:
 
 @pytest.fixture(scope="session")
 def little_grass() -> str:
-    """What to run `before` a program, so that its grass is grown in a moment."""
+    """Code to run `before` a program, so that its grass grows in a moment."""
     return LITTLE_GRASS
 
 
@@ -358,7 +360,7 @@ def _xvfb() -> Iterator[str]:
 
 @pytest.fixture(scope="session")
 def display(request: pytest.FixtureRequest) -> str:
-    """The name of a display that windows can open on: the one there is, or an Xvfb of our own."""
+    """Name of a display for windows: the environment's, or that of an Xvfb of the tests' own."""
     name = os.environ.get("DISPLAY") or request.getfixturevalue("_xvfb")
     os.environ["DISPLAY"] = name
     return name
@@ -373,12 +375,12 @@ def _windows_have_a_display(request: pytest.FixtureRequest) -> None:
 
 @pytest.fixture
 def no_context() -> None:
-    """Leave this thread without a GL context, whatever ran before."""
+    """Make no GL context current in this thread, whatever ran before."""
     _let_the_headless_context_go()
 
 
 def _let_the_headless_context_go() -> None:
-    """Leave this thread without a GL context: a window cannot take it over from EGL."""
+    """Make no GL context current in this thread: a window cannot replace a context of EGL."""
     try:
         egl = ctypes.CDLL("libEGL.so.1")
     except OSError:

@@ -1,4 +1,4 @@
-"""Import all that programs import, and become one each time that a line of JSON tells of one.
+"""Import what all programs import, then fork for each line of JSON on standard input to run the program that it names.
 
 The fixture `python` of conftest.py writes the lines.
 """

@@ -1,4 +1,4 @@
-"""What the tests of the doors share: a small scene, and the command as people run it."""
+"""Fixtures of tests of the commands: a small scene, the command as people run it, and a walk."""
 
 import subprocess
 import sys
@@ -47,7 +47,7 @@ Tallgrass = Callable[..., subprocess.CompletedProcess[str]]
 
 @pytest.fixture
 def scene(tmp_path: Path) -> Path:
-    """A small scene that is grown in a moment."""
+    """File of a small scene that grows in a moment."""
     path = tmp_path / "little.yaml"
     path.write_text(SCENE)
     return path
@@ -55,7 +55,7 @@ def scene(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def tallgrass(tmp_path: Path) -> Tallgrass:
-    """Run the command in a folder of its own and in a process of its own: it takes the current GL context."""
+    """Return the function that runs the command in a folder and a process of its own: it takes the GL context."""
 
     def run(*arguments: object) -> subprocess.CompletedProcess[str]:
         words = [sys.executable, "-W", "error", "-m", "tallgrass.app.cli", *map(str, arguments)]
@@ -66,7 +66,7 @@ def tallgrass(tmp_path: Path) -> Tallgrass:
 
 @pytest.fixture
 def _coarse(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let every preset be grown in a moment, with twice the blades in one that says high."""
+    """Make all presets grow in a moment; those with `high` in their names have twice the blades."""
     rings = [StripRing(to=5, strips=2, columns=1, sections=1, texel=0.03)]
     blades = [BladeRing(to=2, segments=2)]
     for name in PRESETS:
@@ -77,7 +77,7 @@ def _coarse(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def walk(scene: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator["Walk"]:
-    """A walk through the small scene, drawn once; pyglet checks every GL call."""
+    """Walk through the small scene, drawn once; pyglet checks every GL call."""
     monkeypatch.setenv("PYGLET_DEBUG_GL", "1")
     monkeypatch.chdir(scene.parent)
     from tallgrass.app.display import need_display  # noqa: PLC0415 - there has to be a display first

@@ -1,4 +1,4 @@
-"""What a player does at the window of a walk, and sees in it. What opens windows is imported in the functions."""
+"""A player's actions at the window of a walk, and the picture in it. Modules that open windows are imported late."""
 
 # ruff: noqa: PLC0415
 

@@ -1,4 +1,4 @@
-"""What the tests of the engine share: a second world of the game's."""
+"""Fixtures of tests of the engine: a second esper world."""
 
 from collections.abc import Iterator
 
@@ -10,7 +10,7 @@ from tallgrass.engine.world import World
 
 @pytest.fixture
 def elsewhere(world: World) -> Iterator[str]:
-    """The game shows its menu, which is another world."""
+    """Name of another current world, as when a game shows its menu."""
     esper.switch_world("menu")
     yield "menu"
     esper.switch_world(world.name)

@@ -1,4 +1,4 @@
-"""What the tests of whole frames share: a stage to draw small pictures on, and prairies that are grown once."""
+"""Fixtures of tests of whole frames: a stage for small pictures, and prairies that are grown once."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -29,7 +29,7 @@ def stage(ctx: moderngl.Context) -> Iterator[Stage]:
 
 @pytest.fixture(scope="module")
 def prairies(request: pytest.FixtureRequest, ctx: moderngl.Context) -> Iterator[dict[str, Prairie]]:
-    """One prairie a representation, which shows nothing else of the module's `SCENE`."""
+    """Prairies of the module's `SCENE`, by the one representation that each shows."""
     scene = request.module.SCENE
     made = {lod: Prairie.load(scene, ctx=ctx, lod=lod, live=False) for lod in ("blades", "strips", "carpet")}
     yield made
@@ -39,19 +39,19 @@ def prairies(request: pytest.FixtureRequest, ctx: moderngl.Context) -> Iterator[
 
 @pytest.fixture(scope="module")
 def _loaded() -> Iterator[list[Prairie]]:
-    """What has been loaded and not yet released."""
+    """Prairies that are loaded and not released yet."""
     loaded: list[Prairie] = []
     yield loaded
     for prairie in loaded:
         prairie.release()
-    assert not homes._pending, "what is released in no context keeps hundreds of megabytes"  # noqa: SLF001
+    assert not homes._pending, "what waits for its context keeps hundreds of megabytes"  # noqa: SLF001
 
 
 @pytest.fixture(scope="module")
 def load(ctx: moderngl.Context, _loaded: list[Prairie], tmp_path_factory: pytest.TempPathFactory) -> Load:
-    """Load a scene from its text, or a bundled one by its name.
+    """Return the function that loads a scene from its text, or a bundled one by its name.
 
-    What a test loads is released after it, what a fixture of its module loads after the last test that may draw it.
+    A prairie that a test loads is released after the test; one that a fixture of its module loads, after the module.
     """
 
     def scene(text: str = BLOWN, **options: object) -> Prairie:
@@ -67,7 +67,7 @@ def load(ctx: moderngl.Context, _loaded: list[Prairie], tmp_path_factory: pytest
 
 @pytest.fixture(autouse=True)
 def _what_a_test_loads_is_released(request: pytest.FixtureRequest) -> Iterator[None]:
-    """Each prairie that has been drawn holds 80 to 180 MB in a software rasteriser: the programs that it compiles."""
+    """Release the test's prairies: each that was drawn holds 80 to 180 MB of programs in a software rasteriser."""
     if "load" not in request.fixturenames:
         yield
         return
@@ -81,7 +81,7 @@ def _what_a_test_loads_is_released(request: pytest.FixtureRequest) -> Iterator[N
 
 @pytest.fixture
 def unpictured(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let trees be all white on their pictures, where nobody looks: to draw them takes longer than most tests."""
+    """Make pictures of trees all white, for tests that do not see them: drawing them takes longer than most tests."""
 
     def white(_: str, sides: list[tuple[int, int]]) -> list[Picture]:
         return [[np.full(size, 255, np.uint8) for size in each] for each in sizes_of(sides)]
@@ -91,5 +91,5 @@ def unpictured(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture(scope="session")
 def camera() -> Callable[..., Camera]:
-    """Make a camera: `camera(x, y, z, yaw=, pitch=, view=)`."""
+    """Return the function that makes a camera: `camera(x, y, z, yaw=, pitch=, view=)`."""
     return looking

@@ -1,4 +1,4 @@
-"""Everything here runs in processes of its own, by `./dev hosts`: other people's programs, drivers and packers."""
+"""Fixtures of `./dev hosts`, which runs other people's programs, drivers and packers in processes of their own."""
 
 import os
 import subprocess
@@ -12,14 +12,14 @@ from tallgrass.testing import LITTLE
 
 ROOT = Path(__file__).parents[2]
 LACKS = 77
-"""How a program ends that lacks a library."""
+"""Exit status of a program that lacks a library."""
 
 Run = Callable[..., str]
 
 
 @pytest.fixture(scope="session")
 def scene(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A little scene in the wind."""
+    """File of a little scene with wind."""
     path = tmp_path_factory.mktemp("scene") / "scene.yaml"
     path.write_text(LITTLE + "wind: [{ kind: breeze, strength: 0.4 }]\n", "utf-8")
     return path
@@ -27,14 +27,14 @@ def scene(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def hosts_python() -> Path:
-    """The Python that has other people's libraries: that of `.venv-hosts`, where there is one, or else this one."""
+    """Path of the Python that has other people's libraries: of `.venv-hosts` if there is one, else of this process."""
     found = ROOT / ".venv-hosts" / "bin" / "python"
     return found if found.exists() else Path(sys.executable)
 
 
 @pytest.fixture(scope="session")
 def next_python() -> Path:
-    """The Python that has pre-releases of pyglet and Arcade: that of `.venv-next`."""
+    """Path of the Python that has pre-releases of pyglet and Arcade, of `.venv-next`."""
     found = ROOT / ".venv-next" / "bin" / "python"
     if not found.exists():
         pytest.skip("no .venv-next: ./dev hosts makes it")
@@ -43,7 +43,7 @@ def next_python() -> Path:
 
 @pytest.fixture(scope="session")
 def run() -> Run:
-    """Run a command and return what it prints; a test is skipped in one line where a library is not there."""
+    """Return the function that runs a command and returns its output; it skips the test where a library is missing."""
 
     def command(*words: str | Path, cwd: Path | None = None, **place: str) -> str:
         done = subprocess.run(

@@ -1,4 +1,4 @@
-"""What the tests of the systems share: a small field on uneven ground, grown once."""
+"""Fixtures of tests of systems: a small scene on uneven ground that is grown once, and GLSL probes."""
 
 from collections.abc import Callable, Iterator
 from math import pi
@@ -62,13 +62,13 @@ RecordOf = Callable[[Grown], NDArray[np.void]]
 
 @pytest.fixture(scope="session")
 def growths() -> list[Growth]:
-    """What is grown of a tall soft kind and of a short stiff one."""
+    """Growths of a tall soft kind and of a short stiff one."""
     return [grow(kind, QUALITY, seed=number) for number, kind in enumerate(KINDS.values())]
 
 
 @pytest.fixture(scope="session")
 def hills() -> Terrain:
-    """Ground that is steep nearly everywhere, 90 m wide and 70 m deep."""
+    """Terrain that is steep nearly everywhere, 90 m wide and 70 m deep."""
     x, z = np.meshgrid(np.arange(91) * 0.4, np.arange(71) * 0.3)
     rough = np.random.default_rng(1).normal(0.0, 0.3, x.shape)
     return Terrain((3.0 * np.sin(x) + 2.0 * np.cos(z + 0.1 * x) + rough).astype(np.float32), 1.0)
@@ -76,7 +76,7 @@ def hills() -> Terrain:
 
 @pytest.fixture
 def laid(growths: list[Growth], hills: Terrain) -> Laid:
-    """Lay out a site; `dense` gives the kinds' densities, (kinds, rows, columns), over the whole terrain."""
+    """Return the function that lays out a site; `dense` has densities (kinds, rows, columns) over the terrain."""
 
     def make(*, lod: str = "auto", dense: NDArray[np.float32] | None = None, terrain: Terrain = hills) -> Site:
         maps = np.ones((2, 2, 2), np.float32) if dense is None else dense
@@ -88,10 +88,10 @@ def laid(growths: list[Growth], hills: Terrain) -> Laid:
 
 @pytest.fixture
 def look(world: World) -> Look:
-    """Let the one viewer of a site look for one frame, as a prairie does, up to planting; return its outlook.
+    """Return the function that lets a site's viewer look for one frame, up to planting; it returns the outlook.
 
-    `dt` is the time since it looked before [s], `yaw` where it looks to, without which it looks all round, `hear` what
-    the wind says to receivers, without which it is calm; the eye is `up` metres above the ground.
+    `dt` is the time since its last look [s], `yaw` its heading [rad] (None looks all round), `up` the height of its eye
+    above the ground [m]. `hear` computes the messages to receivers; without it the air is calm.
     """
     outlooks: dict[Site, tuple[Outlook, Schedule]] = {}
 
@@ -126,7 +126,7 @@ def look(world: World) -> Look:
 
 @pytest.fixture
 def wind() -> Callable[..., Hear]:
-    """Let receivers hear some winds at a time, in a scene whose seed is 3: `wind(Breeze(), time=2.0)`."""
+    """Return the function that makes a `Hear` of winds at a time, with the seed 3: `wind(Breeze(), time=2.0)`."""
 
     def at(*primitives: WindPrimitive, time: float) -> Hear:
         sources = [WindSource(primitive, f"wind[{number}]") for number, primitive in enumerate(primitives)]
@@ -140,10 +140,11 @@ def wind() -> Callable[..., Hear]:
 
 @pytest.fixture
 def probe(ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch) -> Iterator[Probe]:
-    """Ask GLSL: `probe(lines, told, rows, record, textures)` gives the floats of the varying `told`, row by row.
+    """Return the function that runs GLSL: `probe(lines, rows, record, textures, width)`.
 
-    `lines` is a vertex shader that may include the library's parts; `rows` is an array (n, k) that it reads as `row`,
-    of k floats; `record` is the frame block.
+    `lines` is a vertex shader, which may include files of the library. It reads `row`, a vector of k floats from `rows`
+    (n, k), the frame block `record`, and `textures` by their samplers' names. It writes the varying `told` of `width`
+    floats. The result is `told` for each row, shape (n, width).
     """
     read, block = shaders._read, FrameBlock(ctx)  # noqa: SLF001
 
@@ -154,7 +155,7 @@ def probe(ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch) -> Iterator[Pr
         textures: dict[str, moderngl.Texture | moderngl.TextureArray],
         width: int,
     ) -> NDArray[np.float32]:
-        name = f"probe {hash(lines)}.vert"  # what a file of one name consists of is remembered
+        name = f"probe {hash(lines)}.vert"  # a file's text is cached by its name
         told = {name: tuple(lines.splitlines())}
         monkeypatch.setattr(shaders, "_read", lambda name: told.get(name) or read(name))
         made = program(ctx, name, None, varyings=("told",))
@@ -177,7 +178,7 @@ def probe(ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch) -> Iterator[Pr
 
 @pytest.fixture
 def record_of() -> RecordOf:
-    """Give the frame's record with all that holds for a whole scene: `record_of(site)`."""
+    """Return the function that fills a frame record with a scene's ground and light: `record_of(site)`."""
 
     def make(grown: Grown) -> NDArray[np.void]:
         record, light = np.zeros(1, FRAME), grown.scene.light

@@ -1,4 +1,4 @@
-"""A moment in which blades are on their way to their painted places, as the graphics card has it."""
+"""A moment in which blades morph to their painted places, as computed by the graphics card."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -63,7 +63,7 @@ RIBBON, STRIP = "systems/show/blades/ribbon.vert", "systems/show/strips/strips.v
 
 @pytest.fixture(scope="module")
 def room(ctx: moderngl.Context) -> Any:
-    """A stage of the size at which half a pixel is meant."""
+    """Stage of the size for which a tolerance of half a pixel is meant."""
     made = Room(ctx, SIZE)
     yield made
     made.release()
@@ -71,7 +71,7 @@ def room(ctx: moderngl.Context) -> Any:
 
 @pytest.fixture(scope="module")
 def told() -> Iterator[list[tuple[str, Defines]]]:
-    """What each vertex shader of blades and strips was told at the top, in the order in which they were made."""
+    """Name and macros of each program of blades and strips, in the order in which they were compiled."""
     found: list[tuple[str, Defines]] = []
 
     def noting(joined: Callable[..., moderngl.Program]) -> Callable[..., moderngl.Program]:
@@ -89,15 +89,15 @@ def told() -> Iterator[list[tuple[str, Defines]]]:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """The polygon strips of all rings, as they are drawn."""
+    """Polygon strips of all rings, as they are drawn."""
 
     row: NDArray[np.int64]
-    """The patch that each is on, shape (n,)."""
+    """Row of each strip's patch, shape (n,)."""
 
     ring: NDArray[np.int64]
     column: NDArray[np.int64]
     picture: NDArray[np.int64]
-    """Which picture is on it, if it is drawn whole, shape (n,)."""
+    """Number of the picture on each strip, if strips are drawn whole, shape (n,)."""
 
     clip: Doubles
     """Clip coordinates of their vertices, shape (n, 2 * sections + 2, 4)."""
@@ -105,7 +105,7 @@ class Drawn:
 
 @dataclass(slots=True)
 class Scene:
-    """A moment in which some patches are on their way."""
+    """A moment in which some patches are in transition."""
 
     prairie: Prairie
     outlook: Outlook
@@ -116,16 +116,16 @@ class Scene:
     representation: StripRepresentation
     morphing: Standing
     records: NDArray[np.void]
-    """The blades on their way, where they stand, as `BLADE` has it, shape (n,)."""
+    """Records `BLADE` of the morphing blades, in their own places, shape (n,)."""
     message: NDArray[np.float32]
-    """What each is told, shape (n, 2)."""
+    """Message of each blade, shape (n, 2)."""
     row: NDArray[np.int64]
-    """Row of each one's patch, shape (n,)."""
+    """Row of each blade's patch, shape (n,)."""
     own: NDArray[np.int64]
-    """Its number on the patch, shape (n,)."""
+    """Number of each blade on its patch, shape (n,)."""
     along: int
     defines: dict[str, Defines]
-    """What the shaders of ribbons on their way, and of strips, are told at the top."""
+    """Macros of the shaders of morphing ribbons, and of strips, by file name."""
 
     def caught(
         self,
@@ -136,10 +136,11 @@ class Scene:
         *,
         defines: Defines | None = None,
     ) -> Doubles:
-        """What a vertex shader makes of each of some vertices of each of some instances: clip coordinates, and more.
+        """Run a vertex shader, and return its outputs: clip coordinates, and a varying.
 
-        `like` is the program that it is drawn with otherwise, which has been told everything. Without `defines` it is
-        told at the top what it was told then.
+        `size` is the number of vertices and of instances. `like` is the program that draws in frames: its uniforms are
+        copied. Without `defines` the macros are that program's, too. The result has the shape (instances, vertices,
+        numbers).
         """
         (vertices, count), painter = size, self.painter
         told = self.defines[name] if defines is None else defines
@@ -163,7 +164,7 @@ class Scene:
         return data
 
     def strips_drawn(self, *, whole: bool = True) -> Drawn:
-        """All strips, also those that do not show yet: whole, or up to where they are painted."""
+        """Return all strips, also those not shown yet: as whole rectangles, or cut to their painted extents."""
         outlook, strips = self.outlook, self.strips.strips
         pools, rings = outlook.keeps(StripsKept).pools, outlook.shows(StripsShown).rings
         appears = replace(self.appears, handed=np.ones_like(self.appears.handed))
@@ -183,8 +184,8 @@ class Scene:
         strips.shelves.now.placements.texture.use(UNITS["placements"])
         strips.shelves.now.strips.texture.use(UNITS["strips"])
         everywhere = np.frombuffer(strips.extents.read(), np.float32).reshape(*strips.extents.size[::-1], 4).copy()
-        everywhere[:, :-1, :3] = 0, 1, 1  # but for what pictures are like
-        everywhere[:, :-1, 3] = np.arange(len(everywhere))[:, None]  # in place of pages: what is drawn tells of it
+        everywhere[:, :-1, :3] = 0, 1, 1  # whole rectangles, whatever is painted
+        everywhere[:, :-1, 3] = np.arange(len(everywhere))[:, None]  # for the page: the shader returns it
         extents = self.painter.ctx.texture(strips.extents.size, 4, everywhere.tobytes(), dtype="f4")
         (extents if whole else strips.extents).use(UNITS["extents"])
         strips.array(0).program["first"] = 0
@@ -202,7 +203,7 @@ class Scene:
 
     @property
     def first_pictures(self) -> NDArray[np.int64]:
-        """Where each kind's pictures begin in the atlas, by ring and kind."""
+        """Number of each kind's first picture in the atlas, by ring and kind."""
         pictures = np.array(self.strips.strips.array(0).program["pictures"].value)  # type: ignore[union-attr]
         kinds = len(self.representation.stock.present[0])
         rings = len(self.representation.quality.strip_rings)
@@ -213,7 +214,7 @@ class Scene:
 def scene(
     request: pytest.FixtureRequest, room: Room, load: Load, camera: Aim, on_card: OnCard, told: list[Any]
 ) -> Scene:
-    """Patches on their way, on a hillside and in the wind, for either orientation of the strips."""
+    """Patches in transition, on a hillside and in the wind, for either orientation of the strips."""
     prairie, yaw = load(WINDY), float(request.param)
 
     def look(step: float) -> None:

@@ -1,4 +1,4 @@
-"""A small prairie, where GL must not be touched."""
+"""Fixtures of a small prairie that must not touch GL."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -32,7 +32,7 @@ quality:
 
 @pytest.fixture
 def load(world: World, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Load]:
-    """Load the scene in a world of its own, where GL must not be touched."""
+    """Return the function that loads the scene in a world of its own; touching GL fails."""
 
     def no_gl(*_: object, **__: object) -> None:
         raise AssertionError("GL was touched")

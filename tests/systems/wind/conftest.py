@@ -1,4 +1,4 @@
-"""What the tests of winds share: grass as it is grown, and what it feels of some winds."""
+"""Fixtures of tests of winds: responses of two kinds of grass, and the messages of winds."""
 
 from collections.abc import Callable
 
@@ -20,13 +20,13 @@ Feel = Callable[..., Floats]
 
 @pytest.fixture(scope="session")
 def responses() -> list[Response]:
-    """How a tall soft kind answers, and a short stiff one."""
+    """Responses of a tall soft kind and of a short stiff one."""
     return [grow_response(GrassKind(height=[0.7, 0.9], stiffness=0.6)), grow_response(GrassKind(stiffness=3.0))]
 
 
 @pytest.fixture(scope="session")
 def answer(responses: list[Response]) -> Answer:
-    """Make grass of one of the two kinds at any number of places: `answer(40, kind=1)`."""
+    """Return the function that makes `Grass` of one of the two kinds at a number of receivers: `answer(40, kind=1)`."""
 
     def of(count: int, *, kind: int = 0) -> Grass:
         return Grass(
@@ -41,7 +41,7 @@ def answer(responses: list[Response]) -> Answer:
 
 @pytest.fixture(scope="session")
 def feel(answer: Answer) -> Feel:
-    """What grass at places feels of some winds, shape (n, 2): `feel(Gust(), place=place, time=2.0)`."""
+    """Return the function that computes messages of winds, shape (n, 2): `feel(Gust(), place=place, time=2.0)`."""
 
     def at(
         *winds: WindPrimitive,
