@@ -1,4 +1,4 @@
-"""The benchmarks: what other people's scripts read, and what the project promises by them."""
+"""Benchmarks: the figures that scripts read, and the limits that the project promises."""
 
 import json
 import os
@@ -46,14 +46,14 @@ pytestmark = pytest.mark.gl
 
 @pytest.fixture
 def few_frames(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let the frame benchmark draw a few frames, and the walk fewer."""
+    """Make the frame benchmark draw a few frames, and the walk even fewer."""
     for name, value in (("FRAMES", 6), ("EVERY", 3), ("TURN", 3)):
         monkeypatch.setattr(f"tallgrass.app.bench.frame.{name}", value)
     monkeypatch.setattr(stroll, "RATE", 10)
 
 
 def ratio(of_told: float) -> Any:
-    """About a ratio of two times that are told: they are rounded to microseconds, and it to hundredths."""
+    """Return about a ratio of two reported times: they are rounded to microseconds, their ratio to hundredths."""
     return pytest.approx(of_told, rel=0.001, abs=0.005)
 
 
@@ -74,7 +74,7 @@ def _tells_of_the_cpu_alone(told: dict[str, Any]) -> None:
 
 
 def _compares_rivals(told: dict[str, Any]) -> None:
-    """Rivals are drawn from the same place, and compared at the same instant."""
+    """Rivals are drawn from the same camera, and their pictures compared at the same time."""
     assert told["rivals"][0]["name"] == "by hand"
     for row in told["rivals"]:
         assert row.keys() == {"name", "frame_ms", "ratio", "flip"}
@@ -285,7 +285,7 @@ def test_without_the_evaluator_the_picture_benchmark_says_what_installs_it(
 def test_r2_n6_the_walk_benchmark_tells_every_key_of_the_contract(
     scene: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Where the driver always draws: nothing is told of the CPU alone."""
+    """If the driver always draws, the CPU's own figures are None."""
     monkeypatch.setattr(stroll, "RATE", 10)
     monkeypatch.setattr(processor, "NOOP", {"GALLIUM_NOOP": "0"})
     assert run(["bench", "walk", str(scene), "--size", "96x54", "--json"]) == 0

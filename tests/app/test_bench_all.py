@@ -1,4 +1,4 @@
-"""Every benchmark at once: one file, and one page that two versions are compared on."""
+"""`bench all`: one file of results, and a page that compares two of them."""
 
 import base64
 import io
@@ -23,7 +23,7 @@ PICTURE = re.compile(r'<img src="data:image/png;base64,([^"]+)"')
 
 @pytest.fixture
 def short(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let every benchmark draw a few frames."""
+    """Make every benchmark draw a few frames only."""
     for module, name, value in (
         (stroll, "RATE", 10), (stroll, "SECONDS", 0.5), (frame, "FRAMES", 4), (frame, "EVERY", 2), (frame, "TURN", 2),
         (still, "WARM_UP", 2), (scale, "SIDES", (100.0,)), (noop, "FRAMES", 2),

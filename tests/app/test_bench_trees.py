@@ -1,4 +1,4 @@
-"""What `bench picture` tells of trees (F3, N3)."""
+"""Figures of trees in `bench picture` (F3, N3)."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ SKY, LEAF = np.array([120, 160, 220], np.uint8), np.array([60, 90, 30], np.uint8
 
 
 def scene(*, teeth: int, leaf: np.ndarray = LEAF, grain: int = 20) -> np.ndarray:
-    """A crown before the sky whose left edge has teeth of so many pixels, and leaves that differ."""
+    """Return a picture of a crown before the sky, with teeth of some pixels on its left edge and varied leaves."""
     picture = np.tile(SKY, (72, 128, 1))
     ragged = (np.arange(72) // 2 % 2 * teeth)[:, None]
     crown = np.arange(128)[None] >= 50 + ragged

@@ -66,9 +66,9 @@ def every_core_busy() -> Iterator[None]:
 
 @pytest.fixture
 def film(scene: Path, python: Callable[..., str]) -> Film:
-    """Make a film, in a process of its own, of winds that come along and the ponderous one.
+    """Return the function that makes a film in a process of its own, with bundled winds and the ponderous one.
 
-    `film(folder, seconds=)` returns its pictures, and what is said of its winds.
+    `film(folder, seconds=)` returns its pictures, and the messages about its winds.
     """
     scene.write_text(scene.read_text().replace("\ncamera:", f"\n{WINDS}camera:"))
     scene.with_name("program.py").write_text(PROGRAM)

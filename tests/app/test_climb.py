@@ -1,4 +1,4 @@
-"""The climb that benchmarks take: from eye height up, and then a look straight down."""
+"""The climb of `bench pop`: from eye height up, then a look straight down."""
 
 import json
 import math

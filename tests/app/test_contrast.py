@@ -1,4 +1,4 @@
-"""Contrast: what it takes for grain, and that no blur is rewarded (G4)."""
+"""Contrast: it measures grain, and falls with blur (G4)."""
 
 import numpy as np
 import pytest
@@ -12,13 +12,13 @@ ALL = np.ones((180, 320), np.bool_)
 
 
 def grass(seed: int = 1, grain: float = 20.0) -> Picture:
-    """A picture of 180 lines whose pixels differ by this much."""
+    """Return a picture of 180 lines of noise with this standard deviation."""
     noise = np.random.default_rng(seed).normal(100.0, grain, (180, 320, 1))
     return np.clip(noise, 0.0, 255.0).repeat(3, axis=2).astype(np.uint8)
 
 
 def sure(picture: Picture) -> Truth:
-    """A truth without any noise of its own."""
+    """Return a truth without sampling noise."""
     return Truth(picture, np.zeros(picture.shape, np.float32))
 
 
@@ -64,7 +64,7 @@ def test_tiles_that_show_sky_or_are_flat_in_the_reference_are_left_out() -> None
 
 @pytest.mark.parametrize("finer", [4, 16])
 def test_what_a_truth_deviates_by_for_having_few_samples_is_taken_off_in_part_and_never_in_whole(finer: int) -> None:
-    """Blades as squares that are so many times smaller than samples are apart."""
+    """Blades are squares, smaller than the spacing of samples by this factor."""
     random = np.random.default_rng(3)
     rows, columns = np.indices((180 * 4, 320 * 4))
     blades = 255.0 * (random.random((180 * 4, 320 * 4, finer)) < 0.3 + 0.2 * np.sin(rows / 9 + columns / 7)[..., None])

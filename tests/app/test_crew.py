@@ -14,7 +14,7 @@ from tallgrass.app.studio.errors import MachineError
 
 @pytest.fixture(autouse=True)
 def _found_by_its_name(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let another process find this module by its stem: a package may have put its own `tests` in the way."""
+    """Let other processes import this module by its stem: another package may have a `tests`, too."""
     monkeypatch.syspath_prepend(str(Path(__file__).parent))
     monkeypatch.setitem(sys.modules, "test_crew", sys.modules[__name__])
     for job in (doubled, failing, ended):
@@ -22,7 +22,7 @@ def _found_by_its_name(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def doubled(number: int) -> tuple[int, int, str]:
-    """Twice a number in as many steps, who made it, and how many threads Mesa would take there."""
+    """Return twice a number, counted in as many steps, the process's id, and Mesa's number of threads there."""
     return sum(2 for _ in ticked(range(number))), os.getpid(), os.environ["LP_NUM_THREADS"]
 
 

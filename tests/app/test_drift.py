@@ -1,4 +1,4 @@
-"""Drift and ghosting: what they see of patches on their way (N2, N3)."""
+"""Drift and ghosting of patches in transition (N2, N3)."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ def grass(seed: int) -> Doubles:
 
 
 def change(bright: list[list[float]], time: list[float], ghosts: list[float] | None = None) -> Change:
-    """A change of as many patches as there are columns."""
+    """Return a change with a patch for each column."""
     patches = len(bright[0])
     return Change(
         "ahead", "strips to blades", np.array(time), np.array(bright), np.array(ghosts or [0.0] * len(time)),

@@ -1,4 +1,4 @@
-"""Films on many workers: the same bytes as from one process, whoever is lost on the way."""
+"""Films on several workers: the same bytes as from one process, even if workers are lost."""
 
 import os
 import signal
@@ -43,7 +43,7 @@ def take_of(scene: Path) -> Take:
 
 @pytest.fixture
 def alone(scene: Path) -> Iterator[Shooting]:
-    """The film as one process makes it."""
+    """Folder of the film that one process makes."""
     with Shooting(take_of(scene), FPS) as shooting:
         yield shooting
 
@@ -61,14 +61,14 @@ def two() -> Iterator[Hands]:
 
 @pytest.fixture
 def address(two: Hands) -> str:
-    """Where their scheduler is."""
+    """Address of the workers' scheduler."""
     assert two.count == 2
     return str(need_distributed().default_client().scheduler.address)
 
 
 @pytest.fixture
 def both(address: str, scene: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Both:
-    """Run a command that writes into a folder alone, and by two workers into another; return what both print."""
+    """Run a command in this process and by two workers, into two folders; return both outputs."""
     monkeypatch.chdir(scene.parent)
 
     def told(*words: object) -> tuple[str, str]:
@@ -233,7 +233,7 @@ DENSITY = "  green: { height: [0.3, 0.5], place: { map: MAP } }"
 
 
 def with_map(scene: Path, name: str) -> Path:
-    """The scene, with its grass where a map says."""
+    """Path of the scene with a density map."""
     scene.write_text(scene.read_text().replace("  green: { height: [0.3, 0.5] }", DENSITY.replace("MAP", name)))
     return scene
 

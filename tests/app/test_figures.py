@@ -1,4 +1,4 @@
-"""The paper's figures from the command line: every one is drawn, told of on a page, and true to what it shows."""
+"""`tallgrass figures`: every figure is drawn, listed on the page, and shows what its caption says."""
 
 import re
 import sys
@@ -42,7 +42,7 @@ FEW = ("--size", "96x54", "--preset", "low")
 
 @pytest.fixture(autouse=True, scope="module")
 def _simulated_once() -> Iterator[None]:
-    """Let figures and tests share simulations: most kinds are in several of them."""
+    """Share simulations between figures and tests: most kinds are in several of them."""
     with pytest.MonkeyPatch.context() as patch:
         for name in ("grow_response", "grow_postures", "grow_give"):
             patch.setattr(bending, name, _remembered(getattr(bending, name)))
@@ -62,7 +62,7 @@ def _remembered(grow: Callable[..., Any]) -> Callable[..., Any]:
 
 
 class Page(HTMLParser):
-    """What a page links to, and its text."""
+    """Collects a page's links and its text."""
 
     def __init__(self, html: str) -> None:
         super().__init__()
@@ -87,7 +87,7 @@ def drawn(figure: Figure) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
 
 @pytest.fixture
 def _narrow(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let the command draw plots as small as `SMALL` has them."""
+    """Make the command draw plots of the size `SMALL`."""
     monkeypatch.setattr("tallgrass.app.figures.figure.Detail", partial(Detail, dots=SMALL.dots))
 
 

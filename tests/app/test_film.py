@@ -25,7 +25,7 @@ pytestmark = [pytest.mark.gl, pytest.mark.usefixtures("ctx")]
 
 @pytest.fixture
 def tallgrass(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Tallgrass:
-    """Run the command in a folder of its own and in this process, which has begun already."""
+    """Return the function that runs the command in a folder of its own, in this process."""
     monkeypatch.chdir(tmp_path)
 
     def done(*arguments: object) -> subprocess.CompletedProcess[str]:

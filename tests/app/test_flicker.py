@@ -1,4 +1,4 @@
-"""Flicker: what it sees, where, and what it leaves alone (N3)."""
+"""Flicker: it finds a changed tile, and ignores shimmer (N3)."""
 
 import numpy as np
 import pytest
@@ -13,12 +13,12 @@ SHAPE = (2 * TILE + 2 * MARGIN + 2, 3 * TILE + 2 * MARGIN + 2, 3)
 
 
 def grass(seed: int) -> Picture:
-    """A picture that shimmers in every pixel."""
+    """Return a picture with noise in every pixel."""
     return np.random.default_rng(seed).integers(60, 140, SHAPE).astype(np.uint8)
 
 
 def popped(picture: Picture, by: int) -> Picture:
-    """The picture with its middle tile in the second row another one."""
+    """Return a picture with another middle tile in the second row."""
     changed = picture.copy()
     rows, columns = (slice(MARGIN + 1 + TILE * i, MARGIN + 1 + TILE * (i + 1)) for i in (1, 1))
     changed[rows, columns] += np.uint8(by)

@@ -1,4 +1,4 @@
-"""The workers of a Dask scheduler: found, asked, and told of where they are not."""
+"""Workers of a Dask scheduler: found, given work, and reported where they are missing."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""The paper's figures of how blades become textures are true to what they show."""
+"""Figures of the morph from blades to textures show what their captions say."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What is written over the picture."""
+"""Texts over the picture in the window."""
 
 from tallgrass.app.overlay import HELP, statistics_lines
 from tallgrass.systems.statistics import Statistics

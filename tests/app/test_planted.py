@@ -1,4 +1,4 @@
-"""Defects planted into transitions, each of which the benchmark has to name (N2, N3)."""
+"""Defects planted into transitions, each of which `bench pop` must find (N2, N3)."""
 
 import json
 import math
@@ -49,7 +49,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def measure(folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Callable[[], Told]:
-    """Measure a walk of one leg, in few frames, with what has been planted; no second one with hard switches."""
+    """Measure a walk of one leg with the planted defect, in few frames, without the walk of hard switches."""
     walks = pop._walks  # noqa: SLF001
 
     def once(studio: Studio, walk: list[stroll.Leg], left_out: dict[str, Any], **how: Any) -> dict[str, Record]:
@@ -76,7 +76,7 @@ _SOUND: list[Told] = []
 
 @pytest.fixture
 def sound(measure: Callable[[], Told]) -> Told:
-    """What the benchmark tells while nothing is planted."""
+    """Result of the benchmark without a planted defect."""
     if not _SOUND:
         _SOUND.append(measure())
     return _SOUND[0]
@@ -112,7 +112,7 @@ def test_n3_strips_that_are_too_bright_are_named_as_drift(
 
 @dataclass(frozen=True)
 class _Late:
-    """What `weights` reads of a patch table, as if patches waited, and made their change at 0.98 of the way."""
+    """Patch table for `weights` whose patches change at 0.98 of the progress, all at once."""
 
     representation: NDArray[np.int8]
     previous: NDArray[np.int8]

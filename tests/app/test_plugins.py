@@ -1,4 +1,4 @@
-"""The commands on plugins: what is installed, whether one keeps to the rules, and how to begin one."""
+"""The commands `plugins list`, `check` and `new`."""
 
 import json
 import os
@@ -28,7 +28,7 @@ PYTEST = pytest.__main__.__file__, "-q", "-p", "no:cacheprovider"
 
 
 class Loud(WindPrimitive):
-    """A wind that is too strong, and is called otherwise than it is registered."""
+    """A wind that is too strong, and whose `kind` differs from its entry point's name."""
 
     kind: str = "noisy"
     """A loud wind."""
@@ -149,7 +149,7 @@ def test_every_problem_of_a_kind_is_one_line(kinds: WindKinds, capsys: pytest.Ca
 
 def test_a_twin_that_is_not_there_is_a_problem(kinds: WindKinds, capsys: pytest.CaptureFixture[str]) -> None:
     class Twinned(Loud):
-        """A wind to the right, whose twin is on no disk."""
+        """A wind to the right, whose twin's text the test gives."""
 
         twin: ClassVar[str | None] = "nowhere.glsl"
         kind: str = "twinned"
@@ -189,7 +189,7 @@ def test_a_new_game_passes_its_own_tests(tmp_path: Path, python: Python, little_
 @pytest.mark.slow
 @pytest.mark.window
 def test_a_new_game_draws_in_its_window(tmp_path: Path, display: str, python: Python, little_grass: str) -> None:
-    """It is closed after three frames; that it goes on by frames of pyglet's is held by the pages' games."""
+    """It is closed after three frames; tests of the manual's pages run games by pyglet's loop."""
     scaffold_game("my-walk", tmp_path / "my-walk")
     python(tmp_path / "my-walk", "game.py", "--frames", "3", place={"DISPLAY": display}, before=little_grass)
 

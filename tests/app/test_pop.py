@@ -1,4 +1,4 @@
-"""Whether changes of representation can be seen: the benchmark, and that it can see a pop (N3)."""
+"""`bench pop`: its figures, and that it finds a pop (N3)."""
 
 import json
 from collections.abc import Iterator
@@ -52,7 +52,7 @@ quality:
 
 @pytest.fixture
 def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A small scene, walked through on one leg, in few frames."""
+    """Make the benchmark walk one leg of a small scene, in few frames."""
     monkeypatch.setattr(stroll, "RATE", 30)
     monkeypatch.setattr(stroll, "SECONDS", 0.3)
     monkeypatch.setattr(pop, "MOST_PROCESSES", 1)

@@ -13,7 +13,7 @@ from tallgrass.app.studio.progress import busy, counted, course
 
 @pytest.fixture
 def terminal(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Progress]]:
-    """A terminal; what is shown on it."""
+    """Output of a pretended terminal."""
     shown: list[Progress] = []
     console = Console(file=io.StringIO(), force_terminal=True)
     monkeypatch.setattr(progress, "Console", lambda **_: console)
@@ -29,7 +29,7 @@ def terminal(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Progress]]:
 
 
 def bars(shown: list[Progress]) -> dict[str, float]:
-    """How far each bar of the only display is, in percent."""
+    """Return the percentage of each bar of the only display."""
     (display,) = shown
     return {task.description: round(task.percentage, 1) for task in display.tasks}
 

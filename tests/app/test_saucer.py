@@ -1,4 +1,4 @@
-"""The saucer that the viewer flies: keys to places, without any window."""
+"""The saucer's motion by held keys, without a window."""
 
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The walk that benchmarks take: the same every time, in any scene."""
+"""The walk of benchmarks: the same every time, in any scene."""
 
 from pathlib import Path
 

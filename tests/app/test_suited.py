@@ -1,4 +1,4 @@
-"""What suits the machine that a walk is drawn on (N1)."""
+"""Preset and frame rate that suit the machine of a walk (N11)."""
 
 import moderngl
 import pytest

@@ -1,4 +1,4 @@
-"""Sizes and parts of the overlay as people write them."""
+"""Sizes and layers as people write them."""
 
 import pytest
 from hypothesis import given

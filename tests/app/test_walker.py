@@ -1,4 +1,4 @@
-"""The window's viewer: keys to places, without any window."""
+"""The viewer's motion by held keys, without a window."""
 
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Winds set off where the viewer looks: a camera to a place, a place to a wind, without any window."""
+"""Winds set off by keys at the place that the camera looks at, without a window."""
 
 import math
 from typing import get_args
@@ -30,7 +30,7 @@ FLAT = Ground(level, (1000.0, 1000.0), level)
 
 
 def mapped(ground: Ground) -> Terrain:
-    """The ground as a map of half a metre, twice as wide and deep as it is."""
+    """Return a terrain that samples the ground every half metre, twice as wide and deep."""
     x, z = (np.linspace(-side, side, round(4 * side) + 1) for side in ground.size)
     place = np.stack(np.meshgrid(x, z), axis=-1).reshape(-1, 2).astype(np.float32)
     return Terrain(ground.height_at(place).reshape(len(z), len(x)), 0.5)

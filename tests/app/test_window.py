@@ -1,6 +1,6 @@
 """The window to walk in, on a display of its own.
 
-What opens windows is imported inside the tests: there has to be a display first.
+Modules that open windows are imported inside the tests, after the display is set.
 """
 
 # ruff: noqa: PLC0415
@@ -253,7 +253,7 @@ def test_a_resized_window_is_filled(walk: "Walk") -> None:
 def test_where_a_window_has_more_pixels_than_points_all_of_them_are_drawn(
     walk: "Walk", monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """As on a screen of high density, where libraries count in points."""
+    """On a screen of high density, a window's size is in points and differs from its pixels."""
     press(walk, "F12")
     monkeypatch.setattr(type(walk.window), "get_size", lambda _: (SIZE[0] // 2, SIZE[1] // 2))
     monkeypatch.setattr(type(walk.window), "get_framebuffer_size", lambda _: SIZE)

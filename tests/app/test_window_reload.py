@@ -1,4 +1,4 @@
-"""A scene that is read again while one walks in it (N7)."""
+"""Reading a scene again during a walk (N7)."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""What the manual generates is complete: every key of a scene, every public name, every picture."""
+"""Generated parts of the manual are complete: every key of a scene, every public name, every picture."""
 
 import importlib.util
 import inspect
@@ -31,7 +31,7 @@ UNITS = re.compile(
 
 
 def making(name: str) -> ModuleType:
-    """A module of what makes the manual."""
+    """Return a module of `docs/making`."""
     spec = importlib.util.spec_from_file_location(f"making_{name}", DOCS / "making" / f"{name}.py")
     assert spec is not None
     assert spec.loader is not None
@@ -42,7 +42,7 @@ def making(name: str) -> ModuleType:
 
 
 def models(annotation: Any) -> Iterator[type[BaseModel]]:
-    """The models in an annotation, and those in their fields."""
+    """Yield the models in an annotation, and those in their fields."""
     if inspect.isclass(annotation) and issubclass(annotation, BaseModel) and annotation is not WindPrimitive:
         yield annotation
         for field in annotation.model_fields.values():
@@ -168,13 +168,13 @@ def test_every_public_name_is_on_the_page_of_the_api_with_its_text_and_its_membe
 
 
 def told_of_bases(name: str) -> set[str]:
-    """The members of a public class that the entries of its bases tell of."""
+    """Return the members of a public class that its bases' entries document."""
     bases = inspect.getmro(getattr(tallgrass, name, object))[1:]
     return {member for base in bases if base.__name__ in tallgrass.__all__ for member in vars(base)}
 
 
 def parts(owner: ModuleType, name: str) -> Iterator[tuple[str, Any]]:
-    """A public name, and for a class its public methods and properties."""
+    """Yield a public name, and for a class its public methods and properties."""
     thing = getattr(owner, name)
     yield name, thing
     if inspect.isclass(thing):
@@ -199,7 +199,7 @@ def test_every_public_name_says_what_it_is_in_a_sentence(name: str, thing: Any) 
 
 
 def fields(owner: ModuleType, name: str) -> Iterator[tuple[str, str]]:
-    """The annotated names in a public class's own body, with the text below each."""
+    """Yield the annotated names in a public class's own body, with the docstring below each."""
     thing = getattr(owner, name)
     if not inspect.isclass(thing):
         return
@@ -229,7 +229,7 @@ def test_every_number_and_array_of_a_public_function_has_its_unit_or_shape_said(
 
 
 def told_of(name: str, thing: Any) -> str:
-    """What is said of a public function: by itself, and of a method by its class and by what it overrides."""
+    """Return the text on a public function; for a method also those of its class and of methods it overrides."""
     first, _, method = name.partition(".")
     owner = getattr(tallgrass, first, None) or getattr(tallgrass.testing, first)
     said = [thing.__doc__, owner.__doc__]

@@ -1,6 +1,6 @@
-"""The manual's pages do what they say: their files are written, their programs and commands run, in their order.
+"""The manual's pages: their files are written, and their programs and commands run, in their order.
 
-The tutorial on winds needs an environment of its own and has a test of its own; the README has one too.
+The tutorial on winds needs an environment of its own, so it has a test of its own. So does the README.
 """
 
 import ast
@@ -30,7 +30,7 @@ GENERATED = re.compile("^<!-- generated: .*?^<!-- end of what is generated -->$"
 
 
 def written(page: str) -> str:
-    """What people have written of a page: the generated parts of one are held by tests of their own."""
+    """Return the hand-written text of a page; generated parts have tests of their own."""
     return GENERATED.sub("", (DOCS / page).read_text("utf-8"))
 
 
@@ -122,7 +122,7 @@ def run(lines: str, folder: Path) -> str:
 
 
 def run_here(text: str, folder: Path) -> str:
-    """Run `HERE` as a reader would, but in this process and with little grass that bends alike; return what is said."""
+    """Run a command of `HERE` as a reader would, but in this process and with little grass; return its output."""
     printed = io.StringIO()
     with pytest.MonkeyPatch.context() as patch, contextlib.chdir(folder), contextlib.redirect_stdout(printed):
         patch.setenv("TALLGRASS_CACHE", str(folder / "cache"))
@@ -135,14 +135,14 @@ def run_here(text: str, folder: Path) -> str:
 
 
 def coarser(text: str, how: dict[str, str] = COARSE) -> str:
-    """The same commands with small, coarse and few pictures, which take a tenth of the time."""
+    """Return the commands with smaller, coarser and fewer pictures, which take a tenth of the time."""
     for whole, coarse in how.items():
         text = re.sub(whole, coarse, text, flags=re.MULTILINE)
     return text
 
 
 def follow(page: str, folder: Path, python: Python, little_grass: str, display: str = "") -> None:
-    """Do what a page tells to do, in a folder, with little grass."""
+    """Follow a page in a folder, with little grass."""
     told, little = "", "" if page in MEASURED else little_grass
     for block in blocks(page):
         text, language = block["text"], block["language"]
@@ -228,7 +228,7 @@ Slug = Callable[[str], str]
 
 
 def slug(title: str) -> str:
-    """What the generator links a heading by."""
+    """Return the anchor by which the generator links a heading."""
     return re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", title).strip().lower())
 
 

@@ -1,4 +1,4 @@
-"""What has been recorded as public is still there, as it was."""
+"""Everything recorded as public still exists, with the same interface."""
 
 import json
 import subprocess
@@ -20,7 +20,7 @@ print(json.dumps([public.broken(before, now), sorted(set(now) - set(before)), no
 
 @pytest.fixture(scope="module")
 def told() -> Any:
-    """What is broken, what is new, and what is public now."""
+    """Broken names, new names, and all public names of this version."""
     done = subprocess.run([sys.executable, "-c", TELL], cwd=ROOT, capture_output=True, text=True, check=True)
     return json.loads(done.stdout)
 

@@ -20,7 +20,7 @@ LINK, CODE, NUMBER = re.compile(r"!?\[([^\]]*)\]\([^)]*\)"), re.compile(r"`[^`]*
 
 
 def prose(text: str, /) -> list[str]:
-    """Return the sentences of a page. What stands in code counts as one short word; an item of a list ends one."""
+    """Return the sentences of a page. Code counts as one short word; an item of a list ends a sentence."""
     plain = LINES_OF_NO_PROSE.sub("", NOT_PROSE.sub("", text))
     plain = NUMBER.sub("", CODE.sub("code", LINK.sub(r"\1", plain))).replace("*", "")
     parts = [" ".join(part.split()) for part in re.split(r"\n\s*\n|^\s*(?:-|\d\.) ", plain, flags=re.MULTILINE)]
@@ -28,7 +28,7 @@ def prose(text: str, /) -> list[str]:
 
 
 def taught() -> list[str]:
-    """The pages that the manual lists as tutorials and how-to pages, with the first one, and the README."""
+    """Return the README, the first page, and the pages listed as tutorials and how-to pages."""
     listed = (DOCS / "mkdocs.yml").read_text("utf-8")
     parts = re.findall(r"^  - (?:Tutorials|How to):\n((?:      - .*\n)+)", listed, re.MULTILINE)
     assert len(parts) == 2

@@ -49,7 +49,7 @@ def browser() -> str:
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The manual, built."""
+    """Folder of the built manual."""
     browser()
     if find_spec("mkdocs") is None:
         pytest.skip("there is no mkdocs (pip install 'tallgrass[docs]')")
@@ -63,7 +63,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 class Serves(SimpleHTTPRequestHandler):
-    """Serves the manual, the page that looks at it, and takes what that tells."""
+    """Serves the manual and the page that inspects it, and receives that page's report."""
 
     heard: "Queue[Told]" = Queue()
 
@@ -94,7 +94,7 @@ class Serves(SimpleHTTPRequestHandler):
 
 @pytest.fixture(scope="module")
 def told(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Told]:
-    """What a browser sees of all pages."""
+    """Report of a browser on all pages."""
     with ThreadingHTTPServer(("127.0.0.1", 0), partial(Serves, directory=str(site))) as server:
         Thread(target=server.serve_forever, daemon=True).start()
         command = [

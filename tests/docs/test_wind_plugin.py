@@ -1,6 +1,6 @@
 """The tutorial on wind plugins, followed in an environment of its own, ends in a plugin that works.
 
-It is followed to the letter, but for how fine the grass of its picture is.
+It is followed to the letter, except that the grass of its picture is coarser.
 """
 
 import os
@@ -36,7 +36,7 @@ PROGRAMS = {
 
 @pytest.fixture(scope="module")
 def programs(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The programs of an environment that has this one's packages, and room for more of its own."""
+    """Folder of programs of an environment that has this one's packages, and may get more of its own."""
     home = tmp_path_factory.mktemp("environment")
     venv.create(home, with_pip=False)
     place = Path(sysconfig.get_path("purelib", "venv", {"base": str(home), "platbase": str(home)}))

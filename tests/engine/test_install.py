@@ -1,4 +1,4 @@
-"""Prairies that are advanced by the game's own world, once `install` was called (D6)."""
+"""Prairies advanced by the game's own esper world after `install` (D6)."""
 
 import esper
 import numpy as np
@@ -8,7 +8,7 @@ from tallgrass.engine.world import Advance, World, install
 
 
 class Order(esper.Processor):
-    """A game's own processor: what the prairies' time was when it ran."""
+    """A game's own processor, which records the prairies' time when it runs."""
 
     def __init__(self, steps: list[float]) -> None:
         self.steps = steps
@@ -20,7 +20,7 @@ class Order(esper.Processor):
 
 @pytest.fixture
 def steps(world: World) -> list[float]:
-    """By what a prairie in the world has been advanced."""
+    """Steps [s] by which a prairie in the world was advanced."""
     told: list[float] = []
     world.advance = told.append
     return told

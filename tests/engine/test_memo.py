@@ -1,4 +1,4 @@
-"""Remembering what follows from things that are never written to."""
+"""Caches by identity, of results that follow from immutable things."""
 
 from tallgrass.engine.memo import by_identity
 

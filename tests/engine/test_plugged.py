@@ -55,13 +55,13 @@ def install(folder: Path, name: str, systems: dict[str, str]) -> list[EntryPoint
 
 
 def prairie() -> SimpleNamespace:
-    """What a package sees of a prairie."""
+    """A prairie as a package's system sees it."""
     return SimpleNamespace(systems=Schedule())
 
 
 @pytest.fixture
 def toys(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[EntryPoint]:
-    """The systems of a distribution of which `ball` is right and all others are wrong."""
+    """Systems of a distribution: `ball` is right, all others are wrong."""
     systems = {
         "ball": "toys_ball:bring",
         "broken": "toys_ball:broken",

@@ -56,7 +56,7 @@ def install(folder: Path, name: str, kinds: dict[str, str], modules: dict[str, s
 
 @pytest.fixture
 def dust(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> WindKinds:
-    """The kinds of a distribution of which `vortex` is right and all others are wrong."""
+    """Kinds of wind of a distribution: `vortex` is right, all others are wrong."""
     kinds = {
         "vortex": "dust_vortex:Vortex",
         "gone": "dust_gone:Gone",

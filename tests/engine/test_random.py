@@ -16,7 +16,7 @@ seeds = st.integers(0, 2**31 - 1)
 
 
 def grid(seed: int) -> NDArray[np.uint32]:
-    """Return the numbers of a square of cells around the origin."""
+    """Return the hashes of a square of cells around the origin."""
     line = np.arange(-SIDE // 2, SIDE // 2, dtype=np.int32)
     return hash3(seed, line[None, :], line[:, None])
 

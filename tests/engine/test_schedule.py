@@ -1,4 +1,4 @@
-"""The schedule of a frame: order, turns, and what becomes of a system that fails."""
+"""The schedule of a frame: order, turns, and systems that fail."""
 
 import logging
 from collections.abc import Callable, Iterator
@@ -13,7 +13,7 @@ from tallgrass.engine.schedule import Phase, Schedule, UnknownSystemError
 
 
 class BallError(Exception):
-    """What a game raises; it cannot even be told."""
+    """A game's error whose text cannot be read."""
 
     def __str__(self) -> str:
         raise RuntimeError("no words")
@@ -42,7 +42,7 @@ def recorder(heard: list[str], name: str) -> Callable[[], None]:
 
 
 def schedule(heard: list[str], *names: str, phase: Phase = Phase.SEE) -> Schedule:
-    """A schedule of systems that say their names."""
+    """Schedule of systems that record their names when they run."""
     made = Schedule()
     for name in names:
         made.add(phase, name, recorder(heard, name))
@@ -131,7 +131,7 @@ async def awaited() -> None:
 
 
 def yielding() -> Iterator[None]:
-    """Begins when it is called, and does nothing before it is walked through."""
+    """A generator function as a system: its steps run only when it is iterated."""
     yield
 
 

@@ -1,4 +1,4 @@
-"""What becomes of a system that waits for something in a frame."""
+"""Systems that keep a frame waiting."""
 
 from collections.abc import Callable
 from functools import partial
@@ -12,7 +12,7 @@ from tallgrass.engine.schedule import PATIENCE, WAITED, WINDOW, Schedule
 
 @pytest.fixture
 def waits(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
-    """Let the clock run on while a system does nothing, as long as this is told [s]."""
+    """Return the function that advances the clock while a system waits, by a time [s]."""
     waited = [0.0]
     monkeypatch.setattr(scheduling, "perf_counter", lambda: waited[0])
 

@@ -1,4 +1,4 @@
-"""The examples that are programs: each runs, on a display and without one, and there is grass in its picture."""
+"""Example programs: each runs with a display and without, and there is grass in its picture."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The example plugin's wind in a prairie that is drawn: its twin tells receivers what its numpy does."""
+"""The example plugin's wind in a drawn prairie: its twin sends the same messages as its numpy."""
 
 import importlib
 from collections.abc import Callable

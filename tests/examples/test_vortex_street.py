@@ -1,4 +1,4 @@
-"""The example plugin, installed as anybody would and added by decorator, is a kind of scene files."""
+"""The example plugin, installed by pip or added by decorator, is a kind of wind in scene files."""
 
 import os
 import shutil
@@ -52,7 +52,7 @@ def run(tmp_path: Path) -> Run:
 
 @pytest.fixture
 def site(tmp_path: Path, run: Run) -> Path:
-    """A folder that the example is installed in; it is built from a copy, and so leaves nothing behind."""
+    """Folder in which the example is installed; it is built from a copy, which leaves no files in the checkout."""
     source = shutil.copytree(EXAMPLE, tmp_path / "source", ignore=shutil.ignore_patterns("__pycache__", "build", ".*"))
     place = tmp_path / "site"
     pip = ("-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--no-index")
@@ -62,7 +62,7 @@ def site(tmp_path: Path, run: Run) -> Path:
 
 @pytest.fixture
 def scene(tmp_path: Path) -> Path:
-    """The example's scene, of grass that is grown in a moment."""
+    """Path of the example's scene, with grass that grows in a moment."""
     path = tmp_path / "scene.yaml"
     path.write_text((EXAMPLE / "scene.yaml").read_text("utf-8").replace("quality: ultra", "quality: low"), "utf-8")
     return path

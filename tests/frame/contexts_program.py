@@ -1,6 +1,6 @@
 """A program with several GL contexts, without pyglet: what `test_contexts.py` runs.
 
-It prints one line of JSON: for each check what was found wrong, an empty text where nothing was.
+It prints one line of JSON: for each check its faults, an empty text where there are none.
 """
 
 import json
@@ -28,7 +28,7 @@ EMBEDDED = (c_int * 3)(0x3098, 3, 0x3038)
 
 
 class Screens:
-    """What makes GL contexts without windows."""
+    """Maker of GL contexts without windows."""
 
     def __init__(self) -> None:
         self.display = c_void_p(EGL.eglGetPlatformDisplay(SURFACELESS, None, None))
@@ -72,7 +72,7 @@ class Window:
         EGL.eglDestroyContext(self.screens.display, self.context)
 
     def picture(self, prairie: Prairie) -> Picture:
-        """Return what a prairie draws here."""
+        """Return the picture of a prairie in this context."""
         self.switch_to()
         gl("glClear", 0x4100)
         camera = camera_at(prairie.scene.camera, None, prairie.height_at)
@@ -82,7 +82,7 @@ class Window:
         return found
 
     def objects(self) -> dict[str, int]:
-        """Return how many GL objects of each kind there are."""
+        """Return the number of GL objects of each kind."""
         self.switch_to()
         kinds = ("Buffer", "Texture", "VertexArray", "Program", "Shader", "Framebuffer")
         return {kind: sum(gl(f"glIs{kind}", name) & 1 for name in range(1, 600)) for kind in kinds}
@@ -97,7 +97,7 @@ def gl(name: str, *arguments: object) -> int:
 
 @contextmanager
 def prairie_of(lod: LodName = "auto") -> Iterator[Prairie]:
-    """A prairie that is told of no context."""
+    """Yield a prairie that is given no context."""
     prairie = Prairie.load(sys.argv[1], live=False, lod=lod)
     yield prairie
     prairie.release()
@@ -174,7 +174,7 @@ def check_embedded(screens: Screens) -> str:
 
 
 def main() -> None:
-    """Run all checks and print what they say."""
+    """Run all checks and print their faults."""
     screens, found = Screens(), {}
     for name, run in globals().items():
         if name.startswith("check_"):

@@ -22,7 +22,7 @@ SHALLOW = 2.0
 
 
 def main() -> None:
-    """Dig, and wait; there is nothing to see."""
+    """Dig in some frames and wait in others; the driver draws nothing."""
     scene = {
         "tallgrass": 2,
         "terrain": {"heights": np.zeros((SIDE, SIDE), np.float32), "cell": CELL},

@@ -1,6 +1,6 @@
 """A program without pyglet that has a prairie in it: what `test_moderngl.py` runs, with moderngl or with plain GL.
 
-It prints one line of JSON: for each check what was found wrong, an empty text where nothing was.
+It prints one line of JSON: for each check its faults, an empty text where there are none.
 """
 
 import json
@@ -50,7 +50,7 @@ ON_UNIT = {"texture": 0x8069, "texture array": 0x8C1D}
 
 
 class Gl:
-    """The GL that the program's own context has, whatever of it is asked for."""
+    """GL functions of the program's own context, by name."""
 
     def __init__(self, context: Any) -> None:
         self._address = context.load_opengl_function
@@ -63,19 +63,19 @@ class Gl:
         return call
 
     def number(self, name: int, *place: int) -> tuple[int, ...]:
-        """Return the values of something, at one place of several if there are."""
+        """Return the values of a state, at an index if it is indexed."""
         found = (c_int * 4)()
         (self.glGetIntegeri_v if place else self.glGetIntegerv)(name, *place, found)
         return tuple(found)
 
     def box(self, place: int) -> tuple[float, ...]:
-        """Return the viewport of one place."""
+        """Return the viewport of an index."""
         found = (c_float * 4)()
         self.glGetFloati_v(0x0BA2, place, found)
         return tuple(found)
 
     def values(self) -> Values:
-        """Return all of the state that a prairie could spoil."""
+        """Return all GL state that a prairie could change."""
         told: Values = {name: (self.glIsEnabled(number),) for name, number in SWITCHES.items()}
         told |= {name: self.number(number) for name, number in NUMBERS.items()}
         told |= {f"texels {number:#x}": self.number(number) for number in STORES}
@@ -96,7 +96,7 @@ class Gl:
         return told
 
     def hostile(self) -> None:
-        """Set all that to what nobody expects."""
+        """Set all GL state to unusual values."""
         for number in (0x0BE2, 0x0B44, 0x0B71, 0x8642, 0x8037, 0x809E, 0x3000, 0x864F, 0x0C11):
             self.glEnable(number)
         self.glDisable(0x884F)
@@ -133,19 +133,19 @@ class Gl:
         self.glColorMask(1, 0, 1, 1)
 
     def outputs(self) -> None:
-        """Set what every output has of its own."""
+        """Set other masks and blending for the outputs after the first."""
         self.glColorMaski(1, 0, 1, 0, 1)
         self.glColorMaski(2, 1, 0, 0, 0)
         self.glDisablei(0x0BE2, 1)
 
 
 def compared(before: Values, after: Values) -> str:
-    """Say which values differ."""
+    """Return in words the values that differ."""
     return "; ".join(f"{name}: {before[name]}, then {after[name]}" for name in before if before[name] != after[name])
 
 
 def draw(prairie: Prairie) -> None:
-    """Draw as the scene's own camera sees it."""
+    """Draw a prairie from the scene's own camera."""
     camera = camera_at(prairie.scene.camera, None, prairie.height_at)
     prairie.draw(view_matrix(camera), projection_matrix(camera.view, SIZE[0] / SIZE[1]))
 
@@ -169,7 +169,7 @@ class Game:
 
     @contextmanager
     def target(self, colors: int) -> Iterator[moderngl.Framebuffer]:
-        """A framebuffer with so many attachments, and depth."""
+        """Return a framebuffer with a number of colour attachments, and depth."""
         made = [self.ctx.texture(SIZE, 4) for _ in range(colors)]
         depth = self.ctx.depth_texture(SIZE)
         target = self.ctx.framebuffer(made, depth)
@@ -181,7 +181,7 @@ class Game:
             texture.release()
 
     def seen(self, target: moderngl.Framebuffer) -> list[Picture]:
-        """Return what all attachments hold, depth last."""
+        """Return the contents of all attachments, depth last."""
         colors = [np.frombuffer(target.read(components=4, attachment=each), np.uint8) for each in self.colors(target)]
         assert isinstance(target.depth_attachment, moderngl.Texture)
         return [*colors, np.frombuffer(target.depth_attachment.read(), np.uint8)]
@@ -191,7 +191,7 @@ class Game:
         return range(len(target.color_attachments or ()))
 
     def left(self, colors: int, leave: Callable[[], None], *, prairie: bool) -> tuple[str, list[Picture]]:
-        """Draw the triangle in what was left, perhaps after a prairie; what that changed, and the picture."""
+        """Set a state, draw the triangle, perhaps after a prairie; return the changes of state, and the picture."""
         with self.target(colors) as target:
             leave()
             before = self.gl.values()
@@ -209,7 +209,7 @@ class Game:
             return told, self.seen(target)
 
     def tidy(self, target: moderngl.Framebuffer) -> None:
-        """Let everything through again."""
+        """Restore GL's default masks and tests."""
         self.ctx.enable_only(moderngl.NOTHING)
         for number in (0x8037, 0x809E, 0x3000, 0x864F, 0x0C11, 0x0BF2):
             self.gl.glDisable(number)
@@ -223,20 +223,20 @@ class Game:
         target.use()
 
     def enabled(self) -> None:
-        """What a program enables once, with moderngl."""
+        """Enable switches once, with moderngl."""
         self.ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
         self.ctx.blend_func, self.ctx.depth_func = (moderngl.ONE, moderngl.ONE), ">="
         self.ctx.front_face = "cw"
 
     def one_of_two(self) -> None:
-        """The second attachment alone, and not as its first output."""
+        """Set all GL state to unusual values, with the second attachment as the second output alone."""
         self.gl.hostile()
         self.gl.outputs()
         self.gl.glDrawBuffers(2, (c_int * 2)(0, 0x8CE1))
 
 
 def check_state(game: Game) -> str:
-    """Whatever was set is as it was, value by value, and so is the program's own triangle."""
+    """All GL state is as before, value by value, and so is the program's own triangle."""
     told = []
     for colors in (1, 2, 0):
         for leave in (lambda: None, game.enabled, game.gl.hostile, game.gl.outputs, game.one_of_two):
@@ -249,7 +249,7 @@ def check_state(game: Game) -> str:
 
 
 def check_attachments(game: Game) -> str:
-    """The first of two is drawn as if it were alone, the second stays; with depth alone, depth is as ever."""
+    """Of two attachments the first gets the usual picture and the second stays; a framebuffer of depth works, too."""
     pictures = {}
     for colors in (1, 2, 0):
         with game.target(colors) as target:
@@ -268,7 +268,7 @@ def check_attachments(game: Game) -> str:
 
 
 def check_output(game: Game) -> str:
-    """What the program has as its first output is drawn, whichever attachment that is."""
+    """The prairie goes to the program's first output, whichever attachment that is."""
     with game.target(2) as target:
         game.gl.glDrawBuffers(1, (c_int * 1)(0x8CE1))
         draw(game.prairie)
@@ -277,7 +277,7 @@ def check_output(game: Game) -> str:
 
 
 def check_anaglyph(game: Game) -> str:
-    """Drawn through a red and a cyan mask, a prairie is what it is without any."""
+    """A prairie drawn through a red and then a cyan mask is the picture without masks."""
     with game.target(1) as target:
         draw(game.prairie)
         whole, _ = game.seen(target)
@@ -310,7 +310,7 @@ def check_samplers(game: Game) -> str:
 
 
 def check_clip_space(game: Game) -> str:
-    """A program that has turned clip space over, and lets depth run from 0 to 1, sees a prairie as it sees its own."""
+    """In a clip space that is upside down, with depth from 0 to 1, prairie and triangle have the same picture."""
     pictures = []
     turned = np.diag([1.0, -1.0, 1.0, 1.0])
     nearer = np.eye(4)
@@ -331,7 +331,7 @@ def check_clip_space(game: Game) -> str:
 
 
 def check_released(game: Game) -> str:
-    """A framebuffer that is gone does not keep a prairie from being drawn in the next one."""
+    """After a framebuffer was deleted, a prairie can be drawn in the next one."""
     with game.target(1):
         draw(game.prairie)
     with game.target(1) as target:
@@ -340,7 +340,7 @@ def check_released(game: Game) -> str:
 
 
 def bare() -> str:
-    """Draw in a context that moderngl does not know yet, with plain GL: that is left alone from the first frame on."""
+    """Draw with plain GL in a context that moderngl does not know yet: its state stays, from the first frame on."""
     libraries = {"libgl": find_library("GL"), "libegl": find_library("EGL")}
     context = glcontext.get_backend_by_name("egl")(mode="standalone", glversion=330, **libraries)
     gl, name = Gl(context), (c_int * 1)()
@@ -361,7 +361,7 @@ def bare() -> str:
 
 
 def main() -> None:
-    """Run all checks and print what they say."""
+    """Run all checks and print their faults."""
     if sys.argv[2] == "bare":
         found = {"bare": bare()}
     else:

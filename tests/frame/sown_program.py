@@ -1,7 +1,7 @@
 """A program that sows and clears before its eye on 10 km of terrain: what `test_sown.py` runs without a rasteriser.
 
-It prints one line of JSON: the processor times of frames [s] in which it does, and of those next to them; and how long
-1,000 strokes took, 16 of them before each frame.
+It prints one line of JSON: processor times of frames [s] in which it sows, and of the frames next to them; and those of
+1,000 strokes, 16 of them before each frame.
 """
 
 import json
@@ -20,7 +20,7 @@ WARM, TIMES = 40, 40
 
 
 def main() -> None:
-    """Sow, clear, and wait; there is nothing to see."""
+    """Sow and clear in some frames and wait in others; the driver draws nothing."""
     scene = {
         "tallgrass": 2,
         "terrain": {"size": [10_000, 10_000], "cell": 10.0},

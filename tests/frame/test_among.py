@@ -1,4 +1,4 @@
-"""Soft edges of trees among the grass: they are before the grass behind them, and before wood behind them (N3)."""
+"""Soft edges of trees among the grass hide grass and wood behind them (N3)."""
 
 from collections.abc import Iterator
 
@@ -39,7 +39,7 @@ def prairie(ctx: moderngl.Context) -> Iterator[Prairie]:
 
 
 def red_and_blue(ctx: moderngl.Context, prairie: Prairie, eye: Camera) -> list[float]:
-    """Return how much is seen of a tree's red leaves and of its blue wood, of what a reference shows of them."""
+    """Return the visible amounts of a tree's red leaves and blue wood, relative to the reference."""
     stage = Stage(ctx, SIZE)
     stage.begin()
     prairie.draw(*stage.matrices(eye))

@@ -1,4 +1,4 @@
-"""What gives levels of detail away from odd angles: rows, combing, holes (G3, G4, X5)."""
+"""Artefacts of levels of detail from odd angles: rows, combing, holes (G3, G4, X5)."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -33,13 +33,13 @@ def wide(ctx: moderngl.Context) -> Iterator[Stage]:
 
 @pytest.fixture(scope="module")
 def narrow(ctx: moderngl.Context) -> Iterator[Stage]:
-    """A stage of 120 by 270 pixels: what takes long are the blades of references."""
+    """A stage of 120 by 270 pixels: references with all their blades take long."""
     with testing.stage(ctx, (120, 270)) as made:
         yield made
 
 
 def both(stage: Stage, prairie: Prairie, camera: Camera) -> tuple[Doubles, Doubles]:
-    """What a camera sees of a prairie, and the reference: luma, (height, width) each."""
+    """Return a camera's picture of a prairie, and its reference: luma, (height, width) each."""
     seen = stage.shot(prairie, camera)
     return luma(seen.astype(np.uint8)), luma(
         draw_truth(prairie, *stage.matrices(camera), stage.size, samples=SAMPLES).picture
@@ -47,13 +47,13 @@ def both(stage: Stage, prairie: Prairie, camera: Camera) -> tuple[Doubles, Doubl
 
 
 def rows(picture: Doubles) -> float:
-    """How much the means of a picture's lines differ from those of the lines around them, in blocks of 120 columns."""
+    """Return the unevenness of the means of a picture's lines, in blocks of 120 columns."""
     blocks = [picture[120:, start : start + 120].mean(axis=1) for start in range(0, picture.shape[1], 120)]
     return float(np.mean([unevenness(block) for block in blocks]))
 
 
 def unevenness(lines: Doubles) -> float:
-    """How much values differ from those around them."""
+    """Return the standard deviation of values from their running mean."""
     return float((lines - np.convolve(lines, np.ones(9) / 9, "same"))[6:-6].std())
 
 
@@ -141,7 +141,7 @@ FAINT = 0.05
 
 
 def periodic(picture: Doubles, along: Doubles, spacing: float) -> float:
-    """By how much means of a picture's lines swing every `spacing`; `along` (lines,) says where they lie."""
+    """Return the amplitude of the lines' means at the period `spacing`; `along` (lines,) are their positions."""
     powers, window = list[float](), 40
     shape = np.hanning(window)
     for start in range(0, len(along) - window + 1, window // 2):
@@ -179,7 +179,7 @@ def test_f2_a_plain_from_twelve_metres_up_shows_neither_rows_of_strips_nor_where
 
 @pytest.fixture(scope="module")
 def carpet(load: Load) -> Prairie:
-    """The same where all of it is carpet: through a narrow lens strips reach far."""
+    """Prairie of carpet alone: through a narrow lens strips reach far."""
     return load("plain", lod="carpet", preset="low")
 
 
@@ -187,7 +187,7 @@ def carpet(load: Load) -> Prairie:
 def test_g4_blades_of_the_carpet_stand_upright_whichever_way_they_are_seen(
     carpet: Prairie, narrow: Stage, heading: int
 ) -> None:
-    """Where they are drawn out across the line of sight, brightness changes from line to line and not along lines."""
+    """If they were stretched across the line of sight, brightness would change from line to line, not along lines."""
     yaw = math.radians(heading)
     camera = Camera((-30.0 * math.sin(yaw), 6.0, 30.0 * math.cos(yaw)), yaw, -0.16, math.radians(8.0))
     drawn, true = both(narrow, carpet, camera)

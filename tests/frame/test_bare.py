@@ -29,7 +29,7 @@ light: { ground: "#d9c48f" }
 
 @pytest.fixture(scope="module")
 def small(ctx: moderngl.Context) -> Iterator[Stage]:
-    """Quick to draw, and wide enough for what lies far off."""
+    """A small stage, wide enough for the far ground."""
     made = Stage(ctx, (240, 135))
     yield made
     made.release()
@@ -37,7 +37,7 @@ def small(ctx: moderngl.Context) -> Iterator[Stage]:
 
 @pytest.fixture
 def bare(ctx: moderngl.Context, tmp_path: Path) -> Iterator[Load]:
-    """Load `SOIL`, on which nothing grows; all are released in the end."""
+    """Return the function that loads `SOIL`, on which nothing grows; it releases all prairies in the end."""
     Image.fromarray(np.zeros((8, 8), np.uint8)).save(tmp_path / "none.png")
     (tmp_path / "bare.yaml").write_text(SOIL, "utf-8")
     with ExitStack() as stack:
@@ -61,7 +61,7 @@ def bare(ctx: moderngl.Context, tmp_path: Path) -> Iterator[Load]:
 def test_t1_bare_ground_far_off_is_as_bright_as_in_the_reference(
     small: Stage, bare: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch, preset: str, *, is_card: bool
 ) -> None:
-    """A card reads litter with an anisotropic sampler, which a software rasteriser has too, and is slow with."""
+    """Cards read litter with an anisotropic sampler; so does this test, slowly, on a software rasteriser."""
     monkeypatch.setattr(rasteriser, "draws_in_software", lambda _: not is_card)
     assert (rasteriser.anisotropy(small.ctx) > 1.0) == is_card
     prairie, seen = bare(preset=preset), camera(0, 8, 90, pitch=-5)

@@ -42,7 +42,7 @@ quality:
 
 @pytest.fixture(scope="module")
 def prairie(load: Load, stage: Stage, camera: Aim) -> Prairie:
-    """Flat ground without wind, drawn once, and without a sun: what flies casts no shadow."""
+    """Prairie on flat ground without wind, drawn once; without a sun, so that bodies cast no shadow."""
     made = load(FLAT)
     stage.shot(made, camera(0.0, 1.7, 10.0))
     return made
@@ -50,7 +50,7 @@ def prairie(load: Load, stage: Stage, camera: Aim) -> Prairie:
 
 @pytest.fixture
 def show(prairie: Prairie, stage: Stage) -> Callable[..., Picture]:
-    """Draw bodies as one sees them who comes anew: `show(camera, *bodies)`."""
+    """Return the function that draws bodies for a new viewer: `show(camera, *bodies)`."""
 
     def drawn(aim: Camera, *bodies: Body) -> Picture:
         prairie.viewers.forget("main")
@@ -193,7 +193,7 @@ def test_no_program_is_made_before_something_flies(load: Load, stage: Stage, cam
 
 
 class Rotor(WindPrimitive):
-    """A stranger's wind that flies past and bends no grass, so that only its body is seen."""
+    """A plugin's wind that flies past and bends no grass, so that only its body is seen."""
 
     kind: str = "rotor"
 

@@ -1,4 +1,4 @@
-"""What a game builds on the ground lies free where grass has been taken away, as among every blade in 3D (F4, T1)."""
+"""A game's floors are visible where grass was taken away, as among every blade in 3D (F4, T1)."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -45,7 +45,7 @@ def room(ctx: moderngl.Context) -> Iterator[Stage]:
 
 @pytest.fixture(scope="module")
 def floor(ctx: moderngl.Context) -> Callable[..., None]:
-    """Draw a square of ground as a game would: its middle (z), and where it is seen from."""
+    """Draw a floor as a game would, with its middle at z, from a camera."""
     made = ctx.program(
         "#version 330\nin vec3 at; uniform mat4 m; void main() { gl_Position = m * vec4(at, 1); }",
         fragment_shader="#version 330\nout vec4 c; void main() { c = vec4(1, 0, 1, 1); }",
@@ -63,7 +63,7 @@ def floor(ctx: moderngl.Context) -> Callable[..., None]:
 
 
 def seen_of(room: Stage, floor: Callable[..., None], prairie: Prairie, z: float, aim: Camera) -> tuple[Any, Any]:
-    """Which pixels the floor has alone, and how much of each is seen of it in the prairie: no grass is magenta."""
+    """Return the mask of the floor's pixels, and its visible fraction in each with the prairie: no grass is magenta."""
     matrices = room.matrices(aim)
     room.begin()
     floor(z, matrices)
@@ -84,7 +84,7 @@ def cut(prairie: Prairie) -> None:
 def built(
     request: pytest.FixtureRequest, load: Load, tmp_path_factory: pytest.TempPathFactory
 ) -> tuple[Prairie, Prairie]:
-    """The prairie without grass on two squares: as it is drawn, and with every blade."""
+    """Pictures of the prairie without grass on two squares: as it is drawn, and with every blade."""
     scene = FLAT
     if request.param == "map":
         x, z = np.meshgrid(np.arange(300) * 0.2 - 29.9, np.arange(300) * 0.2 - 29.9)
@@ -235,7 +235,7 @@ def test_only_pieces_of_the_ground_at_edges_are_drawn_as_those_and_a_stroke_move
     prairie, aim = load(FLAT), camera(0.0, 3.0, 20.0, pitch=-10)
 
     def dear() -> list[tuple[float, ...]]:
-        """Return where such pieces lie (x, z) [m]."""
+        """Return the places (x, z) [m] of pieces that are drawn as edges need it."""
         room.shot(prairie, aim)
         shelf = carpet_of(prairie).ground.shelves.now
         stream = shelf.streams[EDGED]

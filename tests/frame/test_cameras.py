@@ -1,8 +1,8 @@
 """Pictures from cameras that nobody tuned for, each beside the reference (G3, G4, G5).
 
 The scenes stand in `tests/cameras`. `tallgrass bench picture tests/cameras` prints the same figures of larger pictures,
-finer references, and rivals. `today.toml` has what each camera falls short by: none may get worse, and where one gets
-better, `TALLGRASS_RECORD=1` in the environment, in one process (`-n 0`), writes the file anew. The goals are the
+finer references, and rivals. `today.toml` has the shortfall of each camera. None may get worse. Where one gets
+better, `TALLGRASS_RECORD=1` in the environment, in one process (`-n 0`), writes the file again. The goals are the
 constants here.
 """
 
@@ -56,7 +56,7 @@ def stage(ctx: moderngl.Context) -> Iterator[Stage]:
 
 @pytest.fixture(scope="module")
 def today() -> Iterator[dict[str, Figures]]:
-    """What was measured last, by camera; what is measured now is written down where that is asked for."""
+    """Recorded figures by camera; with TALLGRASS_RECORD=1 those of this run replace them in the file."""
     told: dict[str, Figures] = tomllib.loads(TODAY.read_text("utf-8"))
     yield told
     if os.environ.get("TALLGRASS_RECORD") == "1":
@@ -65,7 +65,7 @@ def today() -> Iterator[dict[str, Figures]]:
 
 
 def measured(stage: Stage, prairie: Prairie) -> Figures:
-    """What a prairie's own camera sees, against the reference."""
+    """Return the figures of the picture from a scene's own camera against the reference."""
     prairie.advance(MOMENT)
     view, projection = stage.matrices(camera_at(prairie.scene.camera, None, prairie.height_at))
     stage.begin()

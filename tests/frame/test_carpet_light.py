@@ -43,12 +43,12 @@ def room(ctx: moderngl.Context) -> Stage:
 
 @pytest.fixture(scope="module")
 def prairie(load: Load) -> Prairie:
-    """All of it is carpet, and no wind blows."""
+    """Prairie of carpet alone, in calm air."""
     return load(CALM, lod="carpet")
 
 
 def brighter(room: Stage, prairie: Prairie, wind: Breeze | Blast) -> NDArray[np.float64]:
-    """How much brighter each pixel is in a wind than in calm air, of what it was, shape (height, width)."""
+    """Return each pixel's brightness in a wind relative to calm air, minus 1, shape (height, width)."""
     calm = room.shot(prairie, CAMERA).mean(axis=2)
     handle = prairie.add(wind, pose=Pose())
     blown = room.shot(prairie, CAMERA).mean(axis=2)
@@ -121,7 +121,7 @@ def test_f2_a_coarse_carpet_hides_as_much_of_the_ground_between_the_slopes_of_it
 
 @pytest.mark.parametrize("text", [CALM, COARSE], ids=["whole", "coarse"])
 def test_f6_leaves_of_the_carpet_go_where_the_wind_bends_them(room: Stage, load: Load, text: str) -> None:
-    """From above, where north is up and the wind goes east; what lies on the ground stays."""
+    """From above, with north up and a wind to the east; litter on the ground stays in place."""
     prairie = load(text, lod="carpet")
     above = Camera((0.3, 20.0, 0.2), 0.0, -np.pi / 2.0, np.radians(8.0))
     calm, metre = luma(room.shot(prairie, above)), room.size[1] / (2.0 * 20.0 * np.tan(np.radians(4.0)))
@@ -141,7 +141,7 @@ def test_f6_leaves_of_the_carpet_go_where_the_wind_bends_them(room: Stage, load:
 def test_grass_that_grows_half_as_densely_is_as_bright_on_the_carpet_as_its_blades_are(
     room: Stage, load: Load, tmp_path: Path
 ) -> None:
-    """It is seen farther down, where blades have the colour of their roots."""
+    """One sees farther down into it, where blades have the colour of their roots."""
     half = tmp_path / "half.png"
     Image.fromarray(np.full((8, 8), 128, np.uint8)).save(half)
     colours = f'understorey: 0, root: "#202020", tip: "#a0a0a0", place: {{ map: {half} }}'
@@ -161,7 +161,7 @@ grass: { turf: { height: [0.4, 0.7], width: 0.02, blades: 2 } }
 
 
 def test_behind_grass_that_hides_hardly_anything_the_ground_is_seen_where_it_lies(room: Stage, load: Load) -> None:
-    """It is drier here and greener there: told by each line of the picture."""
+    """The ground is drier here and greener there: compared line by line."""
     prairie, camera = load(BARE, lod="carpet"), Camera((0.0, 1.7, 48.0), 0.0, -0.03, np.radians(4.0))
     lines = [
         picture[60:150].mean(axis=(1, 2))

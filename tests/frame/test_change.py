@@ -1,4 +1,4 @@
-"""Changes of representation, as they are seen (X1, X4, X5)."""
+"""Changes of representation in pictures (X1, X4, X5)."""
 
 from collections.abc import Callable
 from itertools import pairwise
@@ -42,7 +42,7 @@ def prairie(load: Load) -> Prairie:
 
 
 def settled(stage: Stage, prairie: Prairie, aim: Camera) -> NDArray[np.float64]:
-    """The picture once nothing is in transition any more."""
+    """Return the picture after all transitions have ended."""
     stage.shot(prairie, aim)
     for _ in range(2):  # a sub-level's change may have to end before that of the representation begins
         prairie.advance(FADE)
@@ -87,7 +87,7 @@ def test_x1_stepping_back_over_the_border_at_once_starts_nothing(stage: Stage, p
 
 
 def test_x1_what_comes_into_view_is_there_at_once(stage: Stage, prairie: Prairie, camera: Aim) -> None:
-    """Who turns round steps over a border in the same frame, so that another representation is due on some of it."""
+    """The viewer turns round and crosses a border in one frame, so that some patches in view change representation."""
     ahead, behind = camera(0.6, 1.7, 2.4995, pitch=-10), camera(0.6, 1.7, 2.5005, pitch=-10, yaw=180)
     settled(stage, prairie, ahead)
     patches = prairie.viewers["main"].patches

@@ -37,7 +37,7 @@ def room(ctx: moderngl.Context) -> Stage:
 
 
 def both(load: Load, blades: int) -> list[Prairie]:
-    """The whole carpet, and the coarse one."""
+    """Prairies with the whole carpet, and with the coarse one."""
     return [load(SCENE.format(blades=blades, coarse=coarse), lod="carpet") for coarse in ("false", "true")]
 
 

@@ -23,7 +23,7 @@ Said = dict[str, str]
 
 @pytest.fixture(scope="module")
 def said(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory, python: Callable[..., str]) -> Said:
-    """What the program says; it is not run where there is no GL."""
+    """Faults that the program reports, by check; skipped without GL."""
     assert ctx.version_code >= 330
     scene = tmp_path_factory.mktemp("scene") / "scene.yaml"
     scene.write_text(LITTLE + "wind: [{ kind: breeze, strength: 0.4 }]\n", "utf-8")

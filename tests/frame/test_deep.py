@@ -1,4 +1,4 @@
-"""Depth of all grass: what a game draws after the prairie is hidden by as much of it as before (D6)."""
+"""Depth of all grass: it hides as much of what a game draws after the prairie as of what it draws before (D6)."""
 
 from collections.abc import Callable, Iterator
 
@@ -74,7 +74,7 @@ def stage_of_reeds(ctx: moderngl.Context) -> Iterator[Stage]:
 
 
 def seen(stage: Stage, prairie: Prairie, host: Host, camera: Camera, depth: str | None) -> Picture:
-    """The picture with the pond: opaque and first, or translucent and after grass that has written its depth."""
+    """Return the picture with the pond: drawn first and opaque, or after the grass's depth and translucent."""
     view, projection = stage.matrices(camera)
     clip = projection.astype(float) @ view
     stage.begin()

@@ -44,7 +44,7 @@ def stage(ctx: moderngl.Context) -> Stage:
 
 
 def from_sun(elevation: float = 25.0) -> tuple[Array, Array]:
-    """View and projection of a map that looks from a sun over -z, on the foot of the wall."""
+    """Return view and projection of a shadow map from a sun over -z, aimed at the foot of the wall."""
     e = np.radians(elevation)
     view = np.eye(4)
     view[:3, :3] = (-1.0, 0.0, 0.0), (0.0, np.cos(e), np.sin(e)), (0.0, np.sin(e), -np.cos(e))
@@ -53,7 +53,7 @@ def from_sun(elevation: float = 25.0) -> tuple[Array, Array]:
 
 
 def darkened(depth: NDArray[np.float32]) -> Array:
-    """How much of the wall lies in shadow by height over the ground, each 0.1 m up to 0.8 m, by a map of this depth."""
+    """Return the shadowed fraction of the wall at each 0.1 m of height up to 0.8 m, by a map of this depth."""
     view, projection = from_sun()
     x, y = np.meshgrid(np.linspace(-2.0, 2.0, 200), np.linspace(0.0025, 0.7975, 160))
     clip = np.stack([x, y, np.full_like(x, WALL), np.ones_like(x)], axis=-1) @ (projection @ view).T

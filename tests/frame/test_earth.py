@@ -35,7 +35,7 @@ def texture(ctx: moderngl.Context) -> Iterator[Callable[..., moderngl.Texture]]:
 
 
 def hue(picture: Any) -> Any:
-    """How much redder than blue pixels are."""
+    """Return the difference of red and blue of pixels."""
     return picture[..., 0] - picture[..., 2]
 
 

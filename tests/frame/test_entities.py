@@ -1,4 +1,4 @@
-"""What a game writes on entities is seen in the same frame, in every representation (D2, D6)."""
+"""Values that a game writes on entities show in the same frame, in every representation (D2, D6)."""
 
 import logging
 from collections.abc import Callable, Iterator
@@ -48,7 +48,7 @@ def prairie(ctx: moderngl.Context) -> Iterator[Prairie]:
 
 
 def settled(prairie: Prairie, easel: Stage, camera: Camera = ABOVE, seconds: float = 2.0) -> Picture:
-    """The picture once nothing changes any more and every patch has its entity; time goes on meanwhile."""
+    """Return the picture after all transitions, when every patch has its entity; time advances meanwhile."""
     for _ in range(4):
         prairie.advance(seconds / 4)
         easel.shot(prairie, camera)
@@ -62,7 +62,7 @@ def patch_of(prairie: Prairie, place: tuple[float, float]) -> int:
 
 
 def on_patch(easel: Stage, place: tuple[float, float], beyond: float) -> NDArray[np.bool_]:
-    """Which pixels may show what grows on the patch at a place, or up to so far beyond it [m]."""
+    """Return the mask of pixels that may show grass of the patch at a place, or within a distance of it [m]."""
     low = np.floor(np.array(place) / PATCH) * PATCH - beyond
     shown = np.zeros(easel.size[::-1], np.bool_)
     for level in np.linspace(0.0, 0.95, 12):
@@ -76,7 +76,7 @@ def apart(one: Picture, other: Picture) -> Picture:
 
 
 class Flatten(esper.Processor):
-    """A game's own processor: it bends the grass of one patch, as a thing that lies there would."""
+    """A game's own processor that bends the grass of one patch, as a thing lying there would."""
 
     def __init__(self, patch: int) -> None:
         self.patch = patch
@@ -247,7 +247,7 @@ def test_d6_a_system_that_raises_is_named_once_and_the_picture_is_that_without_i
 
 
 def walked(prairie: Prairie, easel: Stage, cameras: dict[str, Callable[[float], Camera]]) -> dict[str, list[Picture]]:
-    """The pictures of viewers who walk, one after another in every frame."""
+    """Return the pictures of walking viewers, drawn one after another in every frame."""
     pictures: dict[str, list[Picture]] = {name: [] for name in cameras}
     for frame in range(6):
         prairie.advance(0.2)

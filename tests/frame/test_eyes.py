@@ -50,7 +50,7 @@ def test_a_head_near_by_has_an_eye_of_the_colour_that_is_declared_and_petals_abo
 
 
 def bluer(of_blue: Doubles, of_red: Doubles) -> float:
-    """How much of what is seen of heads is eyes."""
+    """Return the fraction of eyes in the visible heads."""
     more, all_red = of_blue[..., 2] - of_red[..., 2], of_red[..., 0]
     return float(more.mean() / all_red.mean())
 
@@ -91,7 +91,7 @@ def test_heads_without_an_eye_are_the_same_picture_to_the_byte_where_others_have
 
 @pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
 def test_heads_come_to_have_an_eye_and_another(stage: Stage, load: Load, camera: Aim, lod: str) -> None:
-    """While they come, what stands without one has no eye, and what comes has none of another colour yet."""
+    """During the change, heads without an eye stay so, and new heads have no eye of the other colour."""
     aim, plain = camera(0.0, 1.6, 20.0, pitch=-20), BED.replace('eye: "#d02020", ', "")
     prairie = load(plain, lod=lod, live=False)
     pictures = [stage.shot(prairie, aim)]

@@ -1,4 +1,4 @@
-"""A frame time that is held, in whole frames (N11)."""
+"""Holding a frame time, in whole frames (N11)."""
 
 import json
 import os
@@ -45,7 +45,7 @@ void main() { pixel = vec4(1.0, 0.0, 1.0, 1.0); }"""
 
 @pytest.fixture
 def at(monkeypatch: pytest.MonkeyPatch) -> At:
-    """Let every picture be drawn with this part of the pixels, and of the distances."""
+    """Draw all pictures with these fractions of pixels and distances."""
 
     def fix(scale: float, part: float) -> None:
         monkeypatch.setattr(govern, "RUNGS", (Fineness(scale, part),))
@@ -73,7 +73,7 @@ def post(ctx: moderngl.Context) -> Iterator[Draw]:
 
 
 def shown(stage: Stage, prairie: Prairie, post: Draw | None = None) -> tuple[NDArray[np.float64], NDArray[np.float32]]:
-    """Return what the scene's camera sees, and how deep; with a post that the host drew before."""
+    """Return the picture of the scene's camera, and its depth; with a post that the host drew before."""
     seen = camera_at(prairie.scene.camera, None, prairie.height_at)
     stage.begin()
     if post is not None:

@@ -52,14 +52,14 @@ class Shoot(esper.Processor):
 
 @pytest.fixture
 def loaded(tmp_path: Path) -> LoadedScene:
-    """The little scene, read."""
+    """The little scene, as it is read."""
     (tmp_path / "scene.yaml").write_text(LITTLE, "utf-8")
     return read_scene(tmp_path / "scene.yaml")
 
 
 @pytest.fixture(autouse=True)
 def level() -> Iterator[str]:
-    """The world that a game has current, as other than esper's default one."""
+    """Name of a game's current world, which is not esper's default one."""
     name = f"level-{next(numbers)}"
     esper.switch_world(name)
     yield name
@@ -68,7 +68,7 @@ def level() -> Iterator[str]:
 
 
 def told() -> tuple[object, ...]:
-    """All that is in the current world."""
+    """Return the contents of the current world: entities, processors and event handlers."""
     entities: dict[int, tuple[object, ...]] = {
         entity: esper.components_for_entity(entity) for entity in esper.get_entities()
     }

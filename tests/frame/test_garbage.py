@@ -1,4 +1,4 @@
-"""A frame leaves nothing to Python's collector, and gives it no reason to set in (N11)."""
+"""A frame leaves no garbage to Python's collector, and never triggers it (N11)."""
 
 import gc
 from collections.abc import Callable
@@ -33,7 +33,7 @@ SPEED = 50.0 / 60.0
 
 @pytest.fixture(scope="module")
 def prairie(load: Load) -> Prairie:
-    """A prairie that is long enough for a flight."""
+    """Prairie that is long enough for a flight."""
     return load(LONG)
 
 

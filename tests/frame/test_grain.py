@@ -1,4 +1,4 @@
-"""Grain: pictures of grass are neither smoother nor rougher than all its blades, still or in the wind (G3, G4)."""
+"""Grain: pictures of grass are as rough as those of all its blades, in calm air and in wind (G3, G4)."""
 
 from collections.abc import Callable
 
@@ -68,7 +68,7 @@ def test_g4_grass_has_about_as_much_contrast_as_all_its_blades(
 def test_a_strip_shows_nothing_of_the_picture_beside_its_own(
     room: Stage, load: Load, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """From afar, below a crest, dark roots of the pictures beside them hung over strips."""
+    """Once, far off below a crest, dark roots of neighbouring pictures showed at the tops of strips."""
     seen = []
     for spare in (SPARE, 3 * ALIGNMENT):
         monkeypatch.setattr(textures, "SPARE", spare)

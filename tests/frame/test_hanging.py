@@ -1,4 +1,4 @@
-"""Where the carpet's sheet changes its height, nobody looks in under it (F4)."""
+"""Where the carpet's mesh changes its height, no gap shows below it (F4)."""
 
 from pathlib import Path
 

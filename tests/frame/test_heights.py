@@ -1,4 +1,4 @@
-"""Pictures of ground that a game has changed: those of a prairie that was loaded with it (F1, N5)."""
+"""Pictures of ground that a game has changed equal those of a prairie loaded with that ground (F1, N5)."""
 
 import json
 import os
@@ -120,7 +120,7 @@ def test_who_looks_later_sees_changed_ground_as_well(stage: Stage, ctx: moderngl
 def test_ground_that_is_raised_keeps_its_blades_in_the_picture(
     stage: Stage, ctx: moderngl.Context, camera: Aim
 ) -> None:
-    """They are left out where the ground as it was is out of the picture."""
+    """Blades are culled by the ground's height: with the height before, these would be outside of the picture."""
     pictures, top = [], before()
     top[40:60, 30:50] += 6.0
     for first, is_changed in ((before(), True), (top, False)):
@@ -136,7 +136,7 @@ def test_ground_that_is_raised_keeps_its_blades_in_the_picture(
 
 @pytest.mark.slow
 def test_far_shadows_follow_and_are_right_in_the_end(stage: Stage, ctx: moderngl.Context, camera: Aim) -> None:
-    """Those that reach over too much of the map of what stands before the sun to be drawn at once."""
+    """Shadows that reach over too much of the horizon map for one frame."""
     flat, ridge = (np.zeros((601, 601), np.float32) for _ in range(2))
     ridge[200:202, 150:450] = 9.0
     aim, pictures = camera(0.0, 90.0, 0.0, pitch=-50), []
@@ -157,7 +157,7 @@ def test_far_shadows_follow_and_are_right_in_the_end(stage: Stage, ctx: moderngl
 def test_a_frame_in_which_10_km_of_terrain_are_dug_takes_no_longer_than_half_as_long_again(
     ctx: moderngl.Context,
 ) -> None:
-    """Processor time in a process whose driver draws nothing."""
+    """Measured as processor time in a process whose driver draws nothing."""
     assert ctx.version_code >= 330
     program = Path(__file__).with_name("heights_program.py")
     done = subprocess.run(

@@ -1,4 +1,4 @@
-"""What grass hides of strips and blades is not drawn, and is drawn where something before it is gone (G5)."""
+"""Hidden parts of strips and blades are not drawn, unless the grass before them is gone (G5)."""
 
 from collections.abc import Callable
 
@@ -32,7 +32,7 @@ CAMERA = Camera((0.0, 1.1, 20.0), 0.0, -0.1, np.radians(30.0))
 
 
 def drawn(stage: Stage, prairie: Prairie) -> tuple[NDArray[np.float64], int]:
-    """The picture, and how many samples were drawn."""
+    """Return the picture, and the number of samples drawn."""
     stage.shot(prairie, CAMERA)
     query = stage.ctx.query(samples=True)
     with query:

@@ -53,7 +53,7 @@ quality:
 
 
 class Overlay:
-    """What a host draws over a prairie: a textured square, its uniform block at binding 0, its texture on unit 0."""
+    """A host's drawing over a prairie: a textured square, its uniform block at binding 0, its texture on unit 0."""
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
@@ -66,7 +66,7 @@ class Overlay:
         self.array = ctx.vertex_array(self.program, [])
 
     def draw(self) -> None:
-        """Draw as a host does that sets only what it needs: its texture."""
+        """Draw as a host that binds its texture alone."""
         self.texture.use(0)
         self.array.render(moderngl.TRIANGLE_STRIP, 4)
 
@@ -83,7 +83,7 @@ def overlay(ctx: moderngl.Context) -> Iterator[Overlay]:
 
 
 def over(stage: Stage, picture: NDArray[np.float64], overlay: Overlay) -> NDArray[np.bool_]:
-    """Where the host's square changed the picture that lies under it."""
+    """Return the mask of pixels that the host's square changed."""
     overlay.draw()
     return np.asarray((stage.read() != picture).any(axis=-1))
 
@@ -208,7 +208,7 @@ def test_d6_without_a_context_of_its_own_a_prairie_takes_the_current_one(
 
 
 def resident() -> float:
-    """Memory that this process holds [MB], 0 where the system does not say."""
+    """Return the resident memory of this process [MB], 0 where it is unknown."""
     told = Path("/proc/self/statm")
     return int(told.read_text().split()[1]) * 4096 / 1e6 if told.exists() else 0.0
 
@@ -296,7 +296,7 @@ def test_d6_with_fewer_layers_than_there_are_pictures_a_prairie_looks_the_same(
 def test_d6_gl_is_asked_for_nothing_that_an_old_driver_does_not_know(
     stage: Stage, load: Load, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """As moderngl's `info` is: in a context of 3.3 to 4.0 it leaves an error, which the host finds at its next call."""
+    """For example moderngl's `info`: in a context of 3.3 to 4.0 it leaves a GL error, which the host finds next."""
     monkeypatch.setattr(moderngl.Context, "info", property(lambda _: pytest.fail("what moderngl knows was asked for")))
     prairie = load(hold=0.1)
     prairie.prepare()

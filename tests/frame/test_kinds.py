@@ -1,4 +1,4 @@
-"""More kinds than a vector has numbers: each has its place, colour and answer to the wind (D4, N1, W12)."""
+"""More kinds than a vector has components: each has its place, colour and response to wind (D4, N1, W12)."""
 
 import colorsys
 from collections.abc import Callable, Iterator
@@ -65,7 +65,7 @@ def described(kind: int) -> str:
 
 @pytest.fixture(scope="module")
 def scene(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A scene of nine kinds, each of another hue and alone on its stretch of flat ground, from left to right."""
+    """Path of a scene of nine kinds of different hues, each alone on a stretch of flat ground, from left to right."""
     folder = tmp_path_factory.mktemp("nine")
     for number in range(3):
         picture = np.zeros((27, 27, 3), np.uint8)
@@ -79,7 +79,7 @@ def scene(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def load(ctx: moderngl.Context, scene: Path) -> Iterator[Callable[[str], Prairie]]:
-    """Load the scene with one representation for all, once each."""
+    """Return the function that loads the scene in one representation, once for each."""
     loaded: dict[str, Prairie] = {}
 
     def with_lod(lod: str) -> Prairie:
@@ -93,7 +93,7 @@ def load(ctx: moderngl.Context, scene: Path) -> Iterator[Callable[[str], Prairie
 
 
 def hues(picture: Doubles, stage: Stage, aim: Camera) -> Doubles:
-    """The hue in the middle of each kind's stretch, in turns of 0 to 1."""
+    """Return the hue in the middle of each kind's stretch, as a fraction of a turn."""
     across, ahead = np.moveaxis(stage.ground(aim, 0.2), -1, 0)
     found = []
     for kind in range(NINE):
@@ -166,7 +166,7 @@ ALONE = [pytest.param(lod, marks=pytest.mark.slow) for lod in ("blades", "strips
 def test_no_kind_shows_beyond_its_field_which_ends_within_a_patch(
     ctx: moderngl.Context, stage: Stage, camera: Aim, lod: str
 ) -> None:
-    """Neither its leaves nor what lies on the ground beneath them."""
+    """Neither its leaves nor the litter below them."""
     across, aim = np.arange(-19.9, 20.0, 0.2), camera(0.0, 14.0, 15.0, pitch=-40, view=75)
     red = np.tile(across > 0.9, (200, 1)).astype(np.float32)
     fields: dict[str, Any] = {

@@ -54,7 +54,7 @@ def stage(ctx: moderngl.Context) -> Stage:
 
 
 def lamplight(shot: Callable[[], Picture], lamp: Lamp, pose: Pose) -> Picture:
-    """The radiance that a lamp adds, from two pictures, shape (height, width, 3)."""
+    """Return the radiance that a lamp adds, from two pictures, shape (height, width, 3)."""
     before = shown_as(shot() / 255.0)
     entity = esper.create_entity(lamp, pose)
     try:

@@ -1,4 +1,4 @@
-"""Grass that leans away from the eye turns its breadth to it, and grass that leans towards it its edge (G3, G4, F2)."""
+"""Grass that leans away from the eye shows its faces, and grass that leans towards it its tips (G3, G4, F2)."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -40,7 +40,7 @@ def room(ctx: moderngl.Context) -> Stage:
 
 
 def seen_and_true(room: Stage, prairie: Prairie, heading: float) -> tuple[Pixels, Pixels]:
-    """The grass in a wind that blows along a heading from the camera's [degrees], and all its blades."""
+    """Return pictures of grass in a wind, and of all its blades; the heading is relative to the camera's [degrees]."""
     wind = prairie.add(Breeze(direction=YAW + heading, strength=0.55, gustiness=0.0, swing=0.0), pose=Pose())
     seen = room.shot(prairie, CAMERA).astype(np.float64)
     true = draw_truth(prairie, *room.matrices(CAMERA), room.size, samples=3).picture.astype(np.float64)
@@ -68,7 +68,7 @@ def test_each_blade_keeps_its_own_hue_on_strips(room: Stage, load: Load) -> None
 
 
 def slanted(pixels: Pixels) -> float:
-    """How much more alike pixels are up to the right than up to the left, as a correlation."""
+    """Return the correlation of pixels with those up to the right, minus that with those up to the left."""
     luma = pixels.mean(axis=2)
     grain = luma - luma.mean()
     up = (grain[1:, :-1] * grain[:-1, 1:]).mean() - (grain[1:, 1:] * grain[:-1, :-1]).mean()
@@ -96,7 +96,7 @@ quality: high
 def test_from_the_side_strips_that_a_gale_lays_are_as_bright_as_their_blades(
     room: Stage, load: Load, heading: float
 ) -> None:
-    """Blades that lie show the middles of their arches on top, and not their tips."""
+    """Flat blades show the middles of their arches on top, not their tips."""
     prairie = load(LAID, lod="strips")
     prairie.add(Breeze(direction=heading, strength=0.9), pose=Pose())
     prairie.advance(2.0)
@@ -107,7 +107,7 @@ def test_from_the_side_strips_that_a_gale_lays_are_as_bright_as_their_blades(
 
 
 def test_where_strips_begin_on_a_slope_that_falls_away_no_dark_band_shows(ctx: moderngl.Context) -> None:
-    """A hidden metre of height hides far more of such ground than of level ground: strips need not lie back for it."""
+    """A metre of height hides far more of such ground than of level ground, so strips need not lean back."""
     prairie = Prairie.load(CAMERAS / "slope-down.yaml", ctx=ctx, live=False)
     prairie.advance(2.0)
     with testing.stage(ctx, (160, 720)) as tall:

@@ -1,4 +1,4 @@
-"""Grain through a long lens, and of tall plants far off: blades and gaps are as sharp as they are large (G3, G5)."""
+"""Grain through a long lens, and of tall plants far off: as sharp as every blade in 3D (G3, G5)."""
 
 from collections.abc import Iterator
 from pathlib import Path

@@ -39,7 +39,7 @@ def from_above(camera: Aim) -> Camera:
 
 
 def below_horizon(stage: Stage, aim: Camera, degrees: float) -> Any:
-    """Which rows of a picture look down by more than that in all their pixels."""
+    """Return the mask of rows whose pixels all look down by more than an angle."""
     away = aim.position[1] / np.tan(radians(degrees))
     seen = stage.ground(aim) - np.array(aim.position)[[0, 2]]
     return (np.linalg.norm(seen, axis=-1) < away).all(axis=1)

@@ -21,7 +21,7 @@ Said = dict[str, str]
 
 
 def said_by(program: str, scene: Path) -> Said:
-    """Return what each check of the program says."""
+    """Return the faults that the program reports, by check."""
     scene.write_text(LITTLE + "wind: [{ kind: breeze, strength: 0.4 }]\n", "utf-8")
     done = subprocess.run(
         [sys.executable, "-W", "error", PROGRAM, scene, program], capture_output=True, text=True, check=False
@@ -33,7 +33,7 @@ def said_by(program: str, scene: Path) -> Said:
 
 @pytest.fixture(scope="module")
 def said(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> Said:
-    """What the program with moderngl says; it is not run where there is no GL."""
+    """Faults that the program with moderngl reports, by check; skipped without GL."""
     assert ctx.version_code >= 330
     return said_by("moderngl", tmp_path_factory.mktemp("scene") / "scene.yaml")
 

@@ -1,4 +1,4 @@
-"""Mown grass in frames: as high as it was cut on all representations, and everything else as it was (F4)."""
+"""Mown grass in frames: cut to the same height in all representations, and nothing else changed (F4)."""
 
 from collections.abc import Callable
 from math import inf

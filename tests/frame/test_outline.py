@@ -1,4 +1,4 @@
-"""Crests against the sky, where strips and carpet give way to one another, and as the reference has them (X5, G4)."""
+"""Crests against the sky while strips and carpet replace one another, compared with the reference (X5, G4)."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -43,7 +43,7 @@ WAY = np.linspace(0.0, 1.0, 11)
 
 @pytest.fixture(scope="module")
 def room(ctx: moderngl.Context) -> Any:
-    """The middle of a picture of 1280 by 720: as many pixels to the metre."""
+    """A stage with the scale of the middle of a picture of 1280 by 720 pixels."""
     made = Room(ctx, (320, 180))
     yield made
     made.release()
@@ -51,7 +51,7 @@ def room(ctx: moderngl.Context) -> Any:
 
 @dataclass(frozen=True)
 class Story:
-    """A crest some 50 m away, on the way from carpet to strips."""
+    """Pictures of a crest some 50 m away that changes from carpet to strips."""
 
     whole: list[Doubles]
     strips: list[Doubles]
@@ -93,7 +93,7 @@ def story(room: Room, ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFa
 def drawn(
     room: Room, prairie: Prairie, camera: Camera, shows: Appearance, *, carpet: bool = True, strips: bool = True
 ) -> Doubles:
-    """The prairie with all of it as it shows on the way."""
+    """Draw the prairie with an appearance of all its patches, and return the picture."""
     painter, outlook = prairie.painter, prairie.viewers["main"]
     assert painter is not None
     standing = prairie.site.representations[1]
@@ -109,7 +109,7 @@ def drawn(
 
 
 def covered(pictures: list[Doubles], bare: Doubles) -> list[Doubles]:
-    """How much of the sky above the crest each row hides, from the top, shape (rows,)."""
+    """Return the hidden fraction of the sky above the crest by row, from the top, shape (rows,)."""
     crest = int(np.argmax((bare[..., 1] > bare[..., 2]).mean(axis=1) > 0.5))
     found = []
     for picture in pictures:
@@ -159,7 +159,7 @@ def hills(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> It
 
 @pytest.fixture(scope="module")
 def hillside(ctx: moderngl.Context, hills: Prairie) -> Iterator[tuple[Doubles, Doubles]]:
-    """A hillside against the sky, on which strips give way to the carpet: as it is drawn, and every blade of it."""
+    """Pictures of a hillside against the sky where strips give way to the carpet: as drawn, and with every blade."""
     with testing.stage(ctx, (160, 450)) as stage:
         camera = camera_at(hills.scene.camera, None, hills.height_at)
         view, projection = stage.matrices(replace(camera, yaw=camera.yaw + np.radians(BESIDE)))
@@ -170,13 +170,13 @@ def hillside(ctx: moderngl.Context, hills: Prairie) -> Iterator[tuple[Doubles, D
 
 
 def hidden(picture: Doubles) -> Doubles:
-    """How much of the sky grass hides in each column, in pixels, shape (columns,)."""
+    """Return the number of sky pixels that grass hides in each column, shape (columns,)."""
     green, blue = picture[..., 1], picture[..., 2]
     return np.asarray(np.clip((green - blue + 30.0) / 60.0, 0.0, 1.0).sum(axis=0))
 
 
 def roughness(line: Doubles) -> float:
-    """How far a line is from its own mean over 15 columns, in the root of the mean square."""
+    """Return the root mean square difference of a line from its running mean over 15 columns."""
     smooth = np.convolve(np.pad(line, 7, mode="edge"), np.ones(15) / 15, "valid")
     return float((line - smooth).std())
 
@@ -197,7 +197,7 @@ def test_g5_no_line_shows_where_strips_give_way_to_the_carpet_on_a_hillside(hill
 
 
 def test_x5_no_dark_dashes_lie_along_a_crest_before_the_same_tile(ctx: moderngl.Context, hills: Prairie) -> None:
-    """Looking to +x, where a tile's nearer triangles would be drawn first."""
+    """The camera looks to +x, where a tile's nearer triangles would be drawn first."""
     at = camera_at(hills.scene.camera, None, hills.height_at).position
     with testing.stage(ctx, (160, 40)) as stage:
         seen = stage.shot(hills, Camera((at[0], at[1] + HIGHER, at[2]), *np.radians([105.0, -8.5, 2.96]).tolist()))
@@ -206,7 +206,7 @@ def test_x5_no_dark_dashes_lie_along_a_crest_before_the_same_tile(ctx: moderngl.
 
 
 def partly_covered(picture: Doubles) -> float:
-    """In how many columns a pixel between sky and grass shows some of both, of all."""
+    """Return the fraction of columns with a pixel between sky and grass that shows both."""
     grass = picture[..., 1] - picture[..., 2]
     top = (grass > -5.0).argmax(axis=0)
     rows = np.take_along_axis(grass, top + np.arange(-6, 6)[:, None], axis=0)

@@ -40,7 +40,7 @@ quality:
 
 @pytest.fixture(scope="module")
 def prairie(load: Load) -> Prairie:
-    """Flat ground with a breeze and a whirlwind."""
+    """Prairie on flat ground with a breeze and a whirlwind."""
     made = load(STORMY)
     made.advance(1.0)
     return made
@@ -48,7 +48,7 @@ def prairie(load: Load) -> Prairie:
 
 @pytest.fixture
 def show(prairie: Prairie, stage: Stage) -> Iterator[Show]:
-    """Draw the prairie and parts of the overlay: `show(camera, *parts)`."""
+    """Return the function that draws the prairie and layers of the overlay: `show(camera, *parts)`."""
     overlay = Overlay()
 
     def drawn(aim: Camera, *parts: Layer) -> Picture:

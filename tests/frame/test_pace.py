@@ -1,4 +1,4 @@
-"""What frames have to do on a walk, counted: times say as much of the machine (R2, R3)."""
+"""Work of frames on a walk, by counts: times would depend on the machine, too (R2, R3)."""
 
 from collections.abc import Callable
 from functools import partial
@@ -37,9 +37,9 @@ def test_r2_on_a_walk_frames_have_as_much_to_do_however_many_patches_are_changin
 
 
 def test_r3_moving_the_grass_takes_a_small_part_of_a_frame(ctx: moderngl.Context, load: Load) -> None:
-    """Its systems, and the passes in which all receivers hear: the least of several frames, taken in turn.
+    """Systems and the receivers' passes, against whole frames: the least of several times, measured in turn.
 
-    A card draws so small a picture while calls are made, which are most of both.
+    In so small a picture a card draws while calls are made, so calls are most of both times.
     """
     room, prairie = Stage(ctx, (640, 360)), load()
     camera = camera_at(prairie.scene.camera, None, prairie.height_at)

@@ -44,7 +44,7 @@ Mesh = Callable[[Prairie, float, float], moderngl.VertexArray]
 
 @pytest.fixture
 def mesh(ctx: moderngl.Context) -> Iterator[Mesh]:
-    """Make a game's own ground: cells of a width [m], so much higher than the prairie's [m]."""
+    """Return the function that makes a game's own ground, of cells of a width [m], at a height above the prairie's."""
     program = ctx.program(vertex_shader=VERTEX, fragment_shader=FRAGMENT)
     made: list[Any] = [program]
 
@@ -66,7 +66,7 @@ def mesh(ctx: moderngl.Context) -> Iterator[Mesh]:
 
 
 def drawn(stage: Stage, prairie: Prairie, camera: Camera, *draws: Sequence[str] | None) -> Picture:
-    """What is seen of some parts, drawn in turn into a framebuffer that a game has cleared."""
+    """Return the picture of parts of a prairie, drawn in turn into a framebuffer that a game has cleared."""
     stage.target.use()
     stage.target.clear(*SKY, depth=1.0)
     for parts in draws:
@@ -81,7 +81,7 @@ def over(
     ground: moderngl.VertexArray,
     sky: tuple[float, float, float] = (0.0, 0.0, 0.0),
 ) -> Picture:
-    """How much of a game's own ground is seen through the grass, pixel by pixel, 0 to 1; NaN beside it."""
+    """Return the visible fraction of a game's own ground in each pixel, 0 to 1; NaN beside it."""
     view, projection = stage.matrices(camera)
     ground.program["clip"] = (projection.astype(float) @ view).T.reshape(16).tolist()
 

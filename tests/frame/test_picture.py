@@ -1,4 +1,4 @@
-"""Pictures of whole frames: what is seen where (G1, T1, T2, G3)."""
+"""Pictures of whole frames: grass, ground and sky in their places (G1, T1, T2, G3)."""
 
 from collections.abc import Callable
 from typing import Any
@@ -146,7 +146,7 @@ def test_g1_the_carpet_has_the_hue_of_both_kinds_together(stage: Stage, load: Lo
 def test_g1_each_patch_of_the_carpet_shows_the_patch_model_that_its_blades_are_of(
     stage: Stage, load: Load, camera: Aim
 ) -> None:
-    """Where images of every second model show tips alone and the others roots, patches are bright and dark."""
+    """If images of every second model show tips alone and the others roots, patches are bright and dark."""
     prairie, aim = load(PALE, lod="carpet"), camera(0.1, 30, 0.1, pitch=-89.9, view=40)
     stage.shot(prairie, aim)
     assert prairie.painter is not None

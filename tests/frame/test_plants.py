@@ -1,4 +1,4 @@
-"""Flowers, forbs and shrubs in whole frames: the shaders say what numpy says (F3)."""
+"""Flowers, forbs and shrubs in whole frames: shaders compute the same as numpy (F3)."""
 
 from collections.abc import Callable
 from typing import Any
@@ -99,7 +99,7 @@ HEATH = MEADOW.replace(
 
 @pytest.fixture(scope="module")
 def garden(load: Load) -> Prairie:
-    """A prairie of grass, poppies and heather on flat ground, in a breeze."""
+    """Prairie of grass, poppies and heather on flat ground, in a breeze."""
     prairie = load(GARDEN)
     prairie.advance(2.0)
     return prairie
@@ -169,7 +169,7 @@ def test_f3_each_organ_is_as_broad_along_itself_as_numpy_has_it(ctx: moderngl.Co
 
 
 def foot_of(records: Any, growth: Growth, message: Any) -> Any:
-    """Where blades begin, as numpy has it of their records, shape (n, 3)."""
+    """Return the places at which ribbons begin, computed by numpy from their records, shape (n, 3)."""
     blades = Blades(
         root=np.ascontiguousarray(records["root"][:, ::2]), height=records["height"], width=records["width"],
         facing=np.arctan2(*records["facing"].T[::-1]), rest=records["rest"], variant=np.zeros(len(records), np.int32),
@@ -190,7 +190,7 @@ def test_f3_in_every_representation_a_field_of_poppies_has_one_colour(stage: Sta
 def test_f3_flowers_alone_hide_as_much_of_the_ground_on_carpets_from_above(
     ctx: moderngl.Context, load: Load, texels: int
 ) -> None:
-    """Their leaves and petals lie: from above more is seen of them. The texels need be no power of two."""
+    """Their leaves and petals lie, so more of them is seen from above. The number of texels is no power of two."""
     room, aim = Stage(ctx, (96, 64)), Camera((0.0, 26.0, 15.0), 0.0, -1.05, np.radians(20.0))
     blades, carpet = (
         room.shot(load(BED + f"  carpet: {texels}\n", lod=lod), aim).mean() for lod in ("blades", "carpet")

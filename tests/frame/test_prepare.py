@@ -1,4 +1,4 @@
-"""Getting ready: once a game has prepared, no frame makes anything in GL."""
+"""`prepare`: after it, no frame makes anything in GL."""
 
 import sys
 import threading
@@ -69,7 +69,7 @@ vec2 action(vec2 place, Front front) { return vec2(0.0, front.power); }
 
 @pytest.fixture
 def made(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """What is made in GL, by the name of the call."""
+    """Names of the calls that make GL objects, in their order."""
     found: list[str] = []
 
     def noting(name: str, plain: Callable[..., Any]) -> Callable[..., Any]:

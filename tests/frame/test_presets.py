@@ -33,7 +33,7 @@ PAGE = (Path(__file__).parents[2] / "docs" / "performance.md").read_text("utf-8"
 
 
 def wide_plain() -> str:
-    """The plain on 170 m, as the page of performance says."""
+    """Path of the scene `plain` on 170 m, as in the manual's page on performance."""
     plain = (files("tallgrass.scenes") / "plain.yaml").read_text("utf-8")
     wide = plain.replace("size: [100, 100]", "size: [170, 170]")
     assert wide != plain, "1600 patches of 500 blades are no million"
@@ -41,7 +41,7 @@ def wide_plain() -> str:
 
 
 def rows(told: str) -> dict[str, dict[str, str]]:
-    """The rows of the first table of a text, by their first cells: each cell by the head of its column."""
+    """Return the first table of a text: for each first cell its row, as cells by column."""
     table = re.search(r"(?:^\|.*\|\n)+", told, re.MULTILINE)
     assert table
     first, _, *others = (line.strip("| ").split(" | ") for line in table[0].splitlines())
@@ -50,7 +50,7 @@ def rows(told: str) -> dict[str, dict[str, str]]:
 
 @pytest.fixture(scope="module")
 def _hardly_painted(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Let pictures of grass show a few blades each: they are as large then, and counts ask for no more of them."""
+    """Paint a few blades only into pictures of grass: sizes are the same, and counts need no more."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("TALLGRASS_CACHE", str(tmp_path_factory.mktemp("grown")))  # nobody else is to be given these
         for module in (carpet_grow, strips_grow):
@@ -64,7 +64,7 @@ def few_painted(corners: Doubles, nearness: Doubles, /, **options: Any) -> Fragm
 
 @pytest.fixture(scope="module")
 def seen(_hardly_painted: None, ctx: moderngl.Context, stage: Stage, tmp_path_factory: pytest.TempPathFactory) -> Seen:
-    """The picture of a scene in a preset, drawn once: `seen(scene, preset)` is how many are in it, by their names."""
+    """Return the function that draws a scene in a preset once, and returns its counts: `seen(scene, preset)`."""
     folder = tmp_path_factory.mktemp("scenes")
 
     @cache
@@ -82,7 +82,7 @@ def seen(_hardly_painted: None, ctx: moderngl.Context, stage: Stage, tmp_path_fa
 
 
 def counted(prairie: Prairie) -> dict[str, int]:
-    """What the page counts of a picture, in its words, and what is grown [MB]."""
+    """Return the counts of a picture in the manual's words, and the memory of its growths [MB]."""
     seen = prairie.statistics
     return {
         "blades in the field": seen.blades_field,

@@ -1,4 +1,4 @@
-"""Trodden grass in frames: alike on all representations, and the same whenever it is drawn (F4, N5)."""
+"""Trodden grass in frames: alike in all representations, and the same whenever it is drawn (F4, N5)."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -29,7 +29,7 @@ CLOSE = 1e-5
 
 
 def run(prairie: Prairie, entity: int, *, far: float) -> None:
-    """Put a runner where it is at the prairie's time: to the right, `far` away along -z [m]."""
+    """Set the pose of a runner at the prairie's time: it runs to the right, at the distance `far` along -z [m]."""
     esper.add_component(entity, Pose(-6.0 + 2.5 * prairie.time, far, np.pi / 2))
 
 
@@ -42,7 +42,7 @@ def runners() -> Iterator[list[int]]:
 
 
 def told_by_card(ctx: moderngl.Context, prairie: Prairie, place: Floats, kind: int) -> Floats:
-    """Ask on the card how grass of a kind is pressed at places (n, 2), as the carpet's pixels do."""
+    """Return the card's messages of pressers to a kind at places (n, 2), as computed for the carpet's pixels."""
     painter = prairie.painter
     assert painter is not None
     made = painter.air.program("systems/press/press.vert", None, varyings=("lies",))

@@ -1,4 +1,4 @@
-"""Rushes and folded blades in whole frames: what their profiles are for, and that all representations show as much."""
+"""Rushes and folded blades in whole frames: the effect of profiles, in all representations."""
 
 from collections.abc import Callable
 
@@ -52,7 +52,7 @@ def room(ctx: moderngl.Context) -> Stage:
 
 
 def standing(room: Stage, prairie: Prairie) -> NDArray[np.float64]:
-    """Return a picture of four wide blades of 0.5 m side by side, which face `FACES`, before ground and sky alone."""
+    """Return a picture of four wide blades of 0.5 m side by side, which face `FACES`, on bare ground."""
     room.shot(prairie, CAMERA)
     assert prairie.painter is not None
     painter = prairie.painter.blade_painter(8)
@@ -113,7 +113,7 @@ def test_the_two_faces_of_a_fold_are_lit_apart_with_an_edge_between_them(room: S
 def test_blades_just_before_the_eye_hide_and_shine_as_those_of_the_reference(
     ctx: moderngl.Context, load: Load, profile: str
 ) -> None:
-    """Some reach behind the eye: they are as opaque as others, and lit on the side that is to the sun."""
+    """Some reach behind the eye: they are as opaque as others, and lit on the side towards the sun."""
     size, apart, unlike = (96, 54), [], 0
     prairie, room = load(NEAR.format(profile=profile)), Stage(ctx, size)
     for x, z, yaw in ((-0.9, 0.1, 0.0), (-0.76, 0.13, 1.0), (-0.21, 0.25, 5.0)):

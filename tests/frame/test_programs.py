@@ -1,4 +1,4 @@
-"""Programs are made while a prairie begins, and not when something happens in it for the first time."""
+"""Programs are compiled before the first frame, not when something first happens in a prairie."""
 
 from collections.abc import Callable
 from itertools import count
@@ -35,7 +35,7 @@ CALM = LITTLE + "wind: [{ kind: breeze, strength: 0.2 }]\n"
 
 @pytest.fixture
 def made(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """The vertex shaders of all programs that are made."""
+    """Names of the vertex shaders of all programs that are compiled."""
     made: list[str] = []
     make = moderngl.Context.program
 
@@ -124,7 +124,7 @@ def test_what_trees_and_bodies_are_drawn_with_can_be_made_before_the_first_of_th
 
 @pytest.fixture
 def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """The vertex shaders of all programs that a driver is asked for, which makes one between two looks."""
+    """Vertex shaders of all programs given to a pretended driver, which finishes one between two polls."""
     asked: list[str] = []
     looks = count()
 

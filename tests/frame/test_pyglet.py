@@ -1,7 +1,7 @@
 """A pyglet game with a prairie in it, on a display and without one, on the oldest OpenGL and a newer one (D6).
 
-Each run is a process of its own, `host_program`, and what its checks found wrong stands here by their names.
-`TALLGRASS_ROUNDS` says how many times it loads and releases a prairie.
+Each run is a process of its own, `host_program`; here is one test for each of its checks.
+`TALLGRASS_ROUNDS` is the number of times that it loads and releases a prairie.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""A picture with winds that fail is the picture without them."""
+"""A picture with winds that fail equals the picture without them."""
 
 from itertools import count
 from typing import Any
@@ -17,7 +17,7 @@ Stage = Any
 
 
 class Raising(WindPrimitive):
-    """A wind that fails in a frame like any other."""
+    """A wind that fails in a later frame."""
 
     kind: str = "raising"
     priority: int = 90
@@ -30,7 +30,7 @@ class Raising(WindPrimitive):
 
 
 class Lost(Raising):
-    """A wind that is nowhere."""
+    """A wind whose pose is not finite."""
 
     kind: str = "lost"
 
@@ -39,7 +39,7 @@ class Lost(Raising):
 
 
 class Undefined(Raising):
-    """A wind of no numbers, from some instant on."""
+    """A wind that returns NaN from some time on."""
 
     kind: str = "undefined"
 
@@ -62,7 +62,7 @@ def test_a_frame_with_failing_winds_is_the_frame_without_them(
 
 
 class Undated(Raising):
-    """A wind that does not know when it is over."""
+    """A wind whose `ends` fails."""
 
     kind: str = "undated"
 

@@ -1,4 +1,4 @@
-"""What the graphics card tells receivers is what numpy tells them (W1, N1, N4, T1, D2)."""
+"""Messages that the graphics card computes for receivers equal numpy's (W1, N1, N4, T1, D2)."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -69,13 +69,13 @@ quality:
 
 
 class Untwinned(Whirlwind):
-    """A whirlwind as from a plugin that has no twin."""
+    """A whirlwind without a twin, as of a plugin."""
 
     twin = None
 
 
 def told_alike(prairie: Prairie, on_card: OnCard) -> dict[str, float]:
-    """Compare what the card tells all receivers with what numpy does; return the largest index by representation."""
+    """Compare the card's messages with numpy's for all receivers; return the largest index by representation."""
     ground, longest = prairie.site.ground, dict[str, float]()
     for receiving, texels in on_card(prairie):
         slots, told = receiving.slots, texels.reshape(-1, 4)
@@ -94,7 +94,7 @@ def told_alike(prairie: Prairie, on_card: OnCard) -> dict[str, float]:
 
 
 def on_carpet(prairie: Prairie) -> Floats:
-    """What the card tells the middle of each patch, by its row, shape (rows, 2)."""
+    """Return the card's message in the middle of each patch, by row, shape (rows, 2)."""
     assert prairie.painter is not None
     return np.frombuffer(carpet_painter(prairie.painter).air.texture.read(), np.float32).reshape(-1, 2)
 
@@ -103,7 +103,7 @@ def on_carpet(prairie: Prairie) -> Floats:
 def mapped(
     request: pytest.FixtureRequest, ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Prairie]:
-    """Two kinds with maps of where they grow on steep ground, in five winds, by either mixing."""
+    """Prairie of two kinds with density maps on steep ground, in five winds, for either mixing."""
     folder: Path = tmp_path_factory.mktemp("mapped")
     picture = np.random.default_rng(1).integers(0, 256, (12, 12, 3), np.uint8)
     Image.fromarray(picture).resize((64, 64), Image.Resampling.BICUBIC).save(folder / "map.png")
@@ -114,7 +114,7 @@ def mapped(
 
 
 def walk(stage: Stage, prairie: Prairie, on_card: OnCard, *, instants: int, step: float) -> None:
-    """Compare at some instants of a walk along the scene's own path, turning all the time."""
+    """Compare at some times of a walk along the scene's own path, turning all the time."""
     longest: dict[str, list[float]] = {"blades": [], "strips": [], "carpet": []}
     for number in range(instants):
         camera = camera_at(prairie.scene.camera, prairie.time, prairie.height_at)

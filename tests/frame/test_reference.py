@@ -1,4 +1,4 @@
-"""The truth to compare with: every blade in 3D (N3)."""
+"""The reference: every blade in 3D (N3)."""
 
 from collections.abc import Callable
 from typing import Any
@@ -36,7 +36,7 @@ def aim(camera: Aim) -> Camera:
 
 @pytest.fixture(scope="module")
 def prairie(stage: Stage, load: Load, aim: Camera) -> Prairie:
-    """A prairie that has been looked at."""
+    """Prairie that has been drawn."""
     made = load()
     stage.shot(made, aim)
     return made

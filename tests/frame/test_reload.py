@@ -1,4 +1,4 @@
-"""Editing a scene while it runs (N7): what changed is made anew, what did not goes on as if nothing had happened."""
+"""Editing a scene while it runs (N7): changed things are made again, all others go on unchanged."""
 
 import gc
 import hashlib
@@ -67,7 +67,7 @@ class Edited:
         self.path.write_text(text, "utf-8")
 
     def edit(self, *changes: tuple[str, str]) -> None:
-        """Change the file that was there first, and read it again."""
+        """Change the original file, and read it again."""
         text = TEXT
         for old, new in changes:
             assert old in text
@@ -94,7 +94,7 @@ def untouched(ctx: moderngl.Context, tmp_path: Path) -> Iterator[Prairie]:
 
 @pytest.fixture
 def receivers(on_card: Callable[[Prairie], Any]) -> Told:
-    """All that receivers are told, by numpy and on the graphics card, in one word."""
+    """Return a hash of all messages to receivers, of numpy and of the graphics card."""
 
     def digest(prairie: Prairie) -> str:
         told, patches = hashlib.blake2b(digest_size=8), prairie.viewers["main"].patches
@@ -111,7 +111,7 @@ def receivers(on_card: Callable[[Prairie], Any]) -> Told:
 
 
 def in_gl() -> dict[int, str]:
-    """What lives in GL: its kind by its address."""
+    """Return the living GL objects: their classes by address."""
     alive = (thing for thing in gc.get_objects() if isinstance(thing, GL))
     return {id(thing): type(thing).__name__ for thing in alive if type(thing.mglo).__name__ != "InvalidObject"}
 
@@ -296,7 +296,7 @@ def test_n7_entities_come_and_go_with_what_is_made_anew(edited: Edited, stage: S
 
 
 def lasting(prairie: Prairie) -> list[object]:
-    """What takes long to make, and what a viewer has around it."""
+    """Return the objects that take long to make, and the viewer's outlook."""
     painter, outlook = prairie.painter, prairie.viewers["main"]
     assert painter is not None
     grown = [*prairie.site.growths, prairie.site.ground.terrain]

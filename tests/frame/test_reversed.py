@@ -1,4 +1,4 @@
-"""Depth that is less farther off, as a host has it that compares by `GL_GREATER` (D6)."""
+"""Reversed depth, as of a host that compares by `GL_GREATER` (D6)."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -41,7 +41,7 @@ void main() { pixel = vec4(1.0, 0.0, 0.6, 1.0); }"""
 
 @dataclass(frozen=True)
 class Way:
-    """A way in which a host has its depth, made of a usual projection."""
+    """A host's kind of depth, derived from a usual projection."""
 
     projection: Callable[[Numbers], Numbers]
     away: Callable[[Numbers], Numbers]
@@ -53,7 +53,7 @@ class Way:
 
 
 def away(depth: Numbers) -> Numbers:
-    """How far off things of a usual depth are [m]."""
+    """Return distances from usual depths [m]."""
     return FAR * NEAR / (FAR - depth * (FAR - NEAR))
 
 
@@ -69,7 +69,7 @@ RANGE = Way(lambda projection: projection, lambda depth: away(1.0 - depth), rang
 
 @pytest.fixture(scope="module")
 def walls(ctx: moderngl.Context) -> Iterator[moderngl.VertexArray]:
-    """Two walls of a host's own, one amid the grass near by and one farther off."""
+    """Two walls of a host, one in the near grass and one farther off."""
     corners = [
         *((x, y, 16.0) for x, y in ((-4, -9), (-1, -9), (-4, 9), (-4, 9), (-1, -9), (-1, 9))),
         *((x, y, -6.0) for x, y in ((4, -9), (14, -9), (4, 9), (4, 9), (14, -9), (14, 9))),
@@ -84,7 +84,7 @@ def walls(ctx: moderngl.Context) -> Iterator[moderngl.VertexArray]:
 
 @contextmanager
 def having(ctx: moderngl.Context, way: Way) -> Iterator[None]:
-    """Let the host have its depth that way for a while."""
+    """Set a host's kind of depth meanwhile."""
     gl = functions_of(ctx)
     range_ = convention(None, c_double, c_double)(ctx.mglo._context.load("glDepthRange"))  # noqa: SLF001
     if limits_of(gl).clipped:
@@ -103,7 +103,7 @@ def having(ctx: moderngl.Context, way: Way) -> Iterator[None]:
 def seen(
     stage: Stage, prairie: Prairie, aim: Camera, walls: moderngl.VertexArray, way: Way, *draws: dict[str, object]
 ) -> tuple[Numbers, Numbers]:
-    """What a host sees that has its depth in a way: the picture, and how far off everything is [m]."""
+    """Return the picture of a host with a kind of depth, and the distance of each pixel [m]."""
     view, usual = stage.matrices(aim)
     projection, ctx = way.projection(usual.astype(np.float64)), stage.ctx
     walls.program["clip"] = (projection @ view).T.reshape(16).tolist()

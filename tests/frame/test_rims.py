@@ -1,4 +1,4 @@
-"""Rims of cliffs against the sky: grass there is as high, and as thin, as every blade is (G4)."""
+"""Rims of cliffs against the sky: grass is as high and as dense as in the reference (G4)."""
 
 from collections.abc import Iterator
 
@@ -56,7 +56,7 @@ def test_g4_a_cliffs_rim_stands_out_from_the_sky_as_every_blade_does(
 
 
 def covered(picture: NDArray[np.float64] | NDArray[np.uint8]) -> NDArray[np.float64]:
-    """Return how much of each pixel is no sky, which is bluer than grass."""
+    """Return the fraction of each pixel that hides the sky, which is bluer than grass."""
     blue = picture[..., 2].astype(np.float64) - picture[..., 1]
     sky, grass = blue[:4].mean(axis=0), blue[GRASS].mean()
     return np.asarray(np.clip((sky - blue) / (sky - grass), 0.0, 1.0), np.float64)

@@ -1,4 +1,4 @@
-"""Kinds of grass that a game changes, as they are seen (F4, X5)."""
+"""Pictures of kinds of grass that a game changes (F4, X5)."""
 
 import json
 from collections.abc import Callable
@@ -38,7 +38,7 @@ AUTUMN: dict[str, Any] = {
 
 @pytest.fixture
 def programs(monkeypatch: pytest.MonkeyPatch) -> list[object]:
-    """The programs that are made from now on."""
+    """Programs that are compiled during the test."""
     made: list[object] = []
     make = moderngl.Context.program
 
@@ -51,7 +51,7 @@ def programs(monkeypatch: pytest.MonkeyPatch) -> list[object]:
 
 
 def make_rare(prairie: Any) -> None:
-    """Make the carpet's program of grass that changes, which a live prairie makes before its first frame."""
+    """Compile the carpet's program for changing grass, as a live prairie does before its first frame."""
     carpet = prairie.painter.painters.get("carpet")
     if carpet is not None:
         assert carpet.ground.carpet[3].program
@@ -88,7 +88,7 @@ def test_f4_colours_that_have_eased_are_those_of_a_scene_that_had_them_from_the_
 
 
 def of(**keys: object) -> str:
-    """The scene without wind whose tall grass says something else."""
+    """Return the scene without wind, with other keys of its tall grass."""
     told = {"height": [0.5, 0.9], "width": 0.02, **keys}
     return LITTLE.replace(TALL, ", ".join(f"{key}: {json.dumps(value)}" for key, value in told.items()))
 

@@ -1,4 +1,4 @@
-"""Shadow maps and shades of a game's: shadows lie where rays to the sun meet what throws them (F5, N12)."""
+"""A game's shadow maps and shades: shadows lie where rays to the sun meet the caster (F5, N12)."""
 
 import logging
 from collections.abc import Callable, Iterator
@@ -67,7 +67,7 @@ def to_sun(azimuth: float = 160.0, elevation: float = 40.0) -> Array:
 
 
 def seen_from_sun(sun: Array) -> Array:
-    """World to the clip space of a map that looks from the sun, (4, 4)."""
+    """Return the matrix from the world to the clip space of a map from the sun, (4, 4)."""
     right = np.cross(-sun, (0.0, 1.0, 0.0))
     right /= np.linalg.norm(right)
     turned = np.eye(4)
@@ -76,7 +76,7 @@ def seen_from_sun(sun: Array) -> Array:
 
 
 def met(start: Array, way: Array) -> Array:
-    """How far rays go (..., 3) until they meet the box, infinitely far where they do not."""
+    """Return the distances along rays (..., 3) to the box, infinite where they miss it."""
     with np.errstate(divide="ignore", invalid="ignore"):
         one, other = (LOW - start) / way, (HIGH - start) / way
     near, far = np.minimum(one, other).max(axis=-1), np.maximum(one, other).min(axis=-1)
@@ -84,7 +84,7 @@ def met(start: Array, way: Array) -> Array:
 
 
 def box_texture(ctx: moderngl.Context, matrix: Array, sun: Array, side: int = 1024) -> moderngl.Texture:
-    """A depth texture that has the box as the sun sees it."""
+    """Return a depth texture of the box from the sun."""
     line = (np.arange(side) + 0.5) / side * 2.0 - 1.0
     x, y = np.meshgrid(line, line)
     start = np.stack([x, y, np.full_like(x, -1.0), np.ones_like(x)], axis=-1) @ np.linalg.inv(matrix).T
@@ -109,7 +109,7 @@ def box(ctx: moderngl.Context) -> Iterator[ShadowMap]:
 
 @pytest.fixture
 def night(ctx: moderngl.Context) -> Iterator[ShadowMap]:
-    """One in which all lies in shadow."""
+    """Shadow map in which everything lies in shadow."""
     texture = ctx.depth_texture((8, 8))
     texture.write(np.zeros((8, 8), np.float32).tobytes())
     yield ShadowMap(texture, seen_from_sun(to_sun()))
@@ -118,7 +118,7 @@ def night(ctx: moderngl.Context) -> Iterator[ShadowMap]:
 
 @pytest.fixture(scope="module")
 def places(ctx: moderngl.Context, prairies: dict[str, Prairie]) -> Array:
-    """What is seen of every blade, three times as fine as the picture (height, width, 3) [m]."""
+    """Places that a reference shows, in pixels three times as fine as the picture's (height, width, 3) [m]."""
     prairie, large = prairies["blades"], Stage(ctx, (SIZE[0] * FINE, SIZE[1] * FINE))
     large.shot(prairie, CAMERA)
     view, projection = large.matrices(CAMERA)
@@ -134,17 +134,17 @@ def places(ctx: moderngl.Context, prairies: dict[str, Prairie]) -> Array:
 
 
 def edges(shadow: Array, middle: int, across: float) -> Array:
-    """How far a shadow reaches to the left and to the right [m]."""
+    """Return the ends of a shadow to the left and to the right [m]."""
     return across * np.array([shadow[:middle].sum(), shadow[middle:].sum()])
 
 
 def in_box(places: Array) -> NDArray[np.bool_]:
-    """Whether the box stands between the sun and places."""
+    """Return whether the box stands between the sun and places."""
     return np.isfinite(met(places, to_sun()))
 
 
 def in_turned(places: Array) -> NDArray[np.bool_]:
-    """The same of the box when it is turned about its middle."""
+    """Return whether the box, turned about its middle, stands between the sun and places."""
     up = np.divide(UP, np.linalg.norm(UP))
     right = np.cross((np.sin(YAW), 0.0, -np.cos(YAW)), up)
     right /= np.linalg.norm(right)
@@ -153,7 +153,7 @@ def in_turned(places: Array) -> NDArray[np.bool_]:
 
 
 def in_capsule(places: Array) -> NDArray[np.bool_]:
-    """The same of a row of balls."""
+    """Return whether a row of balls stands between the sun and places."""
     along = np.linspace(-ROD / 2.0 + THICK, ROD / 2.0 - THICK, 120)[:, None] * np.divide(UP, np.linalg.norm(UP))
     shaded = np.zeros(places.shape[:-1], bool)
     for ball in MIDDLE + along:

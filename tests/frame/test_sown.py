@@ -1,4 +1,4 @@
-"""What is sown and cleared, in frames: on all representations alike, at once, and in another process (F4, N5)."""
+"""Sowing and clearing in frames: alike in all representations, at once, and in another process (F4, N5)."""
 
 import json
 import os
@@ -166,7 +166,7 @@ def test_n5_a_village_a_crater_and_a_field_are_loaded_in_another_process_to_the_
 def test_a_thousand_strokes_take_a_second_and_a_frame_that_sows_400_square_metres_is_no_standstill(
     ctx: moderngl.Context,
 ) -> None:
-    """Processor time in a process whose driver draws nothing, counted in frames in which nothing happens."""
+    """Measured as processor time in a process whose driver draws nothing, relative to frames without changes."""
     assert ctx.version_code >= 330
     program = Path(__file__).with_name("sown_program.py")
     done = subprocess.run(

@@ -1,4 +1,4 @@
-"""A frame in which nothing has changed but the time costs the processor little: calls are counted (N2)."""
+"""Frames in which only the time has changed cost the processor little, by number of calls (N11)."""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -54,7 +54,7 @@ LAST = 5
 
 @pytest.fixture(autouse=True)
 def _alone() -> Iterator[None]:
-    """Entities of other tests' prairies would be asked, one call each, whether they are this one's."""
+    """Entities of other tests' prairies would take a call each, to ask whether they are this one's."""
     before = esper.current_world
     esper.switch_world("standing")
     yield
@@ -63,7 +63,7 @@ def _alone() -> Iterator[None]:
 
 
 def calls(stage: Stage, prairie: Prairie, camera: Camera) -> int:
-    """Return how many calls a frame makes once all that came with the viewer is over."""
+    """Return the number of calls in a frame after all transitions of a new viewer."""
     counts: list[int] = []
 
     def noted(_frame: object, event: str, _argument: object) -> None:

@@ -1,4 +1,4 @@
-"""Pictures of a prairie whose time was set, and of one that was restored: those of one that came there (F4, N5)."""
+"""Pictures after setting the time, and after restoring a state, equal those of a prairie that ran there (F4, N5)."""
 
 from collections.abc import Callable
 from itertools import pairwise

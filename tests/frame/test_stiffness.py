@@ -1,4 +1,4 @@
-"""One wind, two kinds: the soft one lies where the stiff one stands, in every representation (W12)."""
+"""In one wind the soft kind lies and the stiff one stands, in every representation (W12)."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -65,7 +65,7 @@ def room(ctx: moderngl.Context) -> Room:
 
 @pytest.fixture(scope="module")
 def prairies(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Grown]:
-    """A prairie of one kind, of a stiffness, in a wind and as one representation; it is bare near by."""
+    """Return the function that loads one kind of a stiffness, in a wind and one representation; it is bare near by."""
     known: dict[tuple[float, str, LodName], Prairie] = {}
     folder: Path = tmp_path_factory.mktemp("half")
     Image.fromarray(np.repeat(np.arange(208)[:, None] < 144, 208, 1).astype(np.uint8) * 255).save(folder / "half.png")
@@ -85,7 +85,7 @@ def prairies(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) ->
 
 
 def stands(room: Room, prairie: Prairie) -> float:
-    """How high grass stands at the near edge of the grass, in all but a tenth of the picture's columns [m]."""
+    """Return the height of grass at its near edge that nine tenths of the picture's columns reach [m]."""
     camera = Camera((0.0, EYE, EDGE + BACK), 0.0, 0.0, np.radians(6.0))
     picture = room.shot(prairie, camera)
     top = np.quantile(np.argmax(picture[..., 1] > picture[..., 2], axis=0), 0.9)

@@ -1,4 +1,4 @@
-"""All winds at once replay bit for bit, whatever steps time took (N5)."""
+"""All winds at once replay bit for bit, for any time steps (N5)."""
 
 import os
 import pickle
@@ -77,7 +77,7 @@ FIRST, COUNT = 7, 24
 
 
 def played(ctx: moderngl.Context, folder: Path) -> list[Instants]:
-    """What all receivers held at some instants of the storm, in a process that stepped 1/60 s, and in one, 1/30 s."""
+    """Messages of all receivers at some times of the storm, from two processes with steps of 1/60 and 1/30 s."""
     Prairie.load("storm", ctx=ctx, preset="low").release()  # grown once, for both
     told = []
     for rate in (60, 30):  # one after the other: the second takes its programs from the driver's cache

@@ -1,4 +1,4 @@
-"""Ground that streams from a function of places, as it is seen (N5, N11, T1)."""
+"""Pictures of ground that streams from a function of places (N5, N11, T1)."""
 
 from collections.abc import Iterator
 from threading import Event
@@ -38,7 +38,7 @@ def dunes(x: Any, z: Any) -> Any:
 
 @pytest.fixture
 def prairies(ctx: moderngl.Context) -> Iterator[Any]:
-    """Load the scene about a place."""
+    """Return the function that loads the scene around a place."""
     loaded = list[Prairie]()
 
     def load(

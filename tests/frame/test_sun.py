@@ -1,4 +1,4 @@
-"""A sun that moves while the prairie is drawn (F5, F10): by a call, and by hours that pass."""
+"""A sun that moves while the prairie is drawn, by `shine` and by `hours_per_minute` (F5, F10)."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -1,8 +1,8 @@
 """Each term of light and shadow alone, on blades, strips and carpet, against every blade (F5, F6, F10, N12).
 
-A term is what changes between two scenes. The change is taken over squares of the picture, of the brightness before;
-what a representation misses of it is the mean difference from the reference's change, of the mean of that. The
-reference is drawn by the blades' own shader, so how large its change is at least is said as well.
+A term is the change between two scenes. It is measured over squares of the picture, relative to the brightness before.
+The error of a representation is its mean difference from the reference's change, relative to the mean of that. The
+reference is drawn by the blades' own shader, so there is also a bound for the least size of its change.
 """
 
 from collections.abc import Callable, Iterator
@@ -51,7 +51,7 @@ RIDGE_X, RIDGE_HEIGHT = -8.0, 5.0
 
 @dataclass(frozen=True)
 class Seen:
-    """A scene, by what it says of light, grass and ground."""
+    """A scene, by its values of light, grass and ground."""
 
     azimuth: float = 90.0
     elevation: float = 40.0
@@ -65,7 +65,7 @@ class Seen:
 
 @dataclass(frozen=True)
 class Term:
-    """A term of the light: without it, with it, its least size in the reference, and what may be missed of it."""
+    """A term of the light: scenes without and with it, its least size in the reference, and the largest error."""
 
     without: Seen
     having: Seen
@@ -102,7 +102,7 @@ def stage(ctx: moderngl.Context) -> Stage:
 
 @pytest.fixture(scope="module")
 def prairies(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, Prairie]]:
-    """One prairie a representation, which shows nothing else; all are read from one file."""
+    """Prairies of one file, by the one representation that each shows."""
     folder, x = tmp_path_factory.mktemp("terms"), np.arange(61) - 30.0
     ridge = RIDGE_HEIGHT * np.exp(-((x - RIDGE_X) ** 2) / 6.0)
     for name, row in (("flat", 0.0 * x), ("ridge", ridge)):
@@ -122,7 +122,7 @@ def text_of(seen: Seen, folder: Path) -> str:
 
 @contextmanager
 def showing(prairie: Prairie, seen: Seen) -> Iterator[None]:
-    """Let a prairie read a scene, with a ball between sun and grass where there is one."""
+    """Make a prairie read a scene, with a ball between sun and grass if the scene has one."""
     file = prairie.loaded.file
     file.write_text(text_of(seen, file.parent), "utf-8")
     prairie.reload()
@@ -133,7 +133,7 @@ def showing(prairie: Prairie, seen: Seen) -> Iterator[None]:
 
 
 def change(shot: Shot, term: Term) -> Picture:
-    """How much brighter each square is with a term than without it, of the picture's mean, shape (down, across, 3)."""
+    """Return the light that a term adds to each square, relative to the picture's mean, shape (rows, columns, 3)."""
     width, height = SIZE
     squares = [
         picture.reshape(height // SQUARE, SQUARE, width // SQUARE, SQUARE, 3).mean(axis=(1, 3))

@@ -1,4 +1,4 @@
-"""Texture units: what OpenGL 3.3 has of them is enough for every program (D6)."""
+"""Texture units: those of OpenGL 3.3 suffice for every program (D6)."""
 
 from collections.abc import Callable
 from typing import Any
@@ -56,7 +56,7 @@ def test_d6_every_program_of_a_scene_reads_few_textures_from_units_that_every_ca
 
 
 def test_no_shadow_map_is_read_where_textures_are_loaded(ctx: moderngl.Context) -> None:
-    """What is left there is no depth, and drivers make programs anew for it: that was a stall at the first cut."""
+    """A colour texture left there would make drivers compile programs again: once this stalled the first cut."""
     assert not {SCRATCH_UNIT, ctx.default_texture_unit} & set(BORROWED)
 
 

@@ -1,4 +1,4 @@
-"""Several viewers in a frame: each one's picture is its own, and nobody makes anew what another has (N11)."""
+"""Several viewers in a frame: each has its own picture, and shared things are made once (N11)."""
 
 from collections import Counter
 from collections.abc import Callable
@@ -66,7 +66,7 @@ def test_n11_viewers_in_turn_have_made_what_they_see_once_and_see_what_they_woul
 def test_n11_who_draws_what_is_there_already_tells_shaders_nothing_again(
     stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Uniforms are told one by one, which is dear; what changes by viewer is in the block of the frame."""
+    """Setting uniforms one by one is expensive; values of a viewer are in the frame block."""
     prairie, told = load(), Counter[str]()
     aims = {"left": camera(0.3, 1.7, 12.0, pitch=-8), "right": camera(7.3, 2.5, 9.0, yaw=40, pitch=-12)}
     for _ in range(3):
@@ -91,7 +91,7 @@ def test_n11_who_draws_what_is_there_already_tells_shaders_nothing_again(
 def test_n11_what_was_sent_for_a_viewer_who_stands_stays_while_others_look(
     stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Two in turn send what one sends who looks as often: the frame's block, and winds."""
+    """Two viewers in turn upload the same as one that looks as often: the frame block, and winds."""
     prairie, sent = load(), Counter[str]()
     aims = {"left": camera(0.3, 1.7, 12.0, pitch=-8), "right": camera(7.3, 2.5, 9.0, yaw=40, pitch=-12)}
 

@@ -1,6 +1,6 @@
 """A program that makes a village, a crater and a field without files, or loads them: `test_sown.py` runs it twice.
 
-Its arguments: where the state is, or is to be; where the picture goes; `make` or `load`.
+Its arguments: the path of the state, the path of the picture, and `make` or `load`.
 """
 
 import sys
@@ -29,7 +29,7 @@ def scene() -> dict[str, object]:
 
 
 def make(prairie: Prairie) -> None:
-    """Build all of it, and a well."""
+    """Build the village, the crater and a well."""
     for x, z, yaw in ((-12.0, 10.0, 0.2), (3.0, 14.0, -0.4), (14.0, 8.0, 0.1)):
         prairie.clear(HOUSE, pose=Pose(x, z, yaw))
     prairie.clear(Road(((-35.0, 18.0), (-4.0, 19.0), (10.0, 16.0), (36.0, 22.0)), 2.5), soft=0.6)
@@ -41,7 +41,7 @@ def make(prairie: Prairie) -> None:
 
 
 def main() -> None:
-    """Make it and save it, or load it; then draw it."""
+    """Make the village and save it, or load it; then draw it."""
     state, picture, how = sys.argv[1:]
     with headless_context() as ctx, stage(ctx) as drawn:
         prairie = Prairie.load(scene(), ctx=ctx, live=False)

@@ -1,7 +1,7 @@
-"""Programs of other libraries' with a prairie in them: what `test_hosts.py` runs, `host_programs.py LIBRARY SCENE`.
+"""Programs of other libraries with a prairie in them, which `test_hosts.py` runs: `host_programs.py LIBRARY SCENE`.
 
-Each draws something of its own alone, then a prairie, then its own again, for some frames. It prints one line of JSON:
-what is wrong, an empty text where nothing is. Where its library is not installed, it exits with 77.
+Each draws something of its own alone, then a prairie, then its own again, for some frames. It prints a line of JSON:
+its faults, an empty text where there are none. If its library is not installed, it exits with 77.
 """
 
 import json
@@ -40,7 +40,7 @@ def needed(name: str) -> Any:
 
 
 class Triangle:
-    """What those draw that have GL for themselves: a textured triangle, blended and tested, with moderngl."""
+    """Drawing of a program that has GL to itself: a textured triangle, blended and tested, with moderngl."""
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.ctx = ctx
@@ -56,7 +56,7 @@ class Triangle:
         self.array.render(moderngl.TRIANGLES, 3)
 
     def read(self) -> Picture:
-        """Return what is in the window."""
+        """Return the window's picture."""
         return np.frombuffer(self.ctx.screen.read(components=3, alignment=1), np.uint8)
 
     def clear(self) -> None:
@@ -65,7 +65,7 @@ class Triangle:
 
 
 def around(prairie: Prairie, clear: Draw, own: Draw, read: Callable[[], Picture], flip: Draw) -> str:
-    """Say what is wrong with a program's own drawing after a prairie's."""
+    """Return the faults in a program's own drawing after a prairie's."""
     camera = camera_at(prairie.scene.camera, None, prairie.height_at)
     matrices = view_matrix(camera), projection_matrix(camera.view, SIZE[0] / SIZE[1])
     told, expected, first = [], b"", b""
@@ -250,7 +250,7 @@ def pyside(scene: str) -> str:
 
 
 def main() -> None:
-    """Run one of the programs and print what it says."""
+    """Run one of the programs and print its faults."""
     said = {
         "arcade": arcade, "moderngl-window": moderngl_window, "pygame-ce": pygame, "glfw": glfw, "PySide6": pyside,
         "pyglet": pyglet,

@@ -1,4 +1,4 @@
-"""Other drivers than the one at hand draw the same pictures (D6)."""
+"""Other drivers draw the same pictures (D6)."""
 
 import sys
 from collections.abc import Callable

@@ -23,7 +23,7 @@ Sources = tuple[str, str | None]
 
 @pytest.fixture
 def made(monkeypatch: pytest.MonkeyPatch) -> set[Sources]:
-    """The sources of every program that is made from now on."""
+    """Sources of all programs that are compiled during the test."""
     found: set[Sources] = set()
     make = moderngl.Context.program
 
@@ -36,7 +36,7 @@ def made(monkeypatch: pytest.MonkeyPatch) -> set[Sources]:
 
 
 def draw_all(prairie: Prairie, shot: Callable[[], object]) -> None:
-    """Let a prairie make all programs that it ever makes."""
+    """Make a prairie compile all programs that it ever needs."""
     shot()
     for kind in wind_kinds().names():
         prairie.add(wind_kinds().find(kind)())  # type: ignore[call-arg]

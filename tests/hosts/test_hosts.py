@@ -1,4 +1,4 @@
-"""A prairie in the windows of other libraries: what they draw themselves stays as it is, to the byte (D6)."""
+"""A prairie in the windows of other libraries: their own drawing stays the same, byte for byte (D6)."""
 
 import json
 from collections.abc import Callable

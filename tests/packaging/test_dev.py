@@ -29,7 +29,7 @@ echo "#!$place/bin/python" >"$place/bin/pip"
 
 
 class Machine:
-    """A clone on a machine that has the named tools, and says of itself what a test needs."""
+    """A clone on a pretended machine that has the named tools."""
 
     def __init__(self, folder: Path) -> None:
         self.clone = folder / "a clone"
@@ -46,7 +46,7 @@ class Machine:
         self.has("ldconfig", "echo 'libEGL.so.1 ' 'libGL.so.1 ' 'libfontconfig.so.1 ' 'libfreetype.so.6 '")
 
     def has(self, name: str, script: str, *, in_environment: bool = False) -> None:
-        """Give the machine, or the environment on it, a program that runs `script`."""
+        """Add a program that runs `script` to the machine, or to the environment on it."""
         program = (self.clone / ".venv" / "bin" if in_environment else self.tools) / name
         program.unlink(missing_ok=True)
         program.write_text(script if script.startswith("#!") else f"#!/bin/sh\n{script}\n", "utf-8")
@@ -59,7 +59,7 @@ class Machine:
         return subprocess.run(command, cwd=self.tools, env=place, capture_output=True, text=True, check=False)
 
     def setup(self) -> list[str]:
-        """Set up, and return what the installer was called for."""
+        """Set up, and return the arguments of the installer's calls."""
         self.calls.write_text("", "utf-8")
         done = self.dev("setup")
         assert done.returncode == 0, done.stderr

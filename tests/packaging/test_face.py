@@ -1,4 +1,4 @@
-"""The face of the library: what other people's programs import."""
+"""The face of the library: the names that other programs import."""
 
 import subprocess
 import sys
@@ -15,7 +15,7 @@ pytestmark = pytest.mark.packaging
 
 
 def test_the_face_shows_what_programs_are_written_with() -> None:
-    """What else is on it is held by the record in docs/public.json, which is compared in tests/docs/test_public.py."""
+    """All other names are recorded in docs/public.json, and compared by tests/docs/test_public.py."""
     winds = {"Blast", "Breeze", "Gust", "MeanWind", "PlacedWind", "Turbulence", "Whirlwind", "WindPrimitive"}
     assert sorted(set(tallgrass.__all__)) == sorted(tallgrass.__all__)
     assert all(issubclass(getattr(tallgrass, name), WindPrimitive) for name in winds)

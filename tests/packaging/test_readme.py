@@ -1,4 +1,4 @@
-"""What the README shows works as it stands there."""
+"""The README's programs, scene and commands work."""
 
 import re
 import tomllib
@@ -51,7 +51,7 @@ def test_the_programs_use_only_what_the_face_offers() -> None:
 
 @pytest.fixture(autouse=True)
 def _little_grass(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let every preset be grown in a moment, and all grass bend alike."""
+    """Make all presets grow in a moment, and all grass bend alike."""
     little = PRESETS["low"].model_copy(update={"blades": 40, "models": 1, "carpet": 16})
     mechanics, postures = models._Mechanics.of(GrassKind()), models._postures  # noqa: SLF001
     monkeypatch.setattr(models._Mechanics, "of", lambda _: mechanics)  # noqa: SLF001

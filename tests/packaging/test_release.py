@@ -1,4 +1,4 @@
-"""A release is one command: it moves the changelog's section, sets the version, and builds what an index takes."""
+"""A release is one command: it moves the changelog's section, sets the version, and builds the distributions."""
 
 import re
 import sys

@@ -1,4 +1,4 @@
-"""What is built is what works: the tests pass against the wheel, where no checkout is in reach."""
+"""The built wheel works: tests pass against it, without the checkout."""
 
 import os
 import re
@@ -41,7 +41,7 @@ def run(*command: str | Path, cwd: Path) -> str:
 
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The wheel, built from the source distribution of a copy: building in place leaves files that get shipped."""
+    """Path of the wheel, built from a copy's source distribution: building in place leaves files that get shipped."""
     copy = tmp_path_factory.mktemp("source") / "tallgrass"
     shutil.copytree(
         ROOT, copy, ignore=shutil.ignore_patterns(".*", "__pycache__", "*.egg-info", "build", "dist", "out")
@@ -54,7 +54,7 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def site(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The site folder of an environment that has the wheel, and this one's packages except the editable project."""
+    """Site folder of an environment that has the wheel, and this one's packages except the editable project."""
     home = tmp_path_factory.mktemp("installed")
     venv.create(home, with_pip=False)
     place = Path(sysconfig.get_path("purelib", "venv", {"base": str(home), "platbase": str(home)}))
@@ -89,7 +89,7 @@ def test_the_tests_pass_against_the_wheel_outside_the_checkout(site: Path, tmp_p
 def test_d6_the_type_checker_passes_on_the_examples_and_the_tutorial_against_the_wheel(
     site: Path, tmp_path: Path
 ) -> None:
-    """As people have it who write a game: with strict rules, without our configuration and without plugins."""
+    """As in a game's project: with strict rules, without this project's configuration and plugins."""
     python = site.parents[2] / "bin" / "python"
     programs = sorted((ROOT / "examples").rglob("*.py"))
     assert len(programs) >= 5

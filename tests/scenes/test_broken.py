@@ -1,4 +1,4 @@
-"""Scenes with something wrong: each file says, in its last lines, what `check` must tell of it and where."""
+"""Scenes with problems: the last lines of each file are the messages that `check` must print, with their places."""
 
 import re
 from pathlib import Path

@@ -1,6 +1,6 @@
 """The bundled scenes in an editor: the language server for YAML, from npm, with our schema.
 
-Where it is not on the path, npm installs it once into the cache of pytest; where there is no npm, or no network, these
+If it is not on the path, npm installs it once into pytest's cache. Without npm or a network, these tests
 are skipped.
 """
 
@@ -25,7 +25,7 @@ HEAD = "# yaml-language-server: $schema={}\ntallgrass: 2\n"
 
 
 class Editor:
-    """What an editor is for the server: it opens texts, and is told of problems and of what is under the mouse."""
+    """A client of the language server: it opens texts, and gets problems, hovers and completions."""
 
     def __init__(self, command: list[str]) -> None:
         self._server = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
@@ -42,13 +42,13 @@ class Editor:
         return [f"{found['range']['start']['line'] + 1}: {found['message']}" for found in told["diagnostics"]]
 
     def hover(self, path: Path, line: int, column: int) -> str:
-        """What is shown over a place, counted from 1."""
+        """Return the hover text at a line and column, counted from 1."""
         place = {"line": line - 1, "character": column - 1}
         shown = self.ask("textDocument/hover", {"textDocument": {"uri": path.as_uri()}, "position": place})
         return str(shown["contents"]["value"])
 
     def complete(self, path: Path, line: int, column: int) -> set[str]:
-        """The words that are offered at a place, counted from 1."""
+        """Return the completions at a line and column, counted from 1."""
         place = {"line": line - 1, "character": column - 1}
         offered = self.ask("textDocument/completion", {"textDocument": {"uri": path.as_uri()}, "position": place})
         return {item["label"] for item in offered["items"]}
@@ -99,7 +99,7 @@ class Editor:
 
 @pytest.fixture(scope="module")
 def command(pytestconfig: pytest.Config) -> list[str]:
-    """How the server is started."""
+    """Command that starts the server."""
     found = shutil.which(NAME)
     if found:
         return [found, "--stdio"]

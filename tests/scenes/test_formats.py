@@ -1,7 +1,7 @@
-"""Scenes of every format that there has been: what they say once, they mean for ever.
+"""Scenes of all formats: their meaning never changes.
 
-In a folder `format-N` stand scenes of format N, and beside each one what it means, as a later release must read it too:
-keys may come to that by their defaults, but none may go, and no value may change.
+A folder `format-N` has scenes of format N, each with a file of its meaning, which later releases must read, too:
+keys may be added with their defaults, but none may go, and no value may change.
 """
 
 import json
@@ -23,7 +23,7 @@ OLD = sorted(Path(__file__).parent.glob("format-*/*.yaml"))
 
 
 def lost(meant: object, read: object, where: str = "") -> Iterator[str]:
-    """What a scene meant and does not mean any more."""
+    """Yield the values of a scene's recorded meaning that are lost or changed."""
     if isinstance(meant, dict) and isinstance(read, dict):
         for key, value in meant.items():
             if key in read:

@@ -1,8 +1,8 @@
-"""Scenes that nobody would write: mutations of those there are, read as a stranger's file is.
+"""Fuzzing of scene files: mutations of existing scenes are read.
 
-The suite tries a few; `TALLGRASS_FUZZ=20000 pytest tests/scenes/test_fuzz.py` tries as many as one likes, and
-`TALLGRASS_FUZZ_SEED` others. A case is made from its number alone, and a failure names it: `TALLGRASS_FUZZ_FROM=N` with
-`TALLGRASS_FUZZ=1` tries it again.
+The suite tries a few. `TALLGRASS_FUZZ=20000 pytest tests/scenes/test_fuzz.py` tries more, `TALLGRASS_FUZZ_SEED` others.
+A case follows from its number alone, which a failure names: `TALLGRASS_FUZZ_FROM=N` with `TALLGRASS_FUZZ=1` tries it
+again.
 """
 
 import json
@@ -70,7 +70,7 @@ class Puff(Declaration):
 
 
 class Bellows(WindPrimitive):
-    """A plugin's wind: parts within parts, and validators that raise what they like."""
+    """A plugin's wind with nested parts, and validators that raise any error."""
 
     puffs: list[Puff] = Field(default=[], max_length=20)
     table: dict[str, Puff] = {}  # noqa: RUF012 - pydantic copies it
@@ -109,7 +109,7 @@ def pick(random: Random, things: Any) -> Any:
 
 
 def places(values: object, here: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
-    """The ways to all values inside a value, but to itself."""
+    """Yield the ways to all values inside a value, except the empty way."""
     steps = values.items() if isinstance(values, dict) else enumerate(values) if isinstance(values, list) else ()
     for step, value in steps:
         yield (*here, step)
@@ -117,12 +117,12 @@ def places(values: object, here: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ..
 
 
 def in_words(text: str, random: Random) -> str:
-    """One change of a text as such."""
+    """Return a text with one random change."""
     return in_lines(text, random) if random.random() < 0.25 else in_place(text, random)
 
 
 def in_place(text: str, random: Random) -> str:
-    """One change at one place of a text."""
+    """Return a text changed at one place."""
     at, size = int(random.integers(len(text) + 1)), int(random.geometric(0.1))
     start, end = pick(random, [match.span() for match in re.finditer(r"[\w.-]+", text)] or [(0, 0)])
     word = text[start:end]
@@ -140,7 +140,7 @@ def in_place(text: str, random: Random) -> str:
 
 
 def in_lines(text: str, random: Random) -> str:
-    """One change of the lines of a text."""
+    """Return a text with one change of its lines."""
     lines = text.split("\n")
     row, other = random.integers(len(lines), size=2).tolist()
     match int(random.integers(3)):
@@ -154,7 +154,7 @@ def in_lines(text: str, random: Random) -> str:
 
 
 def in_values(text: str, random: Random) -> str:
-    """Some changes of what a text says, written anew; of what says nothing, changes of the text."""
+    """Return a scene's text with some changed values; a text that is no mapping is changed as a text."""
     try:
         values = deepcopy(read_document(text, file="<scene>").root.data)
     except SceneError:
@@ -190,7 +190,7 @@ def _change(inside: Any, step: Any, values: Any, random: Random) -> None:
 
 
 def _any_wind(random: Random) -> dict[str, Any]:
-    """A wind of any kind; of its keys some, each with a value that suits it or does not."""
+    """Return a wind of any kind with some of its keys, each with a fitting or an unfitting value."""
     kind = pick(random, wind_kinds().names())
     made: dict[str, Any] = {"kind": kind}
     for name, field in wind_kinds().find(kind).model_fields.items():
@@ -206,7 +206,7 @@ def _any_wind(random: Random) -> dict[str, Any]:
 
 
 def case(number: int) -> bytes:
-    """The scene file of one case."""
+    """Return the text of a case's scene file."""
     random = np.random.default_rng((SEED, number))
     text = pick(random, SOURCES if random.random() < 0.8 else BROKEN)
     for _ in range(int(pick(random, [1, 1, 1, 2, 3]))):
@@ -218,7 +218,7 @@ def case(number: int) -> bytes:
 
 
 def refused(error: SceneError, path: Path, data: bytes) -> None:
-    """Hold that a refusal names the file, lines and columns that there are, and what is wrong there."""
+    """Assert that problems name the file, existing lines and columns, and what is wrong there."""
     lines = data.decode("utf-8-sig", "replace").splitlines() or [""]
     assert 1 <= len(error.problems) <= 201
     assert len(str(error)) < 200 * 1000
@@ -235,7 +235,7 @@ def refused(error: SceneError, path: Path, data: bytes) -> None:
 
 
 def blown(loaded: LoadedScene) -> None:
-    """Hold that the winds of a scene blow: none fails, and grass feels what it can follow."""
+    """Assert that the winds of a scene blow: none fails, and all messages are valid."""
     place = np.array([[0, 0], [3, -4], [-14, 2], [60, 90], [-5000, 5000]], np.float32)
     curve = np.linspace(0.0, 1.0, 8, dtype=np.float32)[None]
     grass = Grass(np.zeros(len(place), np.intp), np.ones(1, np.float32), curve, 1 - curve)
@@ -251,7 +251,7 @@ def blown(loaded: LoadedScene) -> None:
 
 
 def tried(number: int, path: Path, fits: Callable[[object], object]) -> bool:
-    """Read one case as a stranger's file; return whether it is a scene. A scene blows, and `fits` the schema."""
+    """Read a case; return whether it is a scene. Then its winds must blow, and it must fit the schema."""
     data = case(number)
     path.write_bytes(data)
     try:
@@ -283,7 +283,7 @@ def at_most(seconds: float) -> Iterator[None]:
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Iterator[Path]:
-    """A folder for scenes, with pictures that they may name, and a plugin of winds."""
+    """Folder for scenes with pictures that they may name; a plugin's wind is registered meanwhile."""
     shutil.copy(bundled_scenes()["meadow"].with_name("meadow-density.png"), tmp_path / "density.png")
     shutil.copy(tmp_path / "density.png", tmp_path / "meadow-density.png")
     shutil.copy(HERE / "broken" / "text.png", tmp_path / "shape.png")

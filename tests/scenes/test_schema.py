@@ -1,4 +1,4 @@
-"""The schema of scene files: what it lets through, what it refuses, what an editor shows of it."""
+"""The schema of scene files: valid and invalid scenes, and texts for editors."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -54,7 +54,7 @@ class Dust(WindPrimitive):
 
 
 class Odd(Dust):
-    """A wind with a key that no schema can tell of."""
+    """A wind with a key that no schema can describe."""
 
     thing: Callable[[], int] | None = None
 
@@ -90,7 +90,7 @@ def checker(schema: dict[str, Any]) -> Fits:
 
 @pytest.fixture(scope="module")
 def fits(schema: dict[str, Any]) -> Fits:
-    """Whether values fit the schema."""
+    """Return whether values fit the schema."""
     return checker(schema)
 
 

@@ -1,4 +1,4 @@
-"""Every system can be made from its inputs alone, run for one step in a private world, and asserted on (D3, D6)."""
+"""Every system can be made from its inputs alone, and tested by one step in a private world (D3, D6)."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""How high the grass stands, and what flies over it (R4)."""
+"""The canopy's height, and bodies above it (R4)."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -29,7 +29,7 @@ def test_the_canopy_is_lower_where_all_grass_lies() -> None:
 
 
 def grown(laid: Laid, tall: float, short: float, terrain: Terrain = FLAT) -> Site:
-    """A site where two kinds grow with these densities everywhere."""
+    """Return a site where two kinds grow with these densities everywhere."""
     site = laid(terrain=terrain)
     maps = np.stack([np.full((4, 4), each, np.float32) for each in (tall, short)])
     return replace(site, ground=replace(site.ground, density=Density(maps, terrain.size)))

@@ -1,4 +1,4 @@
-"""The system that says which representation is due."""
+"""The system `lod`, which chooses the representations that are due."""
 
 from typing import Any
 
@@ -39,7 +39,7 @@ def test_x1_only_what_was_and_is_seen_is_kept_finer_than_is_due_and_nothing_else
 
 
 class Choosy(StripRepresentation):
-    """Strips that would not do on the first of the patches that are to have them."""
+    """Strips that do not suit the patch in row 3."""
 
     def unfit(self, outlook: Outlook, rows: Any, has: Any, /, *, slack: int) -> Any:
         del outlook, has, slack

@@ -1,4 +1,4 @@
-"""What a game gives its entities: one wind for many, poses that are nowhere, what is no wind; and their world (D2)."""
+"""Components on a game's entities: shared winds, poses that are not finite, wrong types; and worlds (D2)."""
 
 from collections.abc import Iterator
 from typing import Any

@@ -33,7 +33,7 @@ cells = st.tuples(st.integers(-40, 40), st.integers(-40, 40))
 
 
 def seen_by(camera: Camera, aspect: float = 16 / 9, bank: float = 0.0, shift: tuple[float, float] = (0.0, 0.0)) -> View:
-    """The matrices of a camera that is banked to one side [rad] and whose picture is shifted, as for one eye."""
+    """Return the matrices of a camera with roll [rad] and an asymmetric frustum, as for one eye."""
     c, s = np.cos(bank), np.sin(bank)
     roll = np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
     projection = projection_matrix(camera.view, aspect)
@@ -42,7 +42,7 @@ def seen_by(camera: Camera, aspect: float = 16 / 9, bank: float = 0.0, shift: tu
 
 
 def in_picture(seen: View, points: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Tell which points (..., 3) are in the picture, however far off."""
+    """Return the mask of points (..., 3) inside the frustum, at any distance."""
     clip = np.concatenate([points, np.ones((*points.shape[:-1], 1))], -1) @ (seen.projection @ seen.view).T.astype(
         float
     )
@@ -51,7 +51,7 @@ def in_picture(seen: View, points: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 
 def points_of(cell: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Points of each cell (n, 2) and above it, its corners among them, shape (n, points, 3)."""
+    """Return points on and above each cell (n, 2), including its corners, shape (n, points, 3)."""
     line, up = np.linspace(0.0, 1.0, 4), np.array([-2.0, 0.0, 0.5, 1.0, 6.0])
     unit = np.stack(np.meshgrid(line, up / PATCH, line, indexing="ij"), -1).reshape(-1, 3)
     corner = np.stack([cell[:, 0], np.zeros(len(cell)), cell[:, 1]], -1)
@@ -197,7 +197,7 @@ def test_t5_the_viewers_own_patch_is_drawn_last() -> None:
 
 
 def around(half: float) -> Outlook:
-    """What a viewer in the middle of 25 by 25 patches sees who looks along -z, so far to either side [rad]."""
+    """Return the outlook of a viewer amid 25 by 25 patches, whose view cone along -z has a half width [rad]."""
     outlook = Outlook(Viewer(eye=(1.25, 1.7, 1.25), cone=(0.0, half)), 0, PatchTable.allocate(25, NAMES))
     outlook.patches.cell[:] = AROUND
     outlook.patches.middle[:] = (AROUND + 0.5) * PATCH

@@ -1,4 +1,4 @@
-"""How a saucer hovers and leans, and where its jet goes, on arrays alone."""
+"""A saucer's hovering, its lean and the foot of its jet, on arrays alone."""
 
 import math
 
@@ -81,7 +81,7 @@ def test_r4_a_saucer_keeps_its_height_and_glides_over_bumps(x: float, z: float) 
 
 
 def circle(time: float) -> Pose:
-    """Ten metres around the origin, clockwise from above, once in ten seconds."""
+    """Return the place on a circle of ten metres about the origin, clockwise from above, once in ten seconds."""
     angle = math.tau * time / 10.0
     return Pose(10.0 * math.sin(angle), -10.0 * math.cos(angle), angle + math.pi / 2)
 

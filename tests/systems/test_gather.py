@@ -1,4 +1,4 @@
-"""Gathering: what is sent to the graphics card, in the order of drawing (T5, W1)."""
+"""Gathering: records for the graphics card, in the order of drawing (T5, W1)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -36,22 +36,22 @@ ROOM = 100
 
 @pytest.fixture
 def outlook(laid: Laid, look: Look) -> Outlook:
-    """What somebody sees all round on flat ground."""
+    """Outlook of a viewer on flat ground, all round."""
     return look(laid(terrain=FLAT), *EYE)
 
 
 def blades(outlook: Outlook) -> tuple[BladePool, list[Standing]]:
-    """The pool of blades, and the patches shown by ring."""
+    """Return the pool of blades, and the patches shown by ring."""
     return outlook.keeps(BladesKept).pool, outlook.shows(BladesShown).rings
 
 
 def strips(outlook: Outlook) -> list[tuple[StripPool, StripsOfRing]]:
-    """By ring, the pool of strips and the patches shown."""
+    """Return for each ring the pool of strips and the patches shown."""
     return list(zip(outlook.keeps(StripsKept).pools, outlook.shows(StripsShown).rings, strict=True))
 
 
 def gathered(outlook: Outlook, *, first: int = 0) -> tuple[NDArray[np.void], NDArray[np.float32]]:
-    """The patches of all rings, ring after ring, and the feet of all edges, whose numbers begin with `first`."""
+    """Return the patches of all rings, ring after ring, and the feet of all edges, numbered from `first` on."""
     receivers, feet, start = [], [], first
     for pool, ring in strips(outlook):
         feet.append(pool.places(ring.slots).reshape(-1, 2))
@@ -65,7 +65,7 @@ def gathered(outlook: Outlook, *, first: int = 0) -> tuple[NDArray[np.void], NDA
 
 @dataclass
 class Polygons:
-    """Polygon strips, taken apart as `strips.vert` takes their numbers apart; each array has shape (n,)."""
+    """Fields of polygon strips, decoded from their numbers as by `strips.vert`; each array has shape (n,)."""
 
     patch: Rows
     kind: Rows
@@ -78,7 +78,7 @@ class Polygons:
 
 
 def polygons(numbers: NDArray[np.uint32], placements: NDArray[np.void], *, stride: int = ROOM) -> Polygons:
-    """Take the numbers of polygon strips apart."""
+    """Return the fields of polygon strips from their numbers."""
     patch, own = np.divmod(numbers.astype(np.int64), stride)
     code = placements["code"][patch].astype(np.int64)
     strips, columns = np.array(FINENESS)[code // 16].T
@@ -91,7 +91,7 @@ def polygons(numbers: NDArray[np.uint32], placements: NDArray[np.void], *, strid
 
 
 def drawn(outlook: Outlook) -> tuple[Polygons, NDArray[np.void], NDArray[np.float32]]:
-    """All polygon strips in the order in which they are drawn, the patches that they are on, and all edges' feet."""
+    """Return all polygon strips in the order of drawing, their patches, and all edges' feet."""
     rings, (placements, feet) = strips(outlook), gathered(outlook)
     patch = np.argsort(np.concatenate([ring.queue for _, ring in rings]))
     present = np.concatenate([pool.present[ring.slots] for pool, ring in rings])[patch]
@@ -144,7 +144,7 @@ patches = st.tuples(st.integers(0, 1), st.booleans(), st.booleans(), st.booleans
 def test_t5_all_strips_of_the_kinds_that_grow_stand_once_in_the_order_of_their_patches(
     on: list[tuple[int, bool, bool, bool]], data: st.DataObject
 ) -> None:
-    """Whatever ring a patch is in, wherever it lies, whatever grows on it: from its far side to its near one."""
+    """For patches of any ring, place and kinds: strips from the far side to the near one."""
     placements = np.zeros(len(on), PLACEMENT)
     placements["code"] = [8 * ahead + 16 * ring for ring, ahead, *_ in on]
     order = data.draw(st.permutations(range(len(on))))
@@ -213,7 +213,7 @@ def test_a_kind_that_does_not_grow_on_a_patch_is_not_gathered_there(laid: Laid, 
 
 
 def placed(outlook: Outlook, numbers: NDArray[np.uint32]) -> NDArray[np.float32]:
-    """Where the blades of these numbers stand, counted among all patches with blades, shape (n, 2)."""
+    """Return the places of blades by their numbers among all patches with blades, shape (n, 2)."""
     standing: Standing = outlook.shows(BladesShown).standing
     patch, blade = np.divmod(numbers.astype(np.int64), 42)
     return np.asarray(blades(outlook)[0].places(standing.slots)[patch, blade])

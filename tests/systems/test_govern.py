@@ -1,4 +1,4 @@
-"""The governor's ladder and how it is climbed (N11)."""
+"""The governor's ladder, and its steps on it (N11)."""
 
 from itertools import pairwise
 from math import exp, log
@@ -16,7 +16,7 @@ shares = st.floats(0.0, 10.0)
 
 
 def walked(times: list[float], *, frames: int = 4000, state: GovernorState | None = None) -> list[int]:
-    """Return the rungs of so many frames where each rung takes a time of its own [s]."""
+    """Return the rungs of a number of frames, given the time that each rung takes [s]."""
     now, rungs = state or GovernorState(), []
     for _ in range(frames):
         now = next_state(now, times[now.rung], hold=HOLD)
@@ -25,12 +25,12 @@ def walked(times: list[float], *, frames: int = 4000, state: GovernorState | Non
 
 
 def takes(fixed: float, ranged: float, drawn: float) -> list[float]:
-    """Return what each rung takes [s]: what stays, what goes with the distances, and what goes with the pixels."""
+    """Return each rung's frame time [s]: a constant, a term of the distances, and a term of the pixels."""
     return [HOLD * (fixed + ranged * each.range**2 + drawn * each.scale**2) for each in RUNGS]
 
 
 def turns(rungs: list[int]) -> int:
-    """Return how many times a change went the other way than the one before."""
+    """Return the number of changes that reverse the one before."""
     ways = [one < other for one, other in pairwise(rungs) if one != other]
     return sum(one != other for one, other in pairwise(ways))
 

@@ -1,4 +1,4 @@
-"""What hovers over a stranger's wind: where it flies, where the wind then acts, and what becomes of one that fails."""
+"""Bodies that hover over plugins' winds: where they fly, where the wind then acts, and failures."""
 
 from collections.abc import Callable
 from functools import partial
@@ -20,7 +20,7 @@ from tallgrass.systems.winds import Winds
 
 
 class Rotor(WindPrimitive):
-    """A stranger's wind: the air under a rotor that swings to and fro along x."""
+    """A plugin's wind: the air under a rotor that swings to and fro along x."""
 
     kind: str = "rotor"
     swing: float = 0.0
@@ -42,49 +42,49 @@ class Rotor(WindPrimitive):
 
 
 class Silent(Rotor):
-    """It raises instead of telling what hovers over it."""
+    """Its `hover` raises."""
 
     def hover(self) -> Any:
         raise LookupError("nothing there")
 
 
 class Worded(Rotor):
-    """It tells so in a word."""
+    """Its `hover` returns a text."""
 
     def hover(self) -> Any:
         return "saucer"
 
 
 class Unknown(Rotor):
-    """It looks like nothing that can be drawn."""
+    """Its body has an unknown model."""
 
     def hover(self) -> Any:
         return Hover("dragon")  # type: ignore[arg-type]
 
 
 class Tall(Rotor):
-    """Its height is no number."""
+    """Its body's height is a text."""
 
     def hover(self) -> Any:
         return Hover(height="high")  # type: ignore[arg-type]
 
 
 class Lost(Rotor):
-    """It is nowhere."""
+    """Its `pose` returns None."""
 
     def pose(self, *, time: float) -> Any:
         return None
 
 
 class Vague(Rotor):
-    """Where it is is no number."""
+    """Its pose is NaN."""
 
     def pose(self, *, time: float) -> Any:
         return Pose(nan, 0.0)
 
 
 class Gone(Rotor):
-    """It is farther away than numbers reach."""
+    """Its pose is infinite in single precision."""
 
     def pose(self, *, time: float) -> Any:
         return Pose(1e300, 0.0)
@@ -97,7 +97,7 @@ def site(laid: Callable[..., Site]) -> Site:
 
 @pytest.fixture
 def winds(world: World, site: Site) -> Winds:
-    """The winds of a site on uneven ground, none as yet."""
+    """Winds of a site on uneven ground, none at first."""
     return Winds(world, site.scene, site.ground, site.growths)
 
 
@@ -106,7 +106,7 @@ Bodies = Callable[[float], list[Body]]
 
 @pytest.fixture
 def bodies(world: World, site: Site, winds: Winds) -> Bodies:
-    """What is in the air at a time."""
+    """Return the bodies in the air at a time."""
     return lambda time: flying(world, site.top_at, winds.quarantine, time=time)
 
 

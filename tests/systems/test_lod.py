@@ -20,7 +20,7 @@ STEP = 0.05
 
 
 class Walk:
-    """One patch, seen by a viewer who comes and goes."""
+    """A patch, and a viewer that approaches and leaves it."""
 
     def __init__(self, distance: int, *, alive: bool = True, reach: tuple[int, int, int] = REACH) -> None:
         self.reach = reach
@@ -30,7 +30,7 @@ class Walk:
         self.go(distance, dt=1e9)
 
     def go(self, distance: int, *, dt: float = STEP, visible: bool = True, step: float | None = None) -> None:
-        """Let the viewer be at this distance for one frame, in which so much of a change is made."""
+        """Put the viewer at a distance for one frame, in which a change progresses by a step."""
         table = self.table
         table.distance[:] = distance
         table.visible[:] = visible
@@ -314,7 +314,7 @@ def test_a_held_patch_stays_what_it_is_whatever_its_distance_wants() -> None:
 
 
 def room(hold: int, distance: int) -> int:
-    """The representation of a patch that is held in one for long."""
+    """Return the representation of a patch after it was held for long."""
     walk = Walk(distance)
     walk.table.hold[:] = hold
     for _ in range(90):

@@ -1,4 +1,4 @@
-"""How fast time goes for a viewer: where it idles, changes go on by the frame (X2)."""
+"""Pace of time for a viewer: while it idles, changes progress by the frame (X2)."""
 
 from itertools import chain, cycle, islice, repeat
 

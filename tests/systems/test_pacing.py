@@ -1,4 +1,4 @@
-"""Standing on a limit and pacing across it (X1, F1)."""
+"""Standing on a limit of representations, and pacing across it (X1, F1)."""
 
 from collections.abc import Callable, Iterator
 
@@ -19,19 +19,19 @@ PERIOD = 3.0
 
 
 def changing(outlook: Outlook) -> int:
-    """How many patches in view are on their way to another representation or sub-level."""
+    """Return the number of visible patches that change representation or sub-level."""
     patches = outlook.patches
     going = (patches.progress < 1.0) | (patches.sublevel_progress < 1.0).any(axis=0)
     return int((patches.shown & going).sum())
 
 
 def standing() -> Iterator[float]:
-    """Where a walker is who does not move."""
+    """Return the place of a walker that stands."""
     yield from (2.5 for _ in range(600))
 
 
 def pacing() -> Iterator[float]:
-    """Where one is who paces half a metre to and fro."""
+    """Return the place of a walker that paces half a metre to and fro."""
     yield from (2.5 + 0.25 * np.sin(time * STEP * 2.0 * np.pi / PERIOD) for time in range(600))
 
 

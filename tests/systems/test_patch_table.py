@@ -1,4 +1,4 @@
-"""The table of the patches around a viewer: its window, and what each cell has (T1, T5, G1)."""
+"""The patch table around a viewer: its window, and the values of each cell (T1, T5, G1)."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Planting: the same patch stands the same way in every representation (T1, G1, G3)."""
+"""Planting: a patch has the same grass in every representation (T1, G1, G3)."""
 
 from typing import Any
 
@@ -37,7 +37,7 @@ quarters = st.integers(0, 3).map(lambda turn: np.array([turn], np.int32))
 
 
 def bilinear(terrain: Terrain, place: NDArray[Any]) -> NDArray[np.float64]:
-    """Heights by the textbook, in double precision, at places (..., 2) on the terrain."""
+    """Return heights by bilinear interpolation in double precision, at places (..., 2) on the terrain."""
     u = (place.astype(np.float64) - terrain.origin) / terrain.cell
     low = np.minimum(np.floor(u).astype(int), np.array(terrain.heights.shape[::-1]) - 2)
     i, j = np.moveaxis(low, -1, 0)
@@ -56,7 +56,7 @@ def planted(growths: list[Growth], terrain: Terrain, maps: NDArray[np.float32] =
 
 
 def standing(growths: list[Growth], terrain: Terrain) -> tuple[BladeStock, NDArray[np.void]]:
-    """The stock, and the blades of all cells where they stand."""
+    """Return the stock, and the standing blades of all cells."""
     stock = stock_blades(growths, PATCH)
     ground = Ground(terrain, Density(EVERYWHERE, terrain.size), PATCH)
     return stock, standing_blades(stock, CELLS, MODELS, TURNS, ground)[0]
@@ -165,7 +165,7 @@ def test_g3_strips_are_parallel_planes_stored_by_rising_place(growths: list[Grow
 def test_g1_the_blades_of_a_patch_stand_in_the_order_of_their_models_one_kind_after_another(
     growths: list[Growth], hills: Terrain
 ) -> None:
-    """What is known of each blade of a model, as its place on the strips, is known by its number."""
+    """Data of each blade of a model, such as its place on the strips, are looked up by its number."""
     stock, found = standing(growths, hills)
     for blades, cell, model, turn in zip(found, CELLS, MODELS, TURNS, strict=True):
         parts = [

@@ -1,4 +1,4 @@
-"""Pressers as a game has them: entities with a footprint and a pose, and what `bent_at` says of them (F4)."""
+"""A game's pressers: entities with a footprint and a pose, and the effect on `bent_at` (F4)."""
 
 from collections.abc import Callable, Iterator
 from math import ceil, floor
@@ -46,7 +46,7 @@ def prairie(world: World) -> Iterator[Prairie]:
 
 
 def walk(prairie: Prairie, entity: int, until: float, *, steps: int = 30) -> None:
-    """Walk east along z = 0, from x = -3 at time 0 on, 1.5 m each second."""
+    """Walk to +x along z = 0, from x = -3 at time 0 on, 1.5 m each second."""
     begun = prairie.time
     for _ in range(steps):
         prairie.advance((until - begun) / steps)

@@ -1,4 +1,4 @@
-"""Receiving: who is shown, planted and heard (T4, T5, W1, F1)."""
+"""Receiving: patches shown and planted, and receivers that hear (T4, T5, W1, F1)."""
 
 from collections.abc import Callable
 
@@ -35,13 +35,13 @@ def site(laid: Laid) -> Site:
 
 
 def blades(outlook: Outlook) -> list[Standing]:
-    """Patches shown with blades, by ring."""
+    """Return the patches shown with blades, by ring."""
     rings: list[Standing] = outlook.shows(BladesShown).rings
     return rings
 
 
 def strips(outlook: Outlook) -> list[StripsOfRing]:
-    """Patches shown with strips, by ring."""
+    """Return the patches shown with strips, by ring."""
     rings: list[StripsOfRing] = outlook.shows(StripsShown).rings
     return rings
 
@@ -51,7 +51,7 @@ def rows(shown: list[Standing] | list[StripsOfRing]) -> NDArray[np.int64]:
 
 
 def pooled(outlook: Outlook) -> list[tuple[BladePool | StripPool, Shown]]:
-    """All that is shown, each with the pool that holds it."""
+    """Return all patches shown, each with its pool."""
     return [
         (outlook.keeps(BladesKept).pool, outlook.shows(BladesShown).standing),
         *zip(outlook.keeps(StripsKept).pools, strips(outlook), strict=True),
@@ -59,7 +59,7 @@ def pooled(outlook: Outlook) -> list[tuple[BladePool | StripPool, Shown]]:
 
 
 def receiving(outlook: Outlook) -> list[Receiving]:
-    """What receives of each pool, blades' first."""
+    """Return the receiving slots of each pool, blades first."""
     found: list[Receiving] = [*outlook.kept["blades"].receiving, *outlook.kept["strips"].receiving]
     return found
 

@@ -1,4 +1,4 @@
-"""Receivers as components: one for each patch and representation that feels wind, for a game to read and write."""
+"""Receivers as components: one for each patch and representation, for a game to read and write."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -47,14 +47,14 @@ def looking(site: Site, look: Looking) -> Looking:
 
 @dataclass
 class Game:
-    """Draws frames in the same place, in a wind that is `wind` everywhere, and keeps what a picture would show."""
+    """Runs frames at one place, with the message `wind` everywhere, and keeps the messages that are drawn."""
 
     look: Looking
     wind: list[float] = field(default_factory=lambda: [0.25, 0.0])
     picture: Picture = field(default_factory=dict)
 
     def frame(self, *, after_wind: System | None = None, yaw: float | None = None) -> Outlook:
-        """Draw a frame; a game's own system may run after the wind. Return what the viewer sees."""
+        """Run a frame, perhaps with a game's own system after the wind; return the viewer's outlook."""
         outlook = self.look(1.0, 1.0, yaw=yaw, hear=lambda heard, **_: np.full_like(heard.place, self.wind))
         if after_wind is not None:
             after_wind()
@@ -63,7 +63,7 @@ class Game:
         return outlook
 
     def write(self, outlook: Outlook, *_: object) -> int:
-        """Take the picture, as a painter does: here, the messages of all pools by their slots."""
+        """Keep the messages of all pools by slot, as a painter reads them."""
         self.picture = {
             name: [pictured(receiving) for receiving in kept.receiving] for name, kept in outlook.kept.items()
         }
@@ -71,7 +71,7 @@ class Game:
 
 
 def pictured(receiving: Receiving) -> Floats:
-    """What a pool's receivers are drawn with, (slots, receivers of each, 2): what a game wrote lies over the wind's."""
+    """Return the messages drawn for a pool, (slots, receivers, 2): a game's replace the wind's."""
     shows = np.zeros((receiving.pool.slots, int(np.prod(receiving.pool.shape)), 2), np.float32)
     shows[receiving.slots] = receiving.messages.heard(receiving.slots).reshape(len(receiving.slots), -1, 2)
     for slot, message in receiving.messages.written():
@@ -85,19 +85,19 @@ def game(looking: Looking) -> Game:
 
 
 def of(world: World, name: str) -> list[tuple[int, Receivers]]:
-    """The receivers of one representation, each with its entity."""
+    """Return the receivers of one representation, each with its entity."""
     return [(entity, receivers) for entity, receivers in world.all(Receivers) if receivers.representation == name]
 
 
 def shown_of(game: Game, outlook: Outlook, name: str) -> Floats:
-    """What the picture shows of a representation's patches, (patches, receivers of each, 2), of the first pool."""
+    """Return the drawn messages of a representation's first pool, (patches, receivers, 2)."""
     receiving = outlook.kept[name].receiving[0]
     shows: Floats = game.picture[name][0][receiving.slots]
     return shows
 
 
 def times(game: Game, name: str, message: list[float]) -> int:
-    """How many receivers of a representation have exactly this message in the picture."""
+    """Return the number of a representation's receivers that are drawn with exactly this message."""
     return sum(int((messages == message).all(axis=-1).sum()) for messages in game.picture[name])
 
 
@@ -310,7 +310,7 @@ def test_slots_that_nobody_asks_for_cost_nothing(world: World, game: Game) -> No
 def test_d2_who_only_reads_messages_changes_no_picture(
     world: World, laid: Callable[..., Site], look: Looking, wind: Callable[..., Hear]
 ) -> None:
-    """To the last bit, and in a storm too, where messages are as long as they can be."""
+    """Bit for bit, also in a storm with messages of the greatest length."""
     hear = wind(Breeze(strength=1.0, gustiness=1.0, swing=0.5), time=2.0)
     site = laid(terrain=FLAT)
     taken: list[Picture] = []
@@ -350,7 +350,7 @@ def test_d2_the_wind_may_be_stepped_again_without_a_picture_and_what_was_read_fo
 
 
 def test_what_was_written_for_a_patch_goes_with_it(world: World, looking: Looking) -> None:
-    """Neither the patch that takes its place nor the same one that comes back has it."""
+    """Neither the next patch in its slot nor the same patch when it comes back has the message."""
 
     def calm(heard: ReceiverArrays, /, **_: float) -> Floats:
         return np.zeros_like(heard.place)

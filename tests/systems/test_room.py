@@ -1,4 +1,4 @@
-"""Room for what a long lens brings near: representations reach as far as things are seen as large (F1, G3)."""
+"""Room of pools for a long lens: representations reach to the same size in the picture (F1, G3)."""
 
 from collections.abc import Callable
 
@@ -43,14 +43,14 @@ def test_a_lens_brings_nothing_near_that_another_representation_stands_for(lens:
 
 
 def far_look(look: Look, site: Site, zoom: float, dt: float = 1e9) -> Outlook:
-    """Look through a lens of this zoom until it has brought near what it brings, or for `dt` seconds."""
+    """Look through a lens of a zoom until all transitions are over, or for `dt` seconds."""
     look(site, 0.6, 0.6, dt=0.0).lens.zoom = zoom
     look(site, 0.6, 0.6, dt=0.0)
     return look(site, 0.6, 0.6, dt=dt)
 
 
 def farthest_of(outlook: Outlook, level: int) -> int:
-    """Return the largest discrete distance of patches of a representation that is not on its way, -1 without any."""
+    """Return the largest discrete distance of patches in a representation, without those in transition; -1 for none."""
     patches = outlook.patches
     has = patches.shown & (patches.representation == level) & (patches.progress >= 1.0)
     return int(patches.distance.max(where=has, initial=-1))

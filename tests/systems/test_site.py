@@ -1,4 +1,4 @@
-"""What a site holds before anybody looks at it (R1, G1)."""
+"""A site's contents before anything is drawn (R1, G1)."""
 
 from collections.abc import Callable
 
@@ -26,7 +26,7 @@ Laid = Callable[..., Site]
 
 
 def limits(quality: Quality) -> tuple[int, ...]:
-    """How far each representation reaches by the quality's own rings."""
+    """Return the reach of each representation, from the quality's rings."""
     return tuple(each.reach(quality) for each in REPRESENTATIONS)
 
 

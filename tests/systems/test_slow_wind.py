@@ -1,4 +1,4 @@
-"""A game does without a plugin's slow wind for a while, by the prairie's own clock; a film never does."""
+"""A plugin's slow wind is left out of a game for a while, by the prairie's own clock; never of a film."""
 
 from collections.abc import Callable, Iterator
 from itertools import count
@@ -37,7 +37,7 @@ class Draught(WindPrimitive):
 
 @pytest.fixture
 def load(world: World, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Load]:
-    """Load a prairie in the draught, where every call takes a fifth of a second by the processor's clock."""
+    """Return the function that loads a prairie with a wind whose every call takes 0.2 s of processor time."""
     assert world.name == esper.current_world
     readings = count()
     monkeypatch.setattr(quarantine, "thread_time", lambda: 0.2 * next(readings))
@@ -99,7 +99,7 @@ def test_a_slow_wind_that_is_given_other_values_in_every_frame_is_left_out_as_we
 
 
 def test_winds_that_a_game_replaces_in_every_frame_are_not_kept(world: World, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Not by what they took, nor by why they were left out."""
+    """Neither their times nor the reasons for leaving them out."""
     del world
     readings = count()
     monkeypatch.setattr(quarantine, "thread_time", lambda: 0.03 * next(readings))
@@ -130,13 +130,13 @@ def test_a_slow_wind_that_is_taken_away_while_it_is_left_out_is_no_harm(load: Lo
 def test_a_wind_that_waits_is_named_once_and_in_a_game_left_out_at_the_third_time(
     world: World, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture, tmp_path: Path, *, live: bool
 ) -> None:
-    """Processor time does not see that it waits for a disk or a socket, while the game stands still."""
+    """Waiting for a disk or a socket takes no processor time, but makes the game stand still."""
     del world
     waited = [0.0]
     monkeypatch.setattr(quarantine, "perf_counter", lambda: waited[0])
 
     class Socket(Draught):
-        """A wind that asks somebody else how strong it is."""
+        """A wind that waits for an answer about its strength."""
 
         kind: str = "socket"
 

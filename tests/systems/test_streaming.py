@@ -1,4 +1,4 @@
-"""The window of streamed ground goes on beside the frames (N11, D6)."""
+"""The window of streamed ground moves on beside the frames (N11, D6)."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -34,7 +34,7 @@ def terrain() -> Terrain:
 
 @pytest.fixture
 def window(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[Event, Event]]:
-    """What tells that another window has been made, and what lets it come."""
+    """Events: a window has been made, and may be used."""
     is_made, may_come = Event(), Event()
 
     def slowly(*asked: Any) -> Terrain:

@@ -1,4 +1,4 @@
-"""Sub-levels: how fine blades and strips are, and which way strips run (F1, F2, G3)."""
+"""Sub-levels: rings of blades and strips, and orientations of strips (F1, F2, G3)."""
 
 from collections.abc import Callable
 from itertools import pairwise
@@ -220,7 +220,7 @@ def test_g3_pacing_over_a_border_turns_no_strips_twice(i: int, j: int, step: tup
 
 
 def sublevels(outlook: Outlook, level: int) -> NDArray[np.bool_]:
-    """Which of the seen patches are on their way to another sub-level of a representation."""
+    """Return the mask of visible patches that change a representation's sub-level."""
     patches = outlook.patches
     return np.asarray(patches.shown & (patches.sublevel_progress[level] < 1.0))
 
@@ -292,7 +292,7 @@ def test_f1_a_patch_whose_strips_change_shows_every_blade_once(laid: Laid, look:
 
 
 def painted(outlook: Outlook, row: int) -> set[tuple[int, int, float, float]]:
-    """On which rings' strips, along which axis, blades of which ranks of a patch are painted."""
+    """Return the strips that show a patch: ring, axis, and the range of ranks of their painted blades."""
     rings = outlook.shows(StripsShown).rings
     return {
         (number, int(ring.along[at]), round(float(ring.least[at]), 3), round(float(ring.most[at]), 3))
@@ -360,7 +360,7 @@ def test_a_ring_of_strips_may_serve_no_distance_but_only_what_is_seen_from_above
 def test_x3_a_patch_ends_the_change_of_its_sublevel_before_it_goes_to_blades(
     laid: Laid, look: Look, begun: float
 ) -> None:
-    """It goes to the end that is nearer, and jumps to neither."""
+    """The change goes on to its nearer end, and jumps to neither."""
     site = laid(terrain=FLAT)
     look(site, 1.25, 1.2)
     look(site, 1.25, 1.25, dt=0.0)

@@ -1,4 +1,4 @@
-"""Tiling: patches come and go around the viewer, and so do their entities (T3, D2)."""
+"""Tiling: patches and their entities come and go around the viewer (T3, D2)."""
 
 from typing import Any
 
@@ -43,12 +43,12 @@ class Tiled:
         return self.outlook.patches
 
     def at(self, i: int, j: int) -> None:
-        """Let the viewer stand in this cell for one frame."""
+        """Put the viewer into a cell for one frame."""
         self.outlook.viewer.eye = ((i + 0.5) * PATCH, 1.7, (j + 0.5) * PATCH)
         self.system.run()
 
     def row(self, i: int, j: int) -> int:
-        """The row of this cell."""
+        """Return the row of a cell."""
         row = int(window_rows(np.array([[i, j]], np.int32), side=self.patches.side)[0])
         assert self.patches.cell[row].tolist() == [i, j]
         return row
@@ -63,13 +63,13 @@ class Tiled:
         return self.world.get(self.entity(i, j), Lod)
 
     def grows(self, i: int, j: int) -> bool:
-        """Whether there is grass in this cell."""
+        """Return whether there is grass in a cell."""
         return bool(self.patches.stands[self.row(i, j)])
 
 
 @pytest.fixture
 def tiled(world: World) -> Tiled:
-    """A viewer in the cell (0, 0) of wide ground, all of whose patches are entities."""
+    """Viewer in the cell (0, 0) of wide ground, with entities for all patches."""
     made = Tiled(world)
     made.at(0, 0)
     return made

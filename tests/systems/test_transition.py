@@ -1,4 +1,4 @@
-"""How a patch shows on its way from one representation to another (X3, X4, X5)."""
+"""Appearance of patches in transition (X3, X4, X5)."""
 
 from collections.abc import Callable
 from dataclasses import fields, replace
@@ -36,7 +36,7 @@ switches = st.builds(Transitions, *[st.booleans()] * 4)
 def shown(
     blades: float, strips: float, carpet: float, *, kept: float = 1.0, transitions: Transitions = SEAMLESS
 ) -> dict[str, float]:
-    """How one patch shows."""
+    """Appearance of one patch."""
     weight = np.array([[blades], [strips], [carpet]], np.float32)
     found = appearance(weight, np.array([kept], np.float32), transitions=transitions)
     values = {field.name: float(getattr(found, field.name)[0]) for field in fields(Appearance) if field.name != "cover"}
@@ -172,7 +172,7 @@ STEP = 0.11
 
 
 def row_at(outlook: Outlook, away: int) -> int:
-    """The row of the patch so many patches to the right of the viewer's."""
+    """Return the row of the patch that lies a number of patches to the right of the viewer's."""
     cell = outlook.viewer.centre + np.array([away, 0], np.int32)
     return int(window_rows(cell[None], side=outlook.patches.side)[0])
 
@@ -182,19 +182,19 @@ def lod_of(world: World, outlook: Outlook, row: int) -> Lod:
 
 
 def all_round(look: Look, site: Site) -> Outlook:
-    """Look all round for as many frames as it takes until every patch is an entity."""
+    """Look all round until every patch is an entity."""
     look(site, *HERE)
     return look(site, *HERE)
 
 
 def alone(site: Site, world: World) -> Outlook:
-    """The outlook of a viewer who stands still."""
+    """Outlook of a viewer that stands still."""
     viewer = Viewer(eye=(HERE[0], 1.7, HERE[1]), dt=STEP, jumped=False)
     return outlook_on(site, viewer, world.create(viewer))
 
 
 def showing(outlook: Outlook, row: int) -> set[str]:
-    """Which representations draw the patch in a row; the carpet only where it covers anything."""
+    """Return the representations that draw the patch of a row; the carpet only with a cover above 0."""
     assert outlook.appearance is not None
     strips = np.concatenate([ring.rows for ring in outlook.shows(StripsShown).rings])
     blades, carpet = outlook.shows(BladesShown).standing.rows, outlook.appearance.cover[2, row] > 0.0

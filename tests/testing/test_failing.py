@@ -1,4 +1,4 @@
-"""A wind that fails in an odd way is told of in a sentence, as the engine tells it; the check never fails itself."""
+"""Winds that fail in odd ways: the check reports each in a sentence, as the engine does, and never fails itself."""
 
 from typing import Any
 
@@ -17,7 +17,7 @@ class UnspeakableError(Exception):
 
 
 class Even(WindPrimitive):
-    """The same wind everywhere."""
+    """A wind with one message everywhere."""
 
     kind: str = "even"
     """Its name."""
@@ -30,28 +30,28 @@ class Even(WindPrimitive):
 
 
 class Unspeakable(Even):
-    """Its error cannot be told."""
+    """The text of its error cannot be read."""
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
         raise UnspeakableError
 
 
 class Exhausted(Even):
-    """Its error says nothing."""
+    """Its error has no text."""
 
     def mask(self, place: Floats, /, *, time: float) -> Floats:
         raise MemoryError
 
 
 class Masked(Even):
-    """Its mask is numpy's kind of mask."""
+    """Its mask is a masked array of numpy."""
 
     def mask(self, place: Floats, /, *, time: float) -> Floats:
         return np.ma.masked_array(np.ones(len(place), np.float32), mask=True)
 
 
 class Unmade(Even):
-    """It cannot be made, and cannot tell why."""
+    """Its constructor raises an error whose text cannot be read."""
 
     def model_post_init(self, context: Any, /) -> None:
         raise UnspeakableError

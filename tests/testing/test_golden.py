@@ -1,4 +1,4 @@
-"""Comparing pictures with recorded ones: a thing that is missing is found, a blade that is a pixel aside is not."""
+"""Comparing pictures with recorded ones: it finds a missing thing, and tolerates a blade that is a pixel aside."""
 
 from pathlib import Path
 
@@ -14,7 +14,7 @@ Levels = NDArray[np.float64]
 
 @pytest.fixture
 def grass() -> Levels:
-    """Something as uneven as grass, 100 by 60 pixels."""
+    """Return a picture of noise like grass, 100 by 60 pixels."""
     return np.random.default_rng(1).integers(60, 200, (60, 100, 3)).astype(np.float64)
 
 

@@ -1,4 +1,4 @@
-"""The kit for testing one's own systems: worlds, clocks, contexts, little prairies, steps, receivers (issue 5)."""
+"""The kit for tests of a game's own systems: worlds, clocks, contexts, little prairies, steps, receivers (D6)."""
 
 import subprocess
 import sys

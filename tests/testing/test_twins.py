@@ -1,4 +1,4 @@
-"""Whether a wind's twin says what its numpy says, as authors of winds and `plugins check` are told."""
+"""`twin_problems`: differences between a wind's twin and its numpy."""
 
 from collections.abc import Callable
 
@@ -33,7 +33,7 @@ class Level(WindPrimitive):
 
 @pytest.fixture
 def write(monkeypatch: pytest.MonkeyPatch) -> Write:
-    """Give `Level` a twin that is on no disk, whose message is some GLSL."""
+    """Return the function that gives `Level` a twin in memory, whose message is some GLSL."""
 
     def written(message: str) -> None:
         body = f"vec2 action(vec2 place, Wind wind) {{ return {message}; }}"

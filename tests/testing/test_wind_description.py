@@ -1,4 +1,4 @@
-"""The check that a plugin's own tests call: what a wind says of itself, its place and parts and fields."""
+"""`check_wind`: a wind's description of itself, its pose, parts and fields."""
 
 import random
 from typing import Annotated, Any
@@ -16,7 +16,7 @@ from tallgrass.testing import check_wind, wind_problems
 
 
 class Even(WindPrimitive):
-    """A wind that is right: it blows along +x everywhere."""
+    """A correct wind, which blows along +x everywhere."""
 
     kind: str = "even"
     """An even wind."""
@@ -33,49 +33,49 @@ def test_a_wind_that_blows_everywhere_has_no_problems() -> None:
 
 
 class Lost(Even):
-    """It has no place."""
+    """Its `pose` returns None."""
 
     def pose(self, *, time: float) -> Any:
         return None
 
 
 class Endless(Even):
-    """Its place is no number."""
+    """Its pose is infinite."""
 
     def pose(self, *, time: float) -> Any:
         return Pose(x=float("inf"))
 
 
 class Topped(Even):
-    """It says in words what hovers over it."""
+    """Its `hover` returns a text."""
 
     def hover(self) -> Any:
         return "saucer"
 
 
 class Winged(Even):
-    """What hovers over it looks like nothing that can be drawn."""
+    """Its body has an unknown model."""
 
     def hover(self) -> Any:
         return Hover("dragon")  # type: ignore[arg-type]
 
 
 class Buried(Even):
-    """What hovers over it is under the ground."""
+    """Its body is below the ground."""
 
     def hover(self) -> Any:
         return Hover(height=-1.0)
 
 
 class Wavering(Even):
-    """What hovers over it flies at another height each time."""
+    """Its body has another height at each call."""
 
     def hover(self) -> Any:
         return Hover(height=random.uniform(1.0, 9.0))  # noqa: S311 - that is what is wrong with it
 
 
 class Sudden(Even):
-    """What hovers over it is nowhere before the beginning."""
+    """Its pose is NaN before time 0."""
 
     def hover(self) -> Any:
         return Hover()
@@ -85,28 +85,28 @@ class Sudden(Even):
 
 
 class Countless(Even):
-    """It has no list of rates."""
+    """Its `rates` returns no list."""
 
     def rates(self) -> Any:
         return None
 
 
 class Rateless(Even):
-    """Its rate is no number."""
+    """Its rate is NaN."""
 
     def rates(self) -> Any:
         return (float("nan"),)
 
 
 class Evermore(Even):
-    """When it is over is a word."""
+    """Its `ends` returns a text."""
 
     def ends(self) -> Any:
         return "never"
 
 
 class Undated(Even):
-    """When it is over is no number."""
+    """Its `ends` returns NaN."""
 
     def ends(self) -> Any:
         return float("nan")
@@ -126,21 +126,21 @@ class Boxed(Even):
 
 
 class Inverted(Even):
-    """Its extent is turned inside out."""
+    """Its extent has its left on the right."""
 
     def extent(self, *, time: float) -> Any:
         return Extent(2.0, -2.0, -2.0, 2.0)
 
 
 class Single(Even):
-    """It returns itself for its parts."""
+    """Its `parts` returns itself instead of a list."""
 
     def parts(self, *, time: float, seed: int) -> Any:
         return self
 
 
 class Numbered(Even):
-    """It returns numbers for its parts."""
+    """Its `parts` returns numbers."""
 
     def parts(self, *, time: float, seed: int) -> Any:
         return [1, 2]
@@ -160,7 +160,7 @@ class Later(Even):
 
 
 class Odd(Even):
-    """Its kind cannot be one."""
+    """Its `kind` is no valid name."""
 
     kind: str = "Odd Kind"
     """An odd kind."""
@@ -236,7 +236,7 @@ def test_d5_fields_that_are_declared_badly_are_named() -> None:
 
 def test_a_class_that_needs_values_is_checked_with_those_of_an_instance() -> None:
     class Needy(Even):
-        """A wind that somebody has to give a strength."""
+        """A wind with a required field."""
 
         strength: float = Field(ge=0.0, le=1.0)
         """How strong it is."""

@@ -1,4 +1,4 @@
-"""The check that a plugin's own tests call: what is right passes, and what a wind answers wrongly is one sentence."""
+"""`check_wind`: correct winds pass, and each wrong answer of a wind gives one sentence."""
 
 import random
 from time import sleep, thread_time
@@ -18,7 +18,7 @@ HALF = 2.0
 
 
 class Square(WindPrimitive):
-    """A wind that is right: it blows along +x in a square of 4 m."""
+    """A correct wind, which blows along +x in a square of 4 m."""
 
     kind: str = "square"
     """A square of wind."""
@@ -84,7 +84,7 @@ class Overweight(Square):
 
 
 class Overstrong(Square):
-    """It bends grass beyond the ground."""
+    """Its messages are longer than 1."""
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
         return np.full_like(place, 0.9)
@@ -98,7 +98,7 @@ class Undefined(Square):
 
 
 class Hidden(Square):
-    """It returns a number that is none."""
+    """It returns NaN."""
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
         return np.where(place == 0.0, np.nan, 0.5)
@@ -126,28 +126,28 @@ class Worded(Square):
 
 
 class Tossed(Square):
-    """It throws dice."""
+    """Its answers are random."""
 
     def mask(self, place: Floats, /, *, time: float) -> Any:
         return super().mask(place, time=time) * random.random()  # noqa: S311 - that is what is wrong with it
 
 
 class Averaged(Square):
-    """It looks at all receivers at once."""
+    """Its answer for a receiver depends on the other receivers."""
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
         return 0.1 * (place - place.mean(axis=0)) if len(place) else place
 
 
 class Ordered(Square):
-    """It goes by the place in the array."""
+    """Its answer depends on the position in the array."""
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
         return np.linspace(0.0, 0.5, place.size).reshape(place.shape)
 
 
 class Remembering(Square):
-    """It goes by the latest time it has been asked for."""
+    """Its answer depends on the latest time asked for."""
 
     def mask(self, place: Floats, /, *, time: float) -> Any:
         CALLS.append(time)
@@ -155,7 +155,7 @@ class Remembering(Square):
 
 
 class Writing(Square):
-    """It moves the places it is given."""
+    """It writes to the given places."""
 
     def mask(self, place: Floats, /, *, time: float) -> Any:
         weight = super().mask(place, time=time)
@@ -164,7 +164,7 @@ class Writing(Square):
 
 
 class Crowded(Square):
-    """It needs someone there."""
+    """It fails for no receivers."""
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
         return np.full_like(place, 0.3 + 0.0 * place[0, 0])
@@ -178,7 +178,7 @@ class Brief(Square):
 
 
 class Slow(Square):
-    """It takes its time for many receivers."""
+    """It is slow for many receivers."""
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
         _keep_busy(0.025 if len(place) > 5000 else 0.0)
@@ -186,7 +186,7 @@ class Slow(Square):
 
 
 class Slower(Square):
-    """It takes its time for any receivers."""
+    """It is slow for any number of receivers."""
 
     def mask(self, place: Floats, /, *, time: float) -> Any:
         CALLS.append(time)
@@ -195,7 +195,7 @@ class Slower(Square):
 
 
 class Imported(Square):
-    """It takes its time at first."""
+    """It is slow at first."""
 
     def mask(self, place: Floats, /, *, time: float) -> Any:
         CALLS.append(time)
@@ -212,7 +212,7 @@ class Waiting(Square):
 
 
 class Narrow(Square):
-    """It does not bear every seed."""
+    """It fails for some seeds."""
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Any:
         np.array([seed], np.uint32).astype(np.int32)

@@ -1,4 +1,4 @@
-"""Where winds can be taken hold of."""
+"""Anchors of winds: their places, paths and headings."""
 
 from math import hypot, radians
 
@@ -17,7 +17,7 @@ from tallgrass.systems.wind.whirlwind import Whirlwind
 
 
 class Draught(WindPrimitive):
-    """A stranger's wind that says where it is in the same words."""
+    """A plugin's wind with the keys `position` and `direction`."""
 
     kind: str = "draught"
     """A draught."""

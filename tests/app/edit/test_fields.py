@@ -1,4 +1,4 @@
-"""What the panel knows of every key is what the models say."""
+"""Keys of the panel, derived from the models of scenes."""
 
 from typing import Any, Literal
 
@@ -16,7 +16,7 @@ from tallgrass.systems.wind.breeze import Breeze
 
 
 class Rocks(Declaration):
-    """What a stranger could declare."""
+    """A model with all forms of keys, as a plugin may declare them."""
 
     kind: Literal["rocks"] = "rocks"
     """Rocks."""

@@ -1,4 +1,4 @@
-"""Every state that a scene was in while it was edited."""
+"""The history of drafts: undo and redo."""
 
 from tallgrass.app.edit.history import MOST_STEPS, Draft, History
 

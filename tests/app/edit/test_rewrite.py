@@ -46,7 +46,7 @@ def read(text: str) -> Any:
 
 
 def changed(way: Way, value: Any, text: str = SCENE) -> tuple[str, list[str], list[str]]:
-    """The text with another value at a way, and the lines that are gone from it and new in it."""
+    """Return a text with another value at a way, and its removed and its added lines."""
     values = with_value(read(text), way, value)
     after = rewritten(text, values)
     assert read(after) == values

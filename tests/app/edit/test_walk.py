@@ -1,4 +1,4 @@
-"""The panel as the command opens it."""
+"""The panel, opened by `tallgrass walk --edit`."""
 
 import subprocess
 from collections.abc import Callable

@@ -1,6 +1,6 @@
-"""The panel over a walk, driven by mouse and keys as a person does it.
+"""The panel over a walk, driven by mouse and key events.
 
-What opens windows is imported inside the tests: there has to be a display first.
+Modules that open windows are imported inside the tests, after the display is set.
 """
 
 # ruff: noqa: PLC0415
@@ -119,7 +119,7 @@ def drag(walk: "EditWalk", *places: tuple[float, float], modifiers: int = 0) -> 
 
 
 def field(walk: "EditWalk", way: Way, part: float = 0.5) -> tuple[float, float]:
-    """Where the field of a key is, so far along [pixels from the window's lower left]."""
+    """Return a place in the field of a key, at a fraction of its width [pixels from the window's lower left]."""
     left, top, right, bottom = walk.panel.tree.boxes[way]
     return left + part * (right - left), SIZE[1] - (top + bottom) / 2
 
@@ -136,14 +136,14 @@ def button(walk: "EditWalk", name: str) -> tuple[float, float]:
 
 
 def on_ground(walk: "EditWalk", x: float, z: float) -> tuple[float, float]:
-    """Where a place on the ground is seen [pixels from the lower left]."""
+    """Return the pixel of a place on the ground, from the lower left."""
     sight = Sight(SIZE, *walk.matrices(SIZE), walk.prairie.site.ground.terrain)
     ((right, up),) = sight.pixels_on_ground([(x, z)]).tolist()
     return right, up
 
 
 def seen(walk: "EditWalk") -> NDArray[np.float64]:
-    """Draw the prairie without panel and notes, and return what is in the window beside the panel."""
+    """Draw the prairie without panel and notes, and return the window's picture beside the panel."""
     from pyglet.image import get_buffer_manager
 
     walk.window.switch_to()
@@ -330,7 +330,7 @@ def test_n13_every_key_of_a_scene_has_its_field(walk: "EditWalk", tmp_path: Path
 
 
 def parts_of(value: Any, way: Way = ()) -> Iterator[tuple[Way, Any]]:
-    """The ways to all parts of a scene that can be open, and the parts: those with keys, and lists of them."""
+    """Yield each part of a scene that can be opened in the panel, models and lists of models, with its way."""
     if isinstance(value, BaseModel):
         inner: list[tuple[str | int, Any]] = [(key.name, getattr(value, key.name)) for key in keys_of(type(value))]
     elif isinstance(value, dict):
@@ -345,7 +345,7 @@ def parts_of(value: Any, way: Way = ()) -> Iterator[tuple[Way, Any]]:
 
 
 class Draught(PlacedWind):
-    """A stranger's wind."""
+    """A plugin's wind."""
 
     kind: str = "draught"
     """A draught."""

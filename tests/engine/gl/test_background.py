@@ -1,4 +1,4 @@
-"""Programs that a driver makes in its own threads are thrown away, and leave nothing behind."""
+"""Programs compiled in the driver's own threads: they are thrown away, and leave nothing behind."""
 
 from time import monotonic, sleep
 

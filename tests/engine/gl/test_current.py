@@ -1,4 +1,4 @@
-"""Which context is drawn in, and what it can do: asked once for each, refused in a sentence."""
+"""The current context and its limits: queried once each, refused in one sentence."""
 
 import ctypes
 import importlib.util

@@ -38,7 +38,7 @@ Fill = Callable[..., None]
 
 @pytest.fixture
 def host(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
-    """What the host has bound: a framebuffer of its own with colour and depth, black and far."""
+    """Bound framebuffer of the host, with colour and depth, black and cleared to far."""
     color, depth = ctx.texture(SIZE, 4), ctx.depth_renderbuffer(SIZE)
     target = ctx.framebuffer([color], depth)
     target.use()
@@ -53,7 +53,7 @@ def host(ctx: moderngl.Context) -> Iterator[moderngl.Framebuffer]:
 
 @pytest.fixture
 def fill(ctx: moderngl.Context) -> Iterator[Fill]:
-    """Plain drawing, as a host does it: one colour over all that viewport, scissor, masks and tests let through."""
+    """A host's drawing: one colour over all that viewport, scissor, masks and tests let through."""
     program = ctx.program(vertex_shader=VERTEX, fragment_shader=FRAGMENT)
     array = ctx.vertex_array(program, [])
 
@@ -72,7 +72,7 @@ def picture(target: moderngl.Framebuffer) -> NDArray[np.uint8]:
 
 
 def misbehave(ctx: moderngl.Context, target: moderngl.Framebuffer, fill: Fill) -> None:
-    """Leave everything in disorder, as a draw that does not tidy up would."""
+    """Change all GL state, as drawing that restores nothing would."""
     ctx.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND | moderngl.CULL_FACE)
     ctx.cull_face = "front_and_back"
     target.depth_mask = False
@@ -196,7 +196,7 @@ def test_d6_what_the_host_has_enabled_stays_enabled(
 
 @pytest.mark.parametrize("sets", ["glEnable", "glDisable"])
 def test_d6_a_guest_draws_its_first_frame_under_the_switches_of_all_others(ctx: moderngl.Context, sets: str) -> None:
-    """Else a software rasteriser compiles all programs again for the second one."""
+    """Otherwise a software rasteriser compiles all programs again for the second frame."""
     gl, switch = functions_of(ctx), NUMBERS["TEXTURE_CUBE_MAP_SEAMLESS"]
     getattr(gl, sets)(switch)
     current._made.cache_clear()  # noqa: SLF001

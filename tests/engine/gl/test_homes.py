@@ -9,7 +9,7 @@ from tallgrass.engine.gl import homes
 
 
 class Away:
-    """A thing in a context that is not current: how often it was asked to go."""
+    """A thing in a context that is not current; it counts the attempts to release it."""
 
     def __init__(self, handle: int) -> None:
         self.handle, self.asked = handle, 0

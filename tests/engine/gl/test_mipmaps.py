@@ -1,4 +1,4 @@
-"""Mip-maps made here."""
+"""Mip levels computed on the CPU."""
 
 import moderngl
 import numpy as np
@@ -75,7 +75,7 @@ def test_every_level_of_an_image_is_what_was_given(ctx: moderngl.Context) -> Non
 def shown(
     texture: moderngl.Texture | moderngl.TextureArray, show: str, shape: tuple[int, ...], **values: float
 ) -> NDArray[np.uint8]:
-    """What a shader sees of a level of a texture, shape (rows, columns, 4)."""
+    """Return a level of a texture as a shader reads it, shape (rows, columns, 4)."""
     ctx, (rows, columns) = texture.ctx, shape
     program = ctx.program(vertex_shader=COVER, fragment_shader=show)
     target = ctx.framebuffer([ctx.texture((columns, rows), 4)])

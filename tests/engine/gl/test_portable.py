@@ -1,4 +1,4 @@
-"""What GLSL leaves open, and drivers do differently, no shader asks for."""
+"""No shader depends on behaviour that GLSL leaves undefined, and drivers choose differently."""
 
 import random
 import re
@@ -34,7 +34,7 @@ def lines_of(name: str) -> list[tuple[str, str]]:
 
 
 def arguments(text: str) -> list[str]:
-    """What a call's arguments are, of the text after its bracket."""
+    """Return a call's arguments from the text after its opening bracket."""
     depth, found = 0, [""]
     for letter in text:
         depth += (letter in "([") - (letter in ")]")
@@ -59,7 +59,7 @@ def constants(name: str) -> dict[str, list[float]]:
 
 
 def worth(text: str, known: dict[str, list[float]], some: random.Random) -> float:
-    """What an expression comes to, where all that is not known is some positive number."""
+    """Return the value of an expression in which every unknown is some positive number."""
     drawn: dict[str, float] = {}
 
     def number(match: re.Match[str]) -> str:
@@ -108,7 +108,7 @@ def functions(name: str) -> Iterator[tuple[str, list[tuple[str, str]]]]:
 
 
 def parted(body: list[tuple[str, str]], enders: set[str], asks: re.Pattern[str]) -> list[str]:
-    """Where a function asks what some pixels of four do not come to."""
+    """Return the places where a function takes derivatives that some pixels of a quad may not reach."""
     found, inside, is_narrow, are_gone = list[str](), list[bool](), False, False
     for place, text in body:
         if text.lstrip().startswith("}"):

@@ -1,4 +1,4 @@
-"""What was made for a viewer is made once, whoever looks in between."""
+"""Things made for a viewer are made once, whichever viewers look in between."""
 
 import numpy as np
 import pytest
@@ -8,12 +8,12 @@ from tallgrass.engine.gl.remembered import MOST_VIEWERS, Remembered
 
 @pytest.fixture
 def made() -> list[str]:
-    """What has been made so far."""
+    """List of all that has been made."""
     return []
 
 
 def of(remembered: Remembered[str], made: list[str], viewer: str, *made_of: object) -> str:
-    """Ask for what is made for a viewer of some things."""
+    """Return what is made for a viewer from some inputs, making it where it is not remembered."""
 
     def make() -> str:
         made.append(viewer)

@@ -1,4 +1,4 @@
-"""Programs composed from shader files, and messages that lead back to them."""
+"""Programs composed from shader files, and compile errors that name file and line."""
 
 import re
 import sys
@@ -38,7 +38,7 @@ PLAIN = {
 
 @pytest.fixture
 def library(monkeypatch: pytest.MonkeyPatch) -> Iterator[dict[str, list[str]]]:
-    """Shader files that are not on any disk."""
+    """Shader files that exist in memory only."""
     sources = {name: list(lines) for name, lines in PLAIN.items()}
     monkeypatch.setattr(shaders, "_read", lambda name: tuple(sources[name]))
     shaders._parts.cache_clear()  # noqa: SLF001
@@ -204,9 +204,9 @@ SHADERS = [
 
 
 def unnamed(line: str) -> list[str]:
-    """Which numbers of a line have no name and would need one.
+    """Return the numbers in a line that lack a name and need one.
 
-    0, 1, 2 and a half need none, nor up to 4 what counts components of vectors.
+    0, 1, 2 and 0.5 need none, nor do numbers of vector components up to 4.
     """
     code = line.partition("//")[0]
     if re.match(r"\s*(const\b|#|layout)", code):
@@ -247,7 +247,7 @@ def test_no_table_is_asked_for_a_kind_that_may_be_a_face() -> None:
 
 
 def functions_in(text: str) -> dict[str, int]:
-    """How many lines the longest function of each name takes."""
+    """Return the number of lines of the longest function of each name."""
     found = re.finditer(r"^\w+ (\w+)\([^;{]*\{$.*?^\}$", text, re.MULTILINE | re.DOTALL)
     lengths: dict[str, int] = {}
     for one in found:

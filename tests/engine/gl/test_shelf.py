@@ -1,4 +1,4 @@
-"""What was sent for a viewer stays on its shelf while others look."""
+"""Uploads for a viewer stay on its shelf while other viewers look."""
 
 import pytest
 
@@ -10,7 +10,7 @@ class Viewer:
 
 
 class Shelf:
-    """A shelf that says so when it is given back."""
+    """A shelf that records its release."""
 
     def __init__(self, left: list["Shelf"]) -> None:
         self._left = left

@@ -1,4 +1,4 @@
-"""How long drawing takes, by the clock and by the graphics card (N11)."""
+"""Time of drawing, by the clock and by the graphics card (N11)."""
 
 from types import SimpleNamespace
 

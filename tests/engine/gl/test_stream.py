@@ -33,7 +33,7 @@ def rows(count: int, seed: int = 0) -> NDArray[np.void]:
 
 
 def told(ctx: moderngl.Context, stream: Stream) -> NDArray[np.float32]:
-    """What a program reads of the stream, one number per record."""
+    """Return the numbers that a program reads from the stream, one per record."""
     program = ctx.program(vertex_shader=SOURCE, varyings=("told",))
     array = ctx.vertex_array(program, [stream.binding(program)])
     result = ctx.buffer(reserve=max(4 * stream.count, 4))

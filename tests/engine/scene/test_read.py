@@ -192,7 +192,7 @@ def test_ten_thousand_lines_of_problems_are_told_in_less_than_a_second() -> None
 
 
 def outcome(text: str) -> None:
-    """Read a text; nothing but a scene or its problems may come of it."""
+    """Read a text; the result must be a scene or a SceneError."""
     try:
         scene = parse_scene(text)
     except SceneError as error:

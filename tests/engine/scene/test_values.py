@@ -1,4 +1,4 @@
-"""Scenes from a program's values: the same models and sentences as those of files, and no file at all (D4)."""
+"""Scenes from a program's values: the same models and messages as from files, without any file (D4)."""
 
 import json
 from collections.abc import Mapping

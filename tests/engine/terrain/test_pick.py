@@ -1,4 +1,4 @@
-"""Where rays meet the ground: exactly, on slopes, through hills and beyond the edge."""
+"""Intersections of rays with the ground: exact, on slopes, through hills and beyond the edge."""
 
 from dataclasses import replace
 

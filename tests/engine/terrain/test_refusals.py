@@ -32,7 +32,7 @@ def picture(values: NDArray[Any], mode: str | None = None) -> Writer:
 
 
 def deep_png(path: Path, colour: int) -> None:
-    """Write the start of a PNG of 16 bits that Pillow would read as 8: all that is looked at."""
+    """Write the header of a 16-bit PNG that Pillow would read as 8 bits; no more of it is read."""
     header = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR" + (9).to_bytes(4) * 2 + bytes([16, colour, 0, 0, 0]) + bytes(99)
     path.write_bytes(header)
 

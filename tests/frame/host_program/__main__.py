@@ -1,7 +1,7 @@
 """A pyglet game that has a prairie in it: what `test_pyglet.py` runs, with a display and without one.
 
-It prints one line of JSON: for each check what was found wrong, an empty text where nothing was. What a check draws
-is compared with the same drawing by the same program without its prairie.
+It prints one line of JSON: for each check its faults, an empty text where there are none. The picture of a check
+is compared with one that the same program draws without its prairie.
 """
 
 import json
@@ -15,7 +15,7 @@ from .states import tidy
 
 
 def main() -> None:
-    """Run all checks and print what they say."""
+    """Run all checks and print their faults."""
     found = {"no_window": windows.check_no_window()}
     game = Game()
     for name, run in [*vars(drawing).items(), *vars(windows).items()]:

@@ -27,7 +27,7 @@ from .states import STATES, depth_and_culling, disorder, masks, scissor, tidy
 
 
 def frames(game: Game, prairie: Prairie | None, size: tuple[int, int] = SIZE) -> list[Picture]:
-    """Return what the game's own drawing looks like before, between and after two prairies, in a second frame."""
+    """Return pictures of the game's own drawing before, between and after two prairies, in a second frame."""
     seen: list[Picture] = []
     draws = (game.draw_raw, game.draw_flat, game.draw_solid)
     game.bind()

@@ -41,7 +41,7 @@ void main() { color = texture(texels, gl_FragCoord.xy / 97.0) * (0.5 + window.pr
 
 
 def configured() -> gl.Config:
-    """Return what windows ask for."""
+    """Return the configuration of windows."""
     config: Any = gl.Config  # its stand-in for type checkers is abstract
     return config(**CONFIG)  # type: ignore[no-any-return]
 
@@ -95,7 +95,7 @@ class Game:
         gl.glUseProgram(self.raw.id)
 
     def draw_raw(self) -> None:
-        """Draw with whatever is bound, as a program does that has GL for itself."""
+        """Draw with the bound objects, as a program that has GL to itself."""
         gl.glDrawArrays(gl.GL_TRIANGLES, 0, 3)
 
     def draw_flat(self) -> None:
@@ -127,7 +127,7 @@ def clear() -> None:
 
 
 def read(size: tuple[int, int] = SIZE) -> Picture:
-    """Return what is in the framebuffer that is bound, top row first."""
+    """Return the picture in the bound framebuffer, top row first."""
     width, height = size
     data = (gl.GLubyte * (3 * width * height))()
     gl.glPixelStorei(gl.GL_PACK_ALIGNMENT, 1)
@@ -136,7 +136,7 @@ def read(size: tuple[int, int] = SIZE) -> Picture:
 
 
 def read_depth() -> NDArray[np.float32]:
-    """Return the depth of what is in the framebuffer that is bound, 1 where there is nothing."""
+    """Return the depth in the bound framebuffer, 1 where nothing is drawn."""
     width, height = SIZE
     data = (gl.GLfloat * (width * height))()
     gl.glReadPixels(0, 0, width, height, gl.GL_DEPTH_COMPONENT, gl.GL_FLOAT, data)
@@ -144,7 +144,7 @@ def read_depth() -> NDArray[np.float32]:
 
 
 def different(one: Picture, two: Picture) -> str:
-    """Say how two pictures differ."""
+    """Return the difference of two pictures in words, empty where they are equal."""
     if one.shape != two.shape:
         return f"{one.shape} is not {two.shape}"
     wrong = int((one != two).any(axis=-1).sum())
@@ -152,7 +152,7 @@ def different(one: Picture, two: Picture) -> str:
 
 
 def together(**said: str) -> str:
-    """Say what is wrong, and where."""
+    """Return all faults with their places, in one text."""
     return "; ".join(f"{name.replace('_', ' ')}: {text}" for name, text in said.items() if text)
 
 
@@ -172,7 +172,7 @@ def matrices(prairie: Prairie, size: tuple[int, int] = SIZE) -> tuple[Any, Any]:
 
 
 def picture(prairie: Prairie, size: tuple[int, int] = SIZE) -> Picture:
-    """Return what a prairie draws alone."""
+    """Return the picture of a prairie alone."""
     clear()
     prairie.draw(*matrices(prairie, size))
     return read(size)
@@ -198,7 +198,7 @@ def framebuffer(size: tuple[int, int], *, colors: bool = True) -> Iterator[None]
 
 
 def objects() -> dict[str, int]:
-    """Return how many GL objects of each kind there are."""
+    """Return the number of GL objects of each kind."""
     gc.collect()
     assert gl.current_context is not None
     gl.current_context.set_current()  # pyglet deletes here what was collected elsewhere
@@ -207,6 +207,6 @@ def objects() -> dict[str, int]:
 
 
 def grown(before: dict[str, int]) -> str:
-    """Say what there is more of than before."""
+    """Return in words the changes in the numbers of objects."""
     now = objects()
     return ", ".join(f"{now[kind] - before[kind]} of {kind}" for kind in now if now[kind] != before[kind])

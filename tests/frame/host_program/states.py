@@ -1,4 +1,4 @@
-"""What a game may have set, once and for all."""
+"""GL states that a game may have set."""
 
 from collections.abc import Callable
 
@@ -6,36 +6,36 @@ from pyglet import gl
 
 
 def nothing() -> None:
-    """As GL begins."""
+    """Keep GL's defaults."""
 
 
 def depth_and_culling() -> None:
-    """As pyglet's own 3D examples do."""
+    """Set what pyglet's own 3D examples set."""
     gl.glEnable(gl.GL_DEPTH_TEST)
     gl.glEnable(gl.GL_CULL_FACE)
 
 
 def blending() -> None:
-    """A blend equation that nobody sets again."""
+    """Set another blend equation."""
     gl.glEnable(gl.GL_BLEND)
     gl.glBlendEquation(gl.GL_FUNC_REVERSE_SUBTRACT)
     gl.glBlendFuncSeparate(gl.GL_DST_COLOR, gl.GL_ONE, gl.GL_ONE, gl.GL_ZERO)
 
 
 def scissor() -> None:
-    """A part of the picture."""
+    """Restrict drawing to a part of the picture."""
     gl.glEnable(gl.GL_SCISSOR_TEST)
     gl.glScissor(7, 9, 120, 80)
 
 
 def wireframe() -> None:
-    """Lines for triangles, and the other way round."""
+    """Draw triangles as lines, and reverse the front face."""
     gl.glPolygonMode(gl.GL_FRONT_AND_BACK, gl.GL_LINE)
     gl.glFrontFace(gl.GL_CW)
 
 
 def masks() -> None:
-    """No depth is written, and no blue; a depth function that few use."""
+    """Mask depth and blue, and set a rare depth function."""
     gl.glEnable(gl.GL_DEPTH_TEST)
     gl.glDepthFunc(gl.GL_ALWAYS)
     gl.glDepthMask(gl.GL_FALSE)
@@ -43,7 +43,7 @@ def masks() -> None:
 
 
 def switches() -> None:
-    """What hardly anybody leaves on."""
+    """Enable switches that hardly anybody leaves on."""
     for name in ("COLOR_LOGIC_OP", "POLYGON_OFFSET_FILL", "SAMPLE_ALPHA_TO_COVERAGE", "CLIP_DISTANCE0", "DEPTH_CLAMP"):
         gl.glEnable(getattr(gl, f"GL_{name}"))
     gl.glPolygonOffset(3.0, 50.0)
@@ -52,7 +52,7 @@ def switches() -> None:
 
 
 def disorder() -> None:
-    """All of that at once but what cuts the picture off."""
+    """Set all of these at once, except those that cut off the picture."""
     for leave in (depth_and_culling, blending, wireframe, masks, switches):
         leave()
 
@@ -63,7 +63,7 @@ STATES: tuple[Callable[[], None], ...] = (
 
 
 def tidy() -> None:
-    """Set everything back to what GL begins with."""
+    """Restore GL's defaults."""
     for name in (
         "DEPTH_TEST", "CULL_FACE", "BLEND", "SCISSOR_TEST", "COLOR_LOGIC_OP", "POLYGON_OFFSET_FILL",
         "SAMPLE_ALPHA_TO_COVERAGE", "CLIP_DISTANCE0", "DEPTH_CLAMP",

@@ -1,4 +1,4 @@
-"""Checks with other windows than one of the size it began with, and with none."""
+"""Checks with resized, empty, several and closed windows, and without a window."""
 
 import sys
 from pathlib import Path
@@ -97,7 +97,7 @@ def check_window_made_again(game: Game) -> str:
 
 
 def resident() -> float:
-    """Return the memory that this process holds [MB], 0 where the system does not say."""
+    """Return the resident memory of this process [MB], 0 where it is unknown."""
     told = Path("/proc/self/statm")
     return int(told.read_text().split()[1]) * 4096 / 1e6 if told.exists() else 0.0
 
@@ -117,7 +117,7 @@ def check_rounds(_: Game) -> str:
 
 
 def check_no_window() -> str:
-    """Where only pyglet's hidden window is, one sentence says so."""
+    """With pyglet's hidden window alone, drawing is refused in one sentence."""
     said = ""
     with prairies() as (prairie,):
         try:

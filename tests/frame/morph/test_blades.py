@@ -1,4 +1,4 @@
-"""Blades on their way to their painted places, as the graphics card puts them (X3, X4)."""
+"""Blades that morph to their painted places, as computed by the graphics card (X3, X4)."""
 
 from dataclasses import replace
 from typing import Any
@@ -28,12 +28,12 @@ def on_screen(clip: Doubles) -> Doubles:
 
 
 def middles(data: Doubles) -> Doubles:
-    """Middle lines of ribbons, from root to tip [pixels], shape (n, points, 2)."""
+    """Return middle lines of ribbons, from root to tip [pixels], shape (n, points, 2)."""
     return on_screen(data[:, ::2, :4]) / 2 + on_screen(data[:, 1::2, :4]) / 2
 
 
 def drawn(scene: Any, weight: float) -> Doubles:
-    """Middle lines of the blades on their way, when they have come so far."""
+    """Return middle lines of the morphing blades at a morph value."""
     ribbons = scene.blades.morph
     moving = np.frombuffer(ribbons.stream.buffer.read(), PAINTED)[: ribbons.stream.count].copy()
     moving["painted"][:, 3] = weight
@@ -47,7 +47,7 @@ def drawn(scene: Any, weight: float) -> Doubles:
 
 
 def as_drawn(scene: Any) -> tuple[Doubles, Doubles]:
-    """Middle lines of the blades on their way in the frame itself, and how far the card has moved each, shape (n,)."""
+    """Return middle lines of the morphing blades in the frame itself, and the morph of each, shape (n,)."""
     ribbons = scene.blades.morph
     moving = np.frombuffer(ribbons.stream.buffer.read(), PAINTED)[: ribbons.stream.count]
     scene.blades.store.targets.use(UNITS["targets"])
@@ -56,7 +56,7 @@ def as_drawn(scene: Any) -> tuple[Doubles, Doubles]:
 
 
 def in_their_own_places(scene: Any) -> Doubles:
-    """Middle lines of the same blades as 3D blades, sent one by one."""
+    """Return middle lines of the same blades as 3D blades, sent one by one."""
     painter, segments, count = scene.painter, scene.blades.morph.segments, len(scene.records)
     blades = painter.blade_painter(segments)
     ribbons = Ribbons(painter.ctx, painter.block, [segments], UNITS, soft=True)
@@ -74,7 +74,7 @@ def in_their_own_places(scene: Any) -> Doubles:
 
 
 def painted_places(scene: Any) -> Doubles:
-    """Where the strips as they are drawn show each blade's points, from the root to the tip [pixels]."""
+    """Return the points of each blade on the strips as drawn, from root to tip [pixels]."""
     patches, drawn = scene.outlook.patches, scene.strips_drawn()
     stock, rings = scene.representation.stock, scene.representation.quality.strip_rings
     first, kinds = scene.first_pictures, len(stock.strips[0])
@@ -97,7 +97,7 @@ def painted_places(scene: Any) -> Doubles:
 
 
 def _on_strip(clip: Doubles, across: float, up: float) -> Doubles:
-    """The pixel of a point of a strip's texture, in the triangles of its triangle strips (columns, vertices, 4)."""
+    """Return the pixel of a texture coordinate of a strip, from its triangle strips (columns, vertices, 4)."""
     column = min(int(across), len(clip) - 1)
     section = min(int(up), clip.shape[1] // 2 - 2)
     u, v = across - column, up - section

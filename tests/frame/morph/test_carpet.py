@@ -1,4 +1,4 @@
-"""The carpet rises where strips give way, and what it shows stays where it is (X4)."""
+"""The carpet rises where strips give way, and its pictures stay in place (X4)."""
 
 from collections.abc import Callable
 from functools import partial
@@ -29,7 +29,7 @@ LOW = Camera((0.0, 1.5, 20.0), 0.0, -0.1, np.radians(20.0))
 def test_x4_grass_and_litter_stay_where_they_are_while_the_carpet_rises(
     ctx: moderngl.Context, load: Callable[..., Prairie], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Of two fifths it becomes four fifths: at this angle it rises by three rows of pixels."""
+    """Its cover grows from two to four fifths: at this angle it rises by three rows of pixels."""
     stage, seen = Stage(ctx, (240, 120)), []
     for share in (102, 204):
         lying = partial(np.full, fill_value=share, dtype=np.uint8)

@@ -1,4 +1,4 @@
-"""Strips as the graphics card puts them: their edges bend, they end as their paint does, in order (W1, G3, T5)."""
+"""Strips as computed by the graphics card: bent edges, painted extents, and order (W1, G3, T5)."""
 
 from typing import Any
 
@@ -16,7 +16,7 @@ FILTERED = 0.02
 
 
 def bent(scene: Any, kind: NDArray[np.int64], message: NDArray[np.float32]) -> Doubles:
-    """Where the tip of an edge of length 1 is that is bent by a message, for kinds (n,) and messages (n, 2)."""
+    """Return the tips of bent edges of length 1, for kinds (n,) and messages (n, 2)."""
     postures = [growth.postures for growth in scene.prairie.site.growths]
     table = np.stack([each.shape[0, :, -1] for each in postures]).astype(float)
     bend = np.where(kind[:, None] == 0, *(bending(each, message) for each in postures))
@@ -30,7 +30,7 @@ def bent(scene: Any, kind: NDArray[np.int64], message: NDArray[np.float32]) -> D
 
 
 def laid_back(run: Doubles, foot: Doubles, top: Doubles, height: Doubles, spacing: float, rise: Doubles) -> Doubles:
-    """How far the tops of strips lie back, so that none is seen on edge: `foot` (n, 3) is told from the eye.
+    """Return the backward lean of strips' tops, so that none is seen edge-on; `foot` (n, 3) is relative to the eye.
 
     The ground rises by `rise` (n, 2) along x and z.
     """
@@ -46,7 +46,7 @@ def laid_back(run: Doubles, foot: Doubles, top: Doubles, height: Doubles, spacin
 
 
 def put_nearer(foot: Doubles, run: Doubles, spacing: float, rise: Doubles) -> Doubles:
-    """Where the foot (n, 3) of a strip is put, told from the eye, on ground that rises by `rise` (n, 2)."""
+    """Return the displaced feet of strips with `foot` (n, 3) relative to the eye, on ground of slope `rise` (n, 2)."""
     off = np.column_stack([-run[:, 1], run[:, 0]]) / np.linalg.norm(run, axis=1)[:, None]
     nearer = np.minimum(min(0.33 * spacing, 0.2) / np.linalg.norm(foot, axis=1), 0.0125)
     way = off * (-nearer * (off * foot[:, ::2]).sum(axis=1))[:, None]
@@ -54,7 +54,7 @@ def put_nearer(foot: Doubles, run: Doubles, spacing: float, rise: Doubles) -> Do
 
 
 def rise_of(scene: Any, place: Doubles) -> Doubles:
-    """How the ground rises along x and z at places (n, 2), as the map of light has it, shape (n, 2)."""
+    """Return the ground's slope along x and z at places (n, 2), from the texture `lie`, shape (n, 2)."""
     texture, terrain = scene.painter.part(LightPart).lie._map.lie, scene.prairie.site.ground.terrain  # noqa: SLF001
     normals = np.frombuffer(texture.read(), np.float16).reshape(*texture.size[::-1], 4).astype(float)
     still = normals[:, : texture.width // 2, :2]

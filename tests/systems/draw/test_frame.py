@@ -1,4 +1,4 @@
-"""What every program knows of a frame, and what the painters tell their programs."""
+"""The frame block and the uniforms of programs."""
 
 from collections.abc import Callable, Iterator
 
@@ -126,7 +126,7 @@ PROJECTIONS = {
 
 
 def sights(view: NDArray[np.float64], projection: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Unit vectors along the lines of sight at nine places of the picture, shape (9, 3)."""
+    """Return unit vectors along the lines of sight at nine places of the picture, shape (9, 3)."""
     ahead, across, up = rays(View(view.astype(np.float32), projection.astype(np.float32)))
     along = np.array([ahead + x * across + y * up for x in (-1, 0, 1) for y in (-1, 0, 1)])
     return np.asarray(along / np.linalg.norm(along, axis=1, keepdims=True))

@@ -1,4 +1,4 @@
-"""The ground: tiles that cover what is seen, and meet without cracks (T1, T2)."""
+"""The ground: tiles that cover the picture, and meet without cracks (T1, T2)."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -153,7 +153,7 @@ def test_no_tile_is_within_a_negative_reach() -> None:
 def corners(
     ctx: moderngl.Context, laid: Laid, record_of: RecordOf, request: pytest.FixtureRequest
 ) -> Iterator[Corners]:
-    """Where the graphics card puts the grid points of tiles (n,), shape (n, GRID + 1, GRID + 1, 3)."""
+    """Return the grid points of tiles (n,) as the graphics card computes them, shape (n, GRID + 1, GRID + 1, 3)."""
     defines: dict[str, str | int] = getattr(request, "param", {})
     site = laid()
     record = record_of(site)
@@ -196,7 +196,7 @@ def corners(
 
 
 def borders(points: NDArray[np.float32]) -> list[NDArray[np.float32]]:
-    """The four edges of a tile's grid (k, k, 3)."""
+    """Return the four edges of a tile's grid (k, k, 3)."""
     return [points[0], points[-1], points[:, 0], points[:, -1]]
 
 
@@ -228,7 +228,7 @@ def test_t1_tiles_of_different_fineness_meet_without_cracks_for_all_who_stand_ab
 
 @pytest.fixture(scope="module")
 def cliff(hills: Terrain) -> Rims:
-    """As if a rim went across the hills."""
+    """Return the hills' distances to a rim that crosses them."""
     x, z = ((np.arange(60) + 0.5) * side / 60 - side / 2 for side in hills.size)
     rims = Rims(hills)
     rims.distance = np.maximum(np.abs(z[:, None] - 0.3 * x - 4.0) / 1.05 - 1.0, 0.0).astype(np.float32)

@@ -51,7 +51,7 @@ def record(laid: Laid, record_of: RecordOf) -> NDArray[np.void]:
 
 
 def upright(count: int, variant: int) -> Blades:
-    """Blades of length 1 at the origin, without any lean of their own."""
+    """Return blades of length 1 at the origin, upright at rest."""
     nothing = np.zeros(count, np.float32)
     still = np.zeros((count, 2), np.float32)
     kind = np.full(count, variant, np.int32)
@@ -61,7 +61,7 @@ def upright(count: int, variant: int) -> Blades:
 def bent(
     probe: Probe, postures: moderngl.TextureArray, record: NDArray[np.void], variant: int, messages: NDArray[np.float32]
 ) -> NDArray[np.float32]:
-    """Nine points along a blade for each message (n, 2), shape (n, 9, 3), as the graphics card bends it."""
+    """Return nine points along a blade for each message (n, 2), bent by the graphics card, shape (n, 9, 3)."""
     count, t = len(messages), np.linspace(0.0, 1.0, 9, dtype=np.float32)
     rows = np.empty((count, 9, 4), np.float32)
     rows[..., 0], rows[..., 1:3], rows[..., 3] = variant, messages[:, None], t

@@ -1,4 +1,4 @@
-"""Pieces of the ground's tiles: only those at which grass ends are drawn as edges ask for (F4, T1)."""
+"""Pieces of the ground's tiles: only those at edges of grass are drawn by the program for edges (F4, T1)."""
 
 from math import pi
 
@@ -30,7 +30,7 @@ CORNER = (31.0, 11.0)
 
 
 def touches(rectangles: Rectangles) -> Mask:
-    """Return which have that corner in them."""
+    """Return the mask of pieces that contain a corner."""
     low_x, high_x, low_z, high_z = rectangles
     x, z = CORNER
     return np.asarray((low_x <= x) & (x < high_x) & (low_z <= z) & (z < high_z))

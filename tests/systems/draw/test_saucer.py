@@ -15,7 +15,7 @@ def mesh() -> Mesh:
 
 
 def welded(mesh: Mesh) -> NDArray[np.int64]:
-    """The triangles, with vertices at one place made one, (n, 3)."""
+    """Return the triangles, with vertices at equal places merged, (n, 3)."""
     _, same = np.unique(np.round(mesh[0]["place"], 5), axis=0, return_inverse=True)
     return np.asarray(same.reshape(-1)[mesh[1]])
 

@@ -1,4 +1,4 @@
-"""Borders of pieces of the carpet that hang down to the ground, and orders of the triangles of its tiles (F4)."""
+"""Skirts of the carpet's pieces down to the ground, and orders of its tiles' triangles (F4)."""
 
 import numpy as np
 import pytest

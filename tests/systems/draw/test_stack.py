@@ -1,4 +1,4 @@
-"""Where strips stand: the graphics card and numpy agree (G3, T1)."""
+"""Places of strips: the graphics card and numpy agree (G3, T1)."""
 
 from collections.abc import Callable
 from itertools import product

@@ -1,4 +1,4 @@
-"""Textures made from what was grown and from the terrain (G1)."""
+"""Textures of growths and of the terrain (G1)."""
 
 from dataclasses import replace
 
@@ -177,7 +177,7 @@ def test_what_is_slow_over_the_terrain_are_two_noises_of_the_seed(hills: Terrain
 
 
 def test_litter_is_as_bright_from_afar_as_from_near_by() -> None:
-    """At every level, in its mean: a driver that rounds up at each would make ground brighter far off."""
+    """Every mip level has the same mean: a driver that rounds up at each would make far ground brighter."""
     levels = repeating_levels(seed=4)
     assert [len(texels) for texels in levels] == [512 >> level for level in range(10)]
     means = [texels.mean(axis=(0, 1)) for texels in levels]
@@ -187,7 +187,7 @@ def test_litter_is_as_bright_from_afar_as_from_near_by() -> None:
 
 
 def test_squares_of_ground_do_not_show_from_afar_where_they_repeat() -> None:
-    """Of large spots there is next to nothing in them: of brighter ones, and of greener ones."""
+    """They have hardly any large spots, neither in brightness nor in hue."""
     bright, leaves = ground_maps(seed=4)
     assert leaves.mean() / 255.0 == pytest.approx(2.0 / 3.0, abs=0.03)
     assert ((leaves > 0) & (leaves < 255)).mean() > 0.15  # edges are even

@@ -1,4 +1,4 @@
-"""What texels of strips show where grass grows thinly (G3)."""
+"""Texels of strips where grass grows thinly (G3)."""
 
 from collections.abc import Callable
 
@@ -24,7 +24,7 @@ MANY = 3.0
 def test_g3_of_many_blades_as_much_is_left_where_grass_is_thin_as_of_each_by_its_rank(
     probe: Probe, dense: float
 ) -> None:
-    """In the mean over texels, and nearer to each of them than if all had the mean."""
+    """The mean over texels is right, and each texel is nearer to its true value than the mean is."""
     random = np.random.default_rng(3)
     ranks = np.sort(random.random((TEXELS, BLADES)), axis=1)
     there = random.random((TEXELS, BLADES, SAMPLES)) < COVERS

@@ -1,4 +1,4 @@
-"""What comes through from vertices to pixels: never more than every OpenGL 3.3 takes, however many kinds there are."""
+"""Varyings: never more than every OpenGL 3.3 allows, for any number of kinds."""
 
 import ctypes
 import re
@@ -29,7 +29,7 @@ Asked = list[tuple[str, Mapping[str, str | int], Mapping[str, Sequence[shaders.L
 
 
 class Inputs:
-    """Asks a driver for what a fragment shader takes in, of what it does not drop."""
+    """Queries a driver for the inputs of a fragment shader that it does not drop."""
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._address = functions_of(ctx)._address  # noqa: SLF001
@@ -38,7 +38,7 @@ class Inputs:
         return convention(answers, *takes)(self._address(name))(*given)
 
     def numbers(self, source: str) -> list[int]:
-        """How many numbers each input has."""
+        """Return the number of components of each input."""
         text = (c_char_p * 1)(source.encode())
         made = self._call("glCreateShaderProgramv", (c_uint, c_int, c_void_p), 0x8B30, 1, text, answers=c_uint)
         linked, count, told = c_int(), c_int(), (c_int * 2)()
@@ -62,7 +62,7 @@ class Inputs:
 
 @pytest.fixture(scope="module")
 def fragments(ctx: moderngl.Context, tmp_path_factory: pytest.TempPathFactory) -> Asked:
-    """What a prairie with flowers, which take more than grass, asks fragment shaders for, before and after a cut."""
+    """Inputs of the fragment shaders of a prairie with flowers, which need more than grass, before and after a cut."""
     asked: Asked = []
     real = shaders.compose
 

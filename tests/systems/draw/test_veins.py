@@ -1,4 +1,4 @@
-"""What is seen across a blade near by: a rib and veins, which leave its mean brightness as it is."""
+"""Rib and veins of near blades, which keep the mean brightness."""
 
 from collections.abc import Callable
 

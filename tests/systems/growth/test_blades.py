@@ -98,7 +98,7 @@ def test_heights_use_the_whole_range_and_lean_never_stops() -> None:
 
 @pytest.mark.parametrize("clumping", [0.0, 0.5, 1.0])
 def test_lean_and_facing_point_everywhere(clumping: float) -> None:
-    """Of facings, only the doubled azimuth counts: both sides of a blade are lit alike."""
+    """Facings are compared by their doubled azimuths, as both sides of a blade are lit alike."""
     blades = meadow(kind=GrassKind(clumping=clumping))
     for way in (2.0 * blades.facing, np.arctan2(blades.rest[:, 1], blades.rest[:, 0])):
         angle = (way + np.pi) % (2.0 * np.pi) - np.pi
@@ -113,7 +113,7 @@ def test_neighbours_face_and_lean_alike_where_a_kind_stands_in_tussocks() -> Non
 
 
 def alikeness(clumping: float, seed: int) -> tuple[float, float]:
-    """Mean cosine of how far neighbours' doubled facings and leans lie apart."""
+    """Return the mean cosines of the angles between neighbours' doubled facings, and between their leans."""
     blades = meadow(seed, kind=GrassKind(clumping=clumping))
     away = blades.root[:, None] - blades.root[None]
     distance = np.linalg.norm(away - PATCH * np.round(away / PATCH), axis=2)

@@ -40,7 +40,7 @@ PACKED = pack(GROWN, key="key")
 
 @pytest.fixture
 def grows(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
-    """Count how often something is grown."""
+    """List that gets an entry for each growth."""
     calls = []
 
     def count(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:

@@ -1,4 +1,4 @@
-"""The carpet: images of an endless field from several angles (paper, section 2.2)."""
+"""The carpet: images of endless grass from several angles (paper, section 2.2)."""
 
 from dataclasses import replace
 from functools import cache
@@ -29,7 +29,7 @@ def carpet() -> Carpet:
 
 @pytest.fixture(scope="module")
 def dense() -> Carpet:
-    """One of so many blades that it tells what grass is like, and not how these few happen to stand."""
+    """Growth with so many blades that single ones hardly matter."""
     blades = grow_blades(KIND, count=240, patch=PATCH, variants=4, seed=4)
     return grow_carpet(blades, POSTURES, patch=PATCH, texels=64, taper=KIND.taper)
 
@@ -52,7 +52,7 @@ def soup() -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
 
 
 def cast(origin: NDArray[Any], ray: NDArray[Any], corners: NDArray[Any]) -> tuple[int, float, float] | None:
-    """Return the distance along the ray and the weights of the first triangle that it meets, and which; or None."""
+    """Return the distance to the first triangle on a ray, its number, and the barycentric weights there; or None."""
     a, edge, side = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     cross = np.cross(ray, side)
     scale = (edge * cross).sum(axis=1)
@@ -69,7 +69,7 @@ def cast(origin: NDArray[Any], ray: NDArray[Any], corners: NDArray[Any]) -> tupl
 
 
 def meet(start: NDArray[Any], heading: NDArray[Any], slope: float, carpet: Carpet) -> list[float]:
-    """Return what a ray through a point of the plane at mid-height meets: as texels of the carpet mean it."""
+    """Return what a ray through a point of the plane at mid-height hits, in the meaning of the carpet's texels."""
     corners, places, normals = soup()
     reach = carpet.height / slope
     ray = np.array([heading[0], -slope, heading[1]])
@@ -134,7 +134,7 @@ def test_g4_the_view_from_behind_sees_as_much_as_the_view_from_before(dense: Car
 
 @pytest.mark.parametrize("across", [0, 1])
 def test_g4_the_images_repeat_without_a_seam_across_the_view(carpet: Carpet, across: int) -> None:
-    """The same field, cut out half a patch farther aside, is the same image, shifted by as much."""
+    """The same grass, cut out half a patch farther aside, gives the same image, shifted by half a patch."""
     aside = np.where(np.arange(2) == across, 0.5 * PATCH, 0.0)
     moved = replace(BLADES, root=((BLADES.root + aside) % PATCH).astype(np.float32))
     other = grow_carpet(moved, POSTURES, patch=PATCH, texels=TEXELS, taper=KIND.taper).texels[:, across::2]
@@ -145,7 +145,7 @@ def test_g4_the_images_repeat_without_a_seam_across_the_view(carpet: Carpet, acr
 
 
 def test_g4_a_level_view_meets_as_much_as_of_leaves_that_stand_anyhow(dense: Carpet) -> None:
-    """Patches in line would hide one another's gaps nowhere, and show them all."""
+    """Patches in line would never hide one another's gaps."""
     through = 1.0 - dense.texels[:2, ..., 3].mean(axis=(1, 2, 3)) / 255.0
     expected = through[1] ** (float(dense.slope[1]) / float(dense.slope[0]))
     assert through[0] == pytest.approx(expected, abs=0.02)

@@ -1,4 +1,4 @@
-"""The eyes of heads: a middle of a colour of its own."""
+"""Eyes of heads: a middle with a colour of its own."""
 
 import numpy as np
 import pytest

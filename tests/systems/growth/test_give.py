@@ -1,4 +1,4 @@
-"""Give: how far a message bends a kind (W12)."""
+"""Give: posture indices of a kind by message (W12)."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Where heads are in the canopy, for the carpet."""
+"""Heights of heads in the canopy, for the carpet."""
 
 import numpy as np
 import pytest

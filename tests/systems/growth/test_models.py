@@ -1,4 +1,4 @@
-"""All that is grown for one kind of grass."""
+"""Growths: postures, response and patch models of a kind."""
 
 import os
 import subprocess

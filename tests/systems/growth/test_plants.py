@@ -45,7 +45,7 @@ def grown(kind: GrassKind, seed: int = 1, preset: str = "high") -> Blades:
 
 
 def plants(blades: Blades) -> Iterator[NDArray[np.intp]]:
-    """The rows of each plant."""
+    """Return the rows of each plant."""
     for rank in np.unique(blades.rank):
         yield np.flatnonzero(blades.rank == rank)
 
@@ -130,7 +130,7 @@ def test_f3_heads_are_open_or_in_bud(form: str, organ: int) -> None:
 
 
 def widths_of_heads(blades: Blades) -> NDArray[np.float64]:
-    """How wide the open heads are, plant by plant [m]."""
+    """Return the widths of open heads, plant by plant [m]."""
     ends = spine(blades, POSTURES, (0.0, 0.0), points=9)[:, -1]
     petals = [rows[np.isin(blades.organ[rows], (organs.PETAL, organs.STRAP, organs.RAY))] for rows in plants(blades)]
     return np.array([np.ptp(ends[rows][:, ::2], axis=0).max() for rows in petals])

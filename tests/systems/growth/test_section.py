@@ -1,4 +1,4 @@
-"""Profiles: what is grown and lit of blades that are round or folded."""
+"""Profiles: growth and light of round and folded blades."""
 
 from dataclasses import replace
 
@@ -46,7 +46,7 @@ def test_a_rush_is_as_wide_from_all_sides() -> None:
 
 
 def drawn(blades: Blades) -> tuple[np.ndarray, np.ndarray]:
-    """Return how much strips and carpet show of rushes."""
+    """Return the coverage of rushes on strips and on the carpet."""
     section, taper = SECTIONS["rush"], RUSH.taper
     strips = grow_strips(
         blades, POSTURES, patch=PATCH, strips=2, texel=0.01, taper=taper, margin=0.2, section=section

@@ -34,7 +34,7 @@ def triangles(blades: Blades, points: int = 13, taper: float = KIND.taper) -> ND
 
 
 def covered(corners: NDArray[Any], point: NDArray[Any]) -> NDArray[Any]:
-    """Tell which points (p, 2) lie in any of the triangles (n, 3, 2)."""
+    """Return the mask of points (p, 2) that lie in any of the triangles (n, 3, 2)."""
     a, b, c = (corners[:, None, k] for k in range(3))
 
     def side(p: NDArray[Any], q: NDArray[Any]) -> NDArray[Any]:

@@ -1,4 +1,4 @@
-"""Which lamps and shades reach which cells (F5)."""
+"""Lists of the lamps and shades that reach each cell (F5)."""
 
 import numpy as np
 import pytest

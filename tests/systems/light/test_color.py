@@ -1,4 +1,4 @@
-"""Colours: linear inside, display colours at the door."""
+"""Colours: linear light inside, display colours at input and output."""
 
 from collections.abc import Callable
 

@@ -1,4 +1,4 @@
-"""What a kind of grass does to light, and how far light comes into its canopy (F10)."""
+"""Materials of kinds: reflectance, and transmittance of the canopy (F10)."""
 
 from collections.abc import Callable
 
@@ -55,7 +55,7 @@ def test_f3_low_leaves_have_the_colour_of_leaves_where_that_of_tips_is_that_of_p
 
 
 def met(kind: GrassKind, growth: Growth, elevation: float, height: float, density: float) -> float:
-    """How much of the sun reaches a height [m] through an endless field of a patch's blades: by brute force."""
+    """Return the sunlit fraction of a height [m] in endless grass of a patch's blades, by brute force."""
     blades = growth.models[0].blades
     edges = ribbon(blades, growth.postures, (0.0, 0.0), points=25, taper=kind.taper)
     stays = blades.rank < density
@@ -78,7 +78,7 @@ void main() { told = transmittance(sun_extinction(0, row.x) * leaf_area_above(ro
 def closed_form(
     probe: Probe, kind: GrassKind, growth: Growth, elevation: float, density: float
 ) -> NDArray[np.floating]:
-    """What the shaders say of it, at HEIGHTS of the canopy."""
+    """Return the shaders' values at HEIGHTS of the canopy."""
     leaves, record = leaves_of(kind, growth, PATCH), np.zeros(1, FRAME)
     record["lying"][0, 0, 0] = leaves.above / leaves.side
     rows = np.zeros((len(HEIGHTS), 4), np.float32)
@@ -159,7 +159,7 @@ void main() {
 
 
 def test_d6_a_leaf_that_stands_straight_before_the_sun_sends_light_that_is_a_number(probe: Probe) -> None:
-    """There is nothing half way from the sun to the eye: GLSL leaves open what the unit vector of nothing is."""
+    """The half vector of sun and eye is 0: GLSL leaves open what its unit vector is."""
     record, rows = np.zeros(1, FRAME), np.zeros((6, 4), np.float32)
     record["eye"], record["kinds"]["gloss"], record["kinds"]["through"] = (3.0, 1.7, 5.0), 0.4, 0.5
     rows[:, :3] = [(0, 0, -1), (0, 1, 0), (1, 0, 0), (0.6, 0.8, 0), (0, 0.6, -0.8), (0.48, 0.6, 0.64)]

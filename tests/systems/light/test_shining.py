@@ -1,4 +1,4 @@
-"""Light that changes while everything goes on (F5): what is seen of it when, and that it comes as it was asked for."""
+"""Light that a game changes: when each part of it changes, and that it ends as asked for (F5)."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ def drawn(light: Light = MORNING, *, live: bool = True) -> Shining:
 
 
 def same(one: Daylight, other: Daylight) -> bool:
-    """Return whether two are the same light, but for rounding."""
+    """Return whether two lights are equal, except for rounding."""
     return one.direction == other.direction and all(
         np.allclose(a, b, rtol=1e-12)
         for a, b in ((one.sun, other.sun), (one.down, other.down), (one.sky.map, other.sky.map))

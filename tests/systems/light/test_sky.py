@@ -104,7 +104,7 @@ def test_every_sky_is_a_map_of_finite_colours_with_a_horizon(light: Light) -> No
 @pytest.mark.parametrize("turbidity", [2.0, 2.6, 6.0])
 @pytest.mark.parametrize("hour", [4.0, 4.3, 4.5, 5.0, 6.0, 12.0])
 def test_f5_all_round_the_horizon_a_sky_is_as_the_air_has_it(hour: float, turbidity: float) -> None:
-    """A low sun's glow is narrow: smoothed away, it once left a band of teal at 85 degrees from the sun."""
+    """A low sun's glow is narrow: smoothing once removed it, and left a teal band at 85 degrees from the sun."""
     light = Light(hour=hour, turbidity=turbidity)
     air = clear_air(sun_at(light)[1], turbidity)[0] * (SUN * SKY_BRIGHTENED) + NIGHT
     np.testing.assert_allclose(the_sky(light).map[0], air, rtol=0.08)

@@ -1,4 +1,4 @@
-"""Mowing: what is cut and grown on the map of how high grass stands (F4)."""
+"""Mowing: cutting and growing on the map of the grass's height (F4)."""
 
 from math import inf, nan, pi
 
@@ -26,7 +26,7 @@ def ground(width: float = 40.0, depth: float = 20.0) -> Terrain:
 
 
 def left(mown: Mown, x: float, z: float) -> float:
-    """Up to which height grass is left at a place."""
+    """Return the height up to which grass stands at a place."""
     return float(mown.at(places((x, z)))[0])
 
 

@@ -58,7 +58,7 @@ def meadow(size: float = 100.0) -> Density:
 
 
 def by_hand(area: Area, pose: Pose, place: Floats) -> Floats:
-    """How far places lie outside of an area, by points along its outline."""
+    """Return the distances of places outside of an area, by points along its outline."""
     own = pose.inside(place)
     if isinstance(area, Road):
         line = np.concatenate([np.linspace(a, b, 400) for a, b in zip(area.line[:-1], area.line[1:], strict=True)])
@@ -256,7 +256,7 @@ def test_a_plot_ends_where_its_mip_maps_do() -> None:
 
 
 def test_n5_what_a_page_has_is_the_same_wherever_it_lies(ctx: moderngl.Context, probe: Probe) -> None:
-    """Or a prairie that is restored, whose pages come in another order, is not the same to the byte."""
+    """A restored prairie has its pages in another order, and must still be the same byte for byte."""
     random, down, across = np.random.default_rng(5), ROOM + 1, WIDTH // CELLS
     page = random.integers(0, 256, (CELLS, CELLS, 4), np.uint8)
     texture = ctx.texture((WIDTH, CELLS * down), 4, np.tile(page, (down, across, 1)).tobytes())

@@ -1,4 +1,4 @@
-"""Arrows: what receivers feel."""
+"""Arrows: the messages of receivers."""
 
 from collections.abc import Callable
 from math import pi
@@ -56,7 +56,7 @@ def test_n8_the_index_is_read_from_the_colour() -> None:
 
 
 def bent(angle: float) -> Floats:
-    """A message in a direction [rad]."""
+    """Return a message in a direction [rad]."""
     return np.array([np.cos(angle), np.sin(angle)], np.float32) * np.float32(0.5)
 
 

@@ -79,7 +79,7 @@ def test_n8_patches_have_their_representations_colour_and_culled_ones_are_dim(
 
 
 def holds(corners: Any, place: Any) -> bool:
-    """Whether a triangle holds a place."""
+    """Return whether a triangle contains a place."""
     a, b, c = corners.astype(float)
     sides = [(q - p)[0] * (place - p)[1] - (q - p)[1] * (place - p)[0] for p, q in ((a, b), (b, c), (c, a))]
     return bool(min(sides) >= 0.0 or max(sides) <= 0.0)

@@ -1,4 +1,4 @@
-"""Contours of masks that are only known by asking them."""
+"""Contours of masks that are sampled."""
 
 import numpy as np
 import pytest

@@ -29,7 +29,7 @@ def seen(*winds: WindPrimitive, time: float = 2.0, far: float = 100.0) -> list[M
 
 
 class Square(WindPrimitive):
-    """A stranger's wind: a square of 6 m that heads elsewhere."""
+    """A plugin's wind: a square of 6 m with a heading of its own."""
 
     kind: str = "square"
 
@@ -47,7 +47,7 @@ class Square(WindPrimitive):
 
 
 class Colored(Square):
-    """A stranger's wind that says what it is shown in."""
+    """A plugin's wind with a colour of its own."""
 
     kind: str = "colored"
     color = (0.25, 0.5, 1.0)

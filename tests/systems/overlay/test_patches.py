@@ -19,7 +19,7 @@ BLADES, STRIPS, CARPET = range(3)
 
 
 def cells_of(marks: Marks, patch: float) -> NDArray[np.int64]:
-    """The cell under each square of two triangles."""
+    """Return the cell under each square of two triangles."""
     middle = marks.shapes["place"].reshape(-1, 6, 3).mean(axis=1)[:, ::2]
     return np.asarray(np.floor(middle / patch), np.int64)
 
@@ -75,7 +75,7 @@ def test_n8_what_nobody_has_seen_has_the_shade_of_its_distance(outlook: Outlook,
 
 
 def changing(outlook: Outlook, progress: float) -> int:
-    """Let one visible patch be on its way from strips to blades; return its row."""
+    """Put one visible patch into a transition from strips to blades; return its row."""
     patches = outlook.patches
     row = int(np.flatnonzero(patches.visible & patches.alive & (patches.distance == 2))[0])
     patches.representation[row], patches.previous[row] = BLADES, STRIPS

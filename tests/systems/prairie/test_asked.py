@@ -1,4 +1,4 @@
-"""A prairie without any GL: what a game asks of it (N4, D2, D5, D6)."""
+"""A game's queries to a prairie, without GL (N4, D2, D5, D6)."""
 
 from collections.abc import Callable
 from math import radians
@@ -21,7 +21,7 @@ PLACES = np.random.default_rng(0).uniform(-25.0, 25.0, (50, 2)).astype(np.float3
 
 
 class Blast(WindPrimitive):
-    """A wind that a game brings along: straight up the x axis where x is positive."""
+    """A game's own wind, along x where x is positive."""
 
     kind: Literal["test-blast"] = "test-blast"
     priority: int = 9

@@ -1,4 +1,4 @@
-"""Ground on which nothing grows by itself: too steep for a kind, or no ground at all (T1, F4)."""
+"""Ground without grass: too steep for a kind, or a hole (T1, F4)."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -17,7 +17,7 @@ Load = Callable[..., Prairie]
 
 
 def ridge() -> Floats:
-    """A slope of 20 degrees up to x = 0, and then one of 45."""
+    """Return heights with a slope of 20 degrees up to x = 0, and of 45 beyond."""
     x = np.arange(-20.0, 21.0)
     return np.tile(np.where(x < 0.0, x * np.tan(np.radians(20.0)), x), (41, 1)).astype(np.float32)
 

@@ -1,4 +1,4 @@
-"""A state and the scene that it comes back to, which a later release or a game's next version reads otherwise (F4)."""
+"""States restored into a changed scene: of a later release, or of a game's next version (F4)."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -35,7 +35,7 @@ SOWN, DUG = (-10.0, 13.0), (2.5, 2.5)
 
 @pytest.fixture
 def state(world: World) -> bytes:
-    """A state of the scene in which a bit of everything is done."""
+    """State of the scene after a bit of everything was done in it."""
     del world
     made = Prairie.load(SCENE)
     played(made)
@@ -57,7 +57,7 @@ def played(prairie: Prairie) -> None:
 
 
 def assert_played(prairie: Prairie) -> None:
-    """Assert that all of it is there."""
+    """Assert that all contents of the state are there."""
     assert prairie.time == 11.0
     assert prairie.grass_at([(10.0, 10.0)]).height[0] == pytest.approx(0.1, abs=1e-3)
     names = list(prairie.scene.grass)

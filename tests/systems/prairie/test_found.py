@@ -1,4 +1,4 @@
-"""What a scene becomes is found on another thread, while the prairie goes on as it was."""
+"""`finding`: a scene's site is found on another thread, while the prairie goes on unchanged."""
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor

@@ -1,4 +1,4 @@
-"""What a game asks of the ground and of what grows there: normals, picking, `grass_at`."""
+"""A game's queries on ground and grass: normals, picking, `grass_at`."""
 
 from collections.abc import Callable, Iterator
 from typing import Any

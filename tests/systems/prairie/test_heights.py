@@ -1,4 +1,4 @@
-"""Heights that a game changes while a prairie lives: all are told of the new ground; what is refused (F1, N5)."""
+"""`set_heights`: everything follows the new ground; refusals (F1, N5)."""
 
 from collections.abc import Callable, Iterator
 from typing import Any

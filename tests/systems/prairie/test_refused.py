@@ -1,4 +1,4 @@
-"""What a prairie refuses in a sentence, and what it answers all the same (N4, D5)."""
+"""Arguments that a prairie refuses in one sentence, and unusual ones that it accepts (N4, D5)."""
 
 import pickle
 from collections.abc import Callable

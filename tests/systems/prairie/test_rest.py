@@ -1,4 +1,4 @@
-"""A viewer who stands still: nothing is chosen anew for it, and whatever changes is seen in the same frame (R3)."""
+"""A viewer that stands still: systems rest, but every change shows in the same frame (R3)."""
 
 from collections.abc import Callable
 
@@ -51,7 +51,7 @@ def nothing(prairie: Prairie) -> None:
 
 
 def look_on(outlook: Outlook, _: object, __: object, run: Callable[[], None], **___: object) -> None:
-    """Let a system run for a viewer, whatever it finds."""
+    """Make a system run for a viewer, even if it would rest."""
     del outlook
     run()
 

@@ -1,4 +1,4 @@
-"""Kinds of grass that a game changes: what is refused, and what a state keeps of it (F4, N5)."""
+"""`change_kind`: refusals, and states during a change (F4, N5)."""
 
 import re
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""A prairie's state, saved and restored: the same wind, grass and light in another process, or a sentence (F4, N5)."""
+"""States saved and restored: the same wind, grass and light in another process, or one sentence (F4, N5)."""
 
 from collections.abc import Callable, Iterator
 from hashlib import blake2b
@@ -50,7 +50,7 @@ Told = dict[str, Floats]
 
 @pytest.fixture
 def played(world: World) -> Iterator[Prairie]:
-    """A prairie in which a game has done everything that there is to do."""
+    """Return a prairie in which a game has used everything that a state saves."""
     del world
     made = Prairie.load(SCENE)
     walker = esper.create_entity(Presser(radius=0.8), Pose(0.0, -20.0))
@@ -89,7 +89,7 @@ def played(world: World) -> Iterator[Prairie]:
 
 
 def told(prairie: Prairie, *, on: float = 0.0) -> Told:
-    """What can be asked of a prairie, now and a while on."""
+    """Return the answers of a prairie to all queries, now and a while later."""
     found: Told = {}
     for later in (0.0, on):
         prairie.advance(later)
@@ -104,7 +104,7 @@ def told(prairie: Prairie, *, on: float = 0.0) -> Told:
 
 
 def belongings() -> set[tuple[object, ...]]:
-    """What a game's entities have of ours, and where: of those that have any lamp or shade."""
+    """Return tallgrass's components on a game's entities that have a lamp or a shade."""
     kinds = Presser, Lamp, Shade, Pose
     found = {entity for kind in (Lamp, Shade) for entity, _ in esper.get_component(kind)}
     return {tuple(esper.try_component(entity, kind) for kind in kinds) for entity in found}
@@ -287,7 +287,7 @@ def test_a_wind_whose_class_has_other_keys_by_now_is_refused_in_a_sentence(
     played: Prairie, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     class Draught(Breeze):
-        """A wind as it was when the game was saved."""
+        """A plugin's wind when the game was saved."""
 
         kind: str = "draught"  # type: ignore[assignment]
         power: float = 0.3

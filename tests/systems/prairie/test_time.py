@@ -1,4 +1,4 @@
-"""Time that is set: what a scene declares is as if time had come there (issue: seek and rewind)."""
+"""Setting the time: a scene's winds, pressers and light are as after running to that time."""
 
 from collections.abc import Iterator
 
@@ -38,7 +38,7 @@ def prairie(world: World) -> Iterator[Prairie]:
 
 
 def come_to(time: float) -> Prairie:
-    """A prairie that has come to a time by steps, watched on its way."""
+    """Return a prairie that has run to a time by steps, watched on its way."""
     made = Prairie.load(SCENE)
     for _ in range(round(time / 0.25)):
         made.advance(0.25)

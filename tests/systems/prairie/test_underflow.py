@@ -1,4 +1,4 @@
-"""A host that has numpy raise whatever it can, and numbers of a prairie that end in zero (D6)."""
+"""Numbers that underflow to 0, in a host whose numpy raises all errors (D6)."""
 
 from collections.abc import Callable
 from typing import Any
@@ -18,7 +18,7 @@ TINY = np.full(3, 1e-30, np.float32)
 
 def test_d6_nothing_raises_where_numbers_end_in_zero_though_a_host_has_numpy_raise_all(load: Load) -> None:
     class Faint(Breeze):
-        """A wind that falls off to nothing."""
+        """A wind whose strength underflows to 0."""
 
         def action(self, *about: Any, **more: Any) -> Any:
             assert not (TINY * TINY).any()

@@ -1,4 +1,4 @@
-"""Pressing: ways cut into stretches, and grass that lies down and stands up again (F4)."""
+"""Pressing: trails cut into stretches, and grass that lies down and stands up again (F4)."""
 
 import sys
 from collections.abc import Callable
@@ -34,7 +34,7 @@ def discs_at(*place: tuple[float, float], radius: float = RADIUS, strength: floa
 
 
 def walked(*ways: Way, until: float, steps: int, lasts: float = 60.0) -> Trodden:
-    """Return what discs have trodden that go their ways, noted in so many steps."""
+    """Return the trails of moving discs at a time, noted in a number of steps."""
     trail = Trail()
     memory, none, found = Memory([trail], lasts), np.zeros(0, np.intp), UNTRODDEN
     for number in range(steps + 1):
@@ -48,7 +48,7 @@ def walked(*ways: Way, until: float, steps: int, lasts: float = 60.0) -> Trodden
 
 
 def read(marks: Marks) -> tuple[NDArray[np.float32], NDArray[np.int32], NDArray[np.int32]]:
-    """Return what a receiver may read: marks, how many each square has, and which."""
+    """Return the tables that a receiver reads: marks, their number on each square, and their indices."""
     lists = [marks.listed[first : first + count] for first, count in zip(marks.first, marks.count, strict=True)]
     return marks.marks, marks.count, np.concatenate(lists)
 
@@ -59,12 +59,12 @@ def felt(trodden: Trodden, place: object) -> Floats:
 
 
 def east(time: float) -> tuple[float, float]:
-    """Walk to the right along z = 0, through the origin at 2 s."""
+    """Return the place at a time [s] of a walk to the right along z = 0, through the origin at 2 s."""
     return 1.5 * (time - 2.0), 0.0
 
 
 def east_for(seconds: float) -> Way:
-    """Walk to the right and, far behind the origin, stand."""
+    """Return the way of a walk to the right that stops after a time [s]."""
     return lambda time: east(min(time, seconds))
 
 

@@ -36,7 +36,7 @@ def directions(message: Floats) -> Floats:
 
 
 def on_ellipse(across: float, along: float, part: float) -> tuple[Floats, Floats, Floats]:
-    """Places a part of the way in from an ellipse's outline along its normals, these normals, and those places' own."""
+    """Return places inside of an ellipse's outline along its normals, these normals, and the places on the outline."""
     angle = np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False)
     edge = np.stack([across * np.cos(angle), along * np.sin(angle)], axis=1)
     normal = np.stack([np.cos(angle) / across, np.sin(angle) / along], axis=1)
@@ -76,7 +76,7 @@ def test_w9_in_a_hollow_corner_grass_bends_into_the_hollow(feel: Feel) -> None:
 
 
 def holds(corners: Sequence[Sequence[float]], place: Floats) -> NDArray[np.bool_]:
-    """Even-odd, one place and side after the other."""
+    """Return the mask of places inside a polygon by the even-odd rule, one place and side after another."""
     inside = np.zeros(len(place), np.bool_)
     for (ax, az), (bx, bz) in zip(corners, [*corners[1:], corners[0]], strict=True):
         for k, (x, z) in enumerate(place.tolist()):
@@ -100,7 +100,7 @@ def test_w9_any_polygon_is_its_mask_but_for_a_sample(corners: list[tuple[float, 
 
 
 def test_w9_it_is_radial_to_a_pictures_outline_and_its_top_lies_ahead(feel: Feel, tmp_path: Path) -> None:
-    """A tall bar in the picture's upper half."""
+    """The picture has a tall bar in its upper half."""
     pixels = np.zeros((80, 80), np.uint8)
     pixels[4:36, 30:50] = 255
     Image.fromarray(pixels).save(tmp_path / "bar.png")

@@ -1,4 +1,4 @@
-"""Blowing: who is heard where (W5, W11, D6)."""
+"""Blowing: winds and the receivers that hear them (W5, W11, D6)."""
 
 from typing import Literal
 
@@ -19,7 +19,7 @@ PLACES = np.stack(np.meshgrid(np.linspace(-5, 5, 41), np.linspace(-5, 5, 41)), -
 
 
 class Disc(WindPrimitive):
-    """A wind of one message inside a circle."""
+    """A wind with one message inside a circle."""
 
     kind: Literal["disc"] = "disc"
     centre: Pair = Field(default=[0.0, 0.0])
@@ -38,7 +38,7 @@ class Disc(WindPrimitive):
 
 
 class Silent(Disc):
-    """A wind that must never be asked."""
+    """A wind whose methods must never be called."""
 
     def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
         raise AssertionError(f"asked at {time} s for {len(place)} places with seed {seed}, {grass}")

@@ -1,4 +1,4 @@
-"""One wind for everybody: blades, strips and whoever asks (W1, W5, N1, N4)."""
+"""One wind for blades, strips and `wind_at` (W1, W5, N1, N4)."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -47,18 +47,18 @@ Seen = tuple[Site, Outlook]
 
 @pytest.fixture
 def flat(laid: Laid, look: Look) -> Seen:
-    """A site whose border runs at x = 7.5 m, and what is seen of it."""
+    """Return a site with a border of representations at x = 7.5 m, and its outlook."""
     site = laid(terrain=FLAT)
     return site, look(site, 1.0, 1.0)
 
 
 def pooled(outlook: Outlook) -> list[Receiving]:
-    """What receives of blades and of each ring of strips."""
+    """Return the receiving slots of blades and of each ring of strips."""
     return [*outlook.kept["blades"].receiving, *outlook.kept["strips"].receiving]
 
 
 def blow(flat: Seen, hear: Hear) -> None:
-    """Let everything that is seen hear."""
+    """Let all receivers in view hear winds."""
     site, outlook = flat
     Blow([outlook], lambda _: (), hear, site.growths).run()
 
@@ -83,7 +83,7 @@ def blown(world: World, flat: Seen, winds: list[WindPrimitive], mixing: Mixing, 
 
 
 def slots_at_the_border(flat: Seen) -> tuple[int, int]:
-    """The slots of two patches that meet at the border: one of blades, one of strips."""
+    """Return the slots of two patches that meet at the border: one of blades, one of strips."""
     patches = flat[1].patches
 
     def slot(receiving: Receiving, cell: tuple[int, int]) -> int:
@@ -205,7 +205,7 @@ quality:
 
 @pytest.fixture
 def prairie(world: World, tmp_path: Path) -> Iterator[Prairie]:
-    """A prairie of two kinds, in a world of its own."""
+    """Prairie of two kinds, in a world of its own."""
     path = tmp_path / "two.yaml"
     path.write_text(SCENE, "utf-8")
     made = Prairie.load(path)

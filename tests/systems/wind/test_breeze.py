@@ -35,7 +35,7 @@ def moved(x: float) -> Floats:
 
 
 def felt(breeze: Breeze, place: Floats = FIELD, *, time: float = 3.0, seed: int = 7) -> Floats:
-    """What still grass at places hears, the small oscillations included."""
+    """Return the messages to grass at places, small oscillations included."""
     quarantine = Quarantine()
     winds = blowing([WindSource(breeze, "breeze")], quarantine, time=time, seed=seed)
     grass = Grass(np.zeros(len(place), np.intp), *np.ones((3, 1, 2), np.float32))

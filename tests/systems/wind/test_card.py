@@ -1,4 +1,4 @@
-"""Winds on the graphics card: strangers' twins, those without one, and twins that fail (D5)."""
+"""Winds on the graphics card: plugins' twins, winds without one, and twins that fail (D5)."""
 
 import logging
 import re
@@ -65,13 +65,13 @@ class Calmer(Whirlwind):
 
 
 class Same(Whirlwind):
-    """A whirlwind by another name."""
+    """A whirlwind of another class, with the same twin."""
 
     kind: str = "same"  # type: ignore[assignment]
 
 
 class Missing(Draught):
-    """A wind whose twin is not there."""
+    """A wind whose twin's file is missing."""
 
     twin: ClassVar[str | None] = "nowhere.glsl"
     kind: str = "missing"
@@ -93,14 +93,14 @@ def receivers() -> ReceiverArrays:
 
 
 def agrees(ear: CardEar, now: list[Blowing], mixing: Mixing = "weight", quarantine: Quarantine | None = None) -> None:
-    """Assert that the card is heard as numpy is."""
+    """Assert that the card's messages equal numpy's."""
     found = ear.hear(now, receivers(), quarantine or Quarantine(), time=TIME, seed=7, mixing=mixing)
     due = hear(now, receivers(), quarantine or Quarantine(), time=TIME, seed=7, mixing=mixing)
     assert np.abs(found - due).max() <= CLOSE_TWIN
 
 
 def written(monkeypatch: pytest.MonkeyPatch, kind: type[WindPrimitive], text: str) -> Twin:
-    """Give a class of winds a twin that is on no disk."""
+    """Return the function that gives a class of winds a twin whose text exists in memory only."""
     twin = Twin.of(f"{kind.__name__}.glsl", text.splitlines())
     monkeypatch.setattr("tallgrass.systems.wind.card.twin_of", lambda other: twin if other is kind else twin_of(other))
     return twin

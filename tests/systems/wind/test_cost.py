@@ -1,4 +1,4 @@
-"""What winds cost: what they cover (W5)."""
+"""Costs of winds grow with the ground that they cover (W5)."""
 
 from collections.abc import Callable
 from time import thread_time_ns
@@ -26,7 +26,7 @@ TIME = 3.0
 
 
 def in_front(answer: Answer) -> ReceiverArrays:
-    """As many receivers as a frame of the high preset has: some patches of blades, and strips behind them."""
+    """Return the receivers of a frame at preset high: some patches of blades, and strips behind them."""
     cells = np.stack(np.meshgrid(np.arange(-10, 10), np.arange(-19, 0)), -1).reshape(-1, 2)
     each = np.where((np.abs(cells[:, 0]) <= 3) & (cells[:, 1] >= -4), 500, 40)
     patch, middle = np.repeat(np.arange(len(cells)), each), ((cells + 0.5) * 2.5).astype(np.float32)
@@ -41,7 +41,7 @@ def covered(place: NDArray[np.float32]) -> float:
 
 
 def test_w5_three_more_winds_on_a_tenth_of_the_grass_cost_little_more_than_the_breeze(answer: Answer) -> None:
-    """In processor time, the two in turn; the bound is wider than the 1.5 that is aimed at, for busy machines."""
+    """Measured as processor time, in turn; the bound is wider than the goal of 1.5, for busy machines."""
     receivers, quarantine = in_front(answer), Quarantine()
     assert 0.05 < covered(receivers.place) < 0.1
 

@@ -1,4 +1,4 @@
-"""Winds that a game changes while they blow: their phases go on from where they are (W5, W7, D6)."""
+"""Winds that a game changes while they blow: their phases stay continuous (W5, W7, D6)."""
 
 from collections.abc import Callable, Iterator
 
@@ -28,7 +28,7 @@ FIELD = np.random.default_rng(1).uniform(-4.0, 4.0, (300, 2)).astype(np.float32)
 
 
 class Swirl(WindPrimitive):
-    """A plugin's wind whose bend beats as it is told to."""
+    """A plugin's wind that beats at a rate."""
 
     kind: str = "swirl"
     swing: float = 0.0
@@ -66,7 +66,7 @@ def prairie(world: World) -> Iterator[Prairie]:
 
 
 def blow(prairie: Prairie, ramp: Callable[[float], WindPrimitive], *, to: float, entity: int) -> Doubles:
-    """What grass feels in 10 s in which a game changes a wind a little in every frame, shape (frames, n, 2)."""
+    """Return the messages in 10 s in which a game changes a wind a little in every frame, shape (frames, n, 2)."""
     felt = []
     for frame in range(300):
         esper.add_component(entity, WindSource(ramp(to * frame / 300.0), "wind"))
@@ -79,7 +79,7 @@ def blow(prairie: Prairie, ramp: Callable[[float], WindPrimitive], *, to: float,
 def test_w7_a_wind_that_a_game_changes_goes_on_from_where_it_is_an_hour_into_the_game(
     prairie: Prairie, what: str
 ) -> None:
-    """Grass changes as fast as in a wind that blows all the time as this one does in the mean, and no faster."""
+    """Messages change no faster than in a constant wind with the mean values of this one."""
     prairie.advance(HOUR)
     ways: list[Callable[[float], WindPrimitive]] = [lambda _: RAMPS[what](0.5), RAMPS[what]]
     changes = []
@@ -154,7 +154,7 @@ def test_w7_a_gust_keeps_its_place_when_its_speed_changes_and_stays_until_its_gr
 
 
 def test_gusts_that_a_game_added_are_gone_when_they_have_been_over_for_a_while(prairie: Prairie) -> None:
-    """So that a game may set one off every half a second for days."""
+    """So a game may set one off every half a second for days."""
     handles = []
     for _ in range(200):
         handles.append(prairie.add(Gust(start=prairie.time, reach=10.0)))

@@ -32,7 +32,7 @@ kinds = pytest.mark.parametrize("wind", WINDS, ids=lambda wind: wind.kind)
 
 
 def added(feel: Feel, wind: WindPrimitive, *, time: float = 2.5, place: Floats = FIELD, seed: int = 7) -> Floats:
-    """What the small oscillations add to a wind's messages, per swing."""
+    """Return the small oscillations in a wind's messages, relative to its `swing`."""
     still = feel(wind.model_copy(update={"swing": 0.0}), place=place, time=time, seed=seed)
     moving = feel(wind.model_copy(update={"swing": 0.1}), place=place, time=time, seed=seed)
     return np.asarray((moving - still) / np.float32(0.1))
@@ -72,7 +72,7 @@ def test_w10_the_oscillations_go_on_in_time(feel: Feel, wind: WindPrimitive) -> 
 
 @kinds
 def test_w10_a_swing_of_0_is_the_prescribed_motion_exactly(feel: Feel, wind: WindPrimitive) -> None:
-    """What the wind's own action says, and nothing else."""
+    """Then messages are those of the wind's own action."""
     still = wind.model_copy(update={"swing": 0.0, "weight": 1.0})
     np.testing.assert_array_equal(feel(still, place=FIELD, time=2.5), feel(still, place=FIELD, time=2.5))
     assert (added(feel, wind) != 0.0).any(axis=1).mean() > 0.99
@@ -113,7 +113,7 @@ def test_w10_another_seed_swings_otherwise(feel: Feel) -> None:
 @pytest.mark.parametrize("to", [0.0, 0.5 * pi, 2.3])
 @pytest.mark.parametrize("time", [0.0, 1000.0, 36000.0])
 def test_f8_the_mean_wind_carries_the_oscillations_along(to: float, time: float) -> None:
-    """After a whole turn of the slowest beat, and with what they wander on the way."""
+    """Compared after a whole period of the slowest beat, with their drift in that time."""
     later = 2.0 * pi / FREQUENCIES[1]
     before = flutter(FIELD, time=time, seed=7, yaw=to)[:, 1]
     away = np.linspace(-1.5, 1.5, 31)
@@ -130,7 +130,7 @@ def test_f8_the_mean_wind_carries_the_oscillations_along(to: float, time: float)
 
 @pytest.mark.parametrize("to", [0.0, 0.5 * pi])
 def test_f8_the_oscillations_do_not_come_again_within_an_hour(to: float) -> None:
-    """Whichever way they are carried, along an axis of their noise's table too."""
+    """They are carried in any direction, also along an axis of the noise's table."""
     steps = np.arange(0.0, 2.0 * 3600.0, 0.5)
     story = np.stack([flutter(FIELD[:60], time=time, seed=7, yaw=to) for time in steps], axis=2)
     power = (np.abs(np.fft.rfft(story, 2 * len(steps), axis=2)) ** 2).mean(axis=0)

@@ -1,4 +1,4 @@
-"""How grass answers a wind that starts and stops (W4, W12)."""
+"""Response of grass to a wind that starts and stops (W4, W12)."""
 
 from collections.abc import Callable
 from typing import Any

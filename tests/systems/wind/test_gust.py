@@ -40,7 +40,7 @@ def index(message: Floats) -> Floats:
 
 
 def line(start: float, stop: float, count: int = 400) -> Floats:
-    """Places on the z axis."""
+    """Return places on the z axis."""
     return np.stack([np.zeros(count), np.linspace(start, stop, count)], axis=1).astype(np.float32)
 
 
@@ -79,7 +79,7 @@ def test_w6_the_front_is_where_its_speed_has_taken_it(feel: Feel) -> None:
 def test_w6_its_profile_in_space_is_the_response_in_time(
     feel: Feel, responses: list[Response], kind: int, behind: float
 ) -> None:
-    """At the front grass begins to move, `hold` later it is let go: read from its own curves (figures 7 and 8)."""
+    """Grass begins to move at the front, and is let go `hold` later, by its own response (figures 7 and 8)."""
     response, strength, hold = responses[kind], STILL.strength, STILL.hold
 
     def curve(values: Floats, elapsed: float) -> float:

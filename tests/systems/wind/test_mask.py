@@ -1,4 +1,4 @@
-"""Masks and actions as kernels (W5, N5): extents, patches, and no memory of who else was asked."""
+"""Masks and actions as kernels (W5, N5): extents, patches, and independence of other receivers."""
 
 from collections.abc import Callable
 from typing import Any
@@ -58,7 +58,7 @@ OWN = np.random.default_rng(0).uniform(-40.0, 40.0, (3000, 2)).astype(np.float32
 
 
 def around(box: Extent) -> Floats:
-    """Places on both sides of a rectangle's border, and everywhere else."""
+    """Return places on both sides of a rectangle's border, and everywhere else."""
     rng = np.random.default_rng(1)
     x, z = sorted((box.left, box.right)), sorted((box.ahead, box.behind))
     edge = rng.uniform([x[0] - 1, z[0] - 1], [x[1] + 1, z[1] + 1], (1500, 2))
@@ -100,7 +100,7 @@ def test_w2_every_wind_answers_with_vectors_whose_norm_is_an_index(
 def test_n5_what_a_receiver_hears_has_the_same_bits_in_any_company_and_order(
     answer: Answer, wind: WindPrimitive, time: float, seed: int, random: Any
 ) -> None:
-    """Vectorised sines might round otherwise in the last few places of an array."""
+    """Vectorised sines might round differently for the last few elements of an array."""
     count = 333
     grass, place = answer(count), np.ascontiguousarray(OWN[:count])
     together = wind.action(place, time=time, seed=seed, grass=grass), wind.mask(place, time=time)
@@ -123,7 +123,7 @@ CELLS = np.stack(np.meshgrid(np.arange(-8, 8), np.arange(-8, 8)), -1).reshape(-1
 
 
 def receivers(answer: Answer, each: int = 9) -> ReceiverArrays:
-    """Receivers on 16 by 16 patches."""
+    """Return receivers on 16 by 16 patches."""
     middle = ((CELLS + 0.5) * SIDE).astype(np.float32)
     off = np.random.default_rng(6).uniform(-SIDE / 2, SIDE / 2, (len(CELLS), each, 2))
     place = (middle[:, None] + off).reshape(-1, 2).astype(np.float32)
@@ -132,7 +132,7 @@ def receivers(answer: Answer, each: int = 9) -> ReceiverArrays:
 
 
 class Asked:
-    """Counts what a wind is asked for, without changing what it answers."""
+    """Counts the places that a wind is asked for, and returns the wind's own answers."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, kind: type[WindPrimitive]) -> None:
         self.masks: list[Floats] = []

@@ -1,4 +1,4 @@
-"""How winds meet: by priority (W11), by weight (F7), and by a written rule where they are equal."""
+"""Winds that meet: by priority (W11), by weight (F7), and by the rule for equal claims."""
 
 from collections.abc import Callable, Sequence
 from itertools import permutations
@@ -32,7 +32,7 @@ mixings = pytest.mark.parametrize("mixing", ["priority", "weight"])
 
 
 def named(feel: Feel, winds: Sequence[WindPrimitive], *, mixing: Mixing = "priority", place: Floats = FIELD) -> Floats:
-    """What winds do together, each with its kind as its name, so that it keeps its seed in any company."""
+    """Return the messages of several winds, each named by its kind, so that its seed is independent of the others."""
     return feel(*winds, place=place, time=TIME, mixing=mixing, names=[wind.kind for wind in winds])
 
 
@@ -66,7 +66,7 @@ def test_w11_the_order_in_which_winds_are_made_does_not_matter(feel: Feel, order
 @mixings
 @pytest.mark.parametrize("more", [{}, {"start": 1.0}, {"strength": 0.4}, {"priority": 3}])
 def test_w11_equal_winds_are_settled_by_a_rule_in_any_order(feel: Feel, mixing: Mixing, more: dict[str, float]) -> None:
-    """Three of one kind and priority, two of them equal in all they declare: their names settle it."""
+    """Three winds of one kind and priority, of which two have equal values: their names decide."""
     winds = [Breeze(), Breeze(), Breeze().model_copy(update=more)]
     stories = []
     for order in permutations(range(3)):
@@ -116,7 +116,7 @@ def test_a_wind_sets_in_and_dies_down_over_its_ease(feel: Feel, mixing: Mixing) 
 
 
 def pairs(wind: WindPrimitive, apart: float, count: int = 3000) -> tuple[Floats, Floats]:
-    """Pairs of receivers so far apart [m] all over a wind's mask and across its edges."""
+    """Return pairs of receivers at a distance [m] from each other, all over a wind's mask and across its edges."""
     pose, box = wind.pose(time=TIME), wind.extent(time=TIME)
     assert box is not None
     rng = np.random.default_rng(3)

@@ -1,4 +1,4 @@
-"""Winds on their way: along paths, with headings, and carried by a game (W5, W9)."""
+"""Moving winds: on paths, with headings, and moved by a game (W5, W9)."""
 
 from collections.abc import Callable
 from math import degrees, pi
@@ -24,7 +24,7 @@ def stop(at: float, x: float, z: float, yaw: float | None = None) -> Waypoint:
 
 
 def heading(blast: Blast, time: float) -> float:
-    """The heading at a time [degrees], from -180 to 180."""
+    """Return the heading at a time [degrees], from -180 to 180."""
     return (degrees(blast.pose(time=time).yaw) + 180.0) % 360.0 - 180.0
 
 

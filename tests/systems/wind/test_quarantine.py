@@ -40,7 +40,7 @@ def _raise(error: Exception) -> Any:
 
 
 class Failing(WindPrimitive):
-    """A wind that answers with whatever a test wants."""
+    """A wind with the answers that a test gives."""
 
     kind: str = "failing"
     priority: int = 50
@@ -171,7 +171,7 @@ def test_a_wind_that_does_not_fail_is_kept_and_heard(caplog: pytest.LogCaptureFi
 
 
 class Wide(Failing):
-    """A wind that holds every place."""
+    """A wind whose mask is 1 everywhere."""
 
     def mask(self, place: Floats, /, *, time: float) -> Any:
         return np.ones(len(place), np.float32)
@@ -181,7 +181,7 @@ class Wide(Failing):
 
 
 class Uneven(Failing):
-    """A wind whose weaker part holds more places, and fails there."""
+    """A wind whose weaker part covers more places, and fails there."""
 
     def parts(self, *, time: float, seed: int) -> Any:
         return [Failing(priority=60), Wide(priority=40, part="nan")]
@@ -212,7 +212,7 @@ def test_a_kind_is_told_of_once_however_many_of_it_fail(caplog: pytest.LogCaptur
 
 
 class Untellable(Failing):
-    """A wind that cannot be written down, so that a tie cannot be settled."""
+    """A wind that cannot be serialised, so that equal claims cannot be ordered."""
 
     kind: str = "untellable"
     cause: Any = None
@@ -273,7 +273,7 @@ SLOW_WIND = WindSource(Failing(), "slow")
 
 
 class Clock:
-    """The processor's time, which goes on by as much as a test says, at every second reading."""
+    """Processor time, which advances by a test's step at every second reading."""
 
     def __init__(self, took: list[float]) -> None:
         self._readings = iter([reading for each in took for reading in (0.0, each)])
@@ -287,7 +287,7 @@ Ask = Callable[..., bool]
 
 @pytest.fixture
 def ask(monkeypatch: pytest.MonkeyPatch) -> Ask:
-    """Ask a wind once for each of some numbers, in which it takes so long [s]; return whether it stays in."""
+    """Call a wind once for each of some times that it takes [s]; return whether it is not left out."""
 
     def answers(
         quarantine: Quarantine, *took: float, source: WindSource = SLOW_WIND, what: str = "action", receivers: int = 0

@@ -1,4 +1,4 @@
-"""Turbulence as real wind has it, by its statistics (F8)."""
+"""Turbulence with the statistics of real wind (F8)."""
 
 from itertools import pairwise
 
@@ -39,26 +39,26 @@ def felt(wind: Turbulence, place: Floats, *, time: float = 7.0, seed: int = 7) -
 
 
 def axes(wind: Turbulence) -> Doubles:
-    """The directions along a wind and to its right, shape (2, 2)."""
+    """Return the directions along a wind and to its right, shape (2, 2)."""
     turn = np.radians(wind.direction)
     return np.array([[np.sin(turn), -np.cos(turn)], [np.cos(turn), np.sin(turn)]])
 
 
 def eddies(wind: Turbulence, place: Floats, *, time: float = 7.0, seed: int = 7) -> Doubles:
-    """What a wind is beside its mean, along it and to its right, of its standard deviation, shape (2, n)."""
+    """Return the fluctuation of a wind, along it and to its right, relative to its standard deviation, shape (2, n)."""
     message = axes(wind) @ felt(wind, place, time=time, seed=seed).T
     return np.asarray((message - [[wind.strength], [0.0]]) / (wind.strength * wind.intensity))
 
 
 def lines(wind: Turbulence, count: int) -> Floats:
-    """Places on lines along a wind, from anywhere, shape (count * LONG, 2)."""
+    """Return places on lines along a wind, from random places, shape (count * LONG, 2)."""
     start = np.random.default_rng(1).uniform(-3000.0, 3000.0, (count, 1, 2))
     way = STEP * wind.scale * np.arange(LONG)[:, None] * axes(wind)[0]
     return np.asarray((start + way).reshape(-1, 2), np.float32)
 
 
 def correlation(story: Doubles, longest: int) -> Doubles:
-    """How much the rows of (n, steps) are like themselves up to `longest` steps later, shape (longest,)."""
+    """Return the autocorrelation of rows (n, steps) for up to `longest` steps, shape (longest,)."""
     steps = story.shape[-1]
     power = (np.abs(np.fft.rfft(story, 2 * steps, axis=-1)) ** 2).mean(axis=0)
     found = np.fft.irfft(power)[:longest] / (steps - np.arange(longest))
@@ -67,13 +67,13 @@ def correlation(story: Doubles, longest: int) -> Doubles:
 
 @pytest.fixture(scope="module")
 def along() -> Doubles:
-    """The eddies on lines of 64 length scales at one instant, shape (2, 96, LONG)."""
+    """Fluctuations on lines of 64 length scales at one time, shape (2, 96, LONG)."""
     return eddies(WIND, lines(WIND, 96)).reshape(2, 96, LONG)
 
 
 @pytest.fixture(scope="module")
 def hours() -> Doubles:
-    """The eddies at 24 places in four hours, one second after the other, shape (2, 24, seconds)."""
+    """Fluctuations at 24 places in four hours, second by second, shape (2, 24, seconds)."""
     place = np.random.default_rng(2).uniform(-2000.0, 2000.0, (24, 2)).astype(np.float32)
     return np.stack([eddies(WIND, place, time=time) for time in np.arange(0.0, WITHIN)], axis=2)
 
@@ -92,7 +92,7 @@ def test_f8_its_variance_is_as_asked_over_the_ground_and_over_time(hours: Double
 
 @pytest.mark.parametrize("component", [0, 1])
 def test_f8_its_spectrum_falls_by_five_thirds_over_a_decade(along: Doubles, component: int) -> None:
-    """Of the wave numbers from 3 to 30, of the length scale: along the wind, and what it blows across."""
+    """Wave numbers are 3 to 30 per length scale, for the components along the wind and across it."""
     power = (np.abs(np.fft.rfft(along[component] * np.hanning(LONG), axis=1)) ** 2).mean(axis=0)
     number = 2.0 * np.pi * np.fft.rfftfreq(LONG, STEP)
     edges = np.geomspace(3.0, 30.0, 13)
@@ -114,7 +114,7 @@ def test_f8_its_spectrum_is_von_karmans(along: Doubles) -> None:
 
 @pytest.mark.parametrize("wind", [Turbulence(direction=-70.0, scale=30.0, speed=9.0)])
 def test_f8_what_grass_feels_in_time_falls_by_five_thirds_over_two_decades(wind: Turbulence) -> None:
-    """Of the frequencies from 0.3 to 30, of speed over length scale, its small oscillations included."""
+    """Frequencies are 0.3 to 30 times the speed over the length scale; small oscillations are included."""
     place = np.random.default_rng(2).uniform(-500.0, 500.0, (64, 2)).astype(np.float32)
     pace, steps, quarantine = wind.speed / wind.scale, 2048, Quarantine()
     rate = 72.0 * pace
@@ -136,7 +136,7 @@ def test_f8_what_grass_feels_in_time_falls_by_five_thirds_over_two_decades(wind:
 
 
 def test_f8_its_length_scale_is_as_asked_and_half_of_it_across(hours: Doubles) -> None:
-    """The integral of how much it is like itself farther up the wind, by Taylor: five scales go over in 12.5 s."""
+    """The integral of the autocorrelation along the wind, by Taylor's hypothesis: five scales pass in 12.5 s."""
     wind = Turbulence(direction=33.0, strength=0.3, intensity=0.2, scale=80.0, speed=8.0)
     place = np.random.default_rng(2).uniform(-9000.0, 9000.0, (48, 2)).astype(np.float32)
     story = np.stack([eddies(wind, place, time=time) for time in np.arange(0.0, 3.0 * HOUR, 2.0)], axis=2)
@@ -185,7 +185,7 @@ def test_w2_a_message_is_a_direction_times_an_index_from_0_to_1(wind: Turbulence
 
 @given(turbulences, times)
 def test_f8_it_goes_on_smoothly_in_time(wind: Turbulence, time: float) -> None:
-    """In a thousandth of the time in which the smallest eddies go by."""
+    """Over a thousandth of the time in which the smallest eddies pass."""
     late = 1e-4 * wind.scale / max(wind.speed, 1.0)
     change = felt(wind, FIELD, time=time + late) - felt(wind, FIELD, time=time)
     assert np.linalg.norm(change, axis=1).max() < 0.02 * wind.strength * wind.intensity + 1e-3
@@ -202,7 +202,7 @@ def test_another_seed_is_another_turbulence() -> None:
 
 
 def test_f8_the_halves_of_its_tables_are_alike_and_independent() -> None:
-    """So that the variance stays as it is while one becomes the other; but for what is the same all over a table."""
+    """So the variance stays during a cross-fade of both; a table's mean is left out."""
     large, small = (table.reshape(-1, 4).astype(np.float64) for table in eddy_tables(5))
     for table in (large, small):
         alike = table.T @ table / len(table)

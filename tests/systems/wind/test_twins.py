@@ -1,4 +1,4 @@
-"""Twins of the winds that come along: the graphics card hears what numpy does, at any place and time (N1, N4)."""
+"""Twins of the bundled winds: the graphics card computes the same as numpy, at any place and time (N1, N4)."""
 
 from collections.abc import Iterator
 
@@ -81,7 +81,7 @@ WINDS: dict[str, st.SearchStrategy[WindPrimitive]] = {
 
 
 def star(far: list[float]) -> list[list[float]]:
-    """The corners of a polygon around the middle that need not be convex."""
+    """Return the corners of a polygon around the middle, which need not be convex."""
     turn = np.linspace(0.0, 2.0 * np.pi, len(far), endpoint=False)
     corners: list[list[float]] = np.stack([far * np.cos(turn), far * np.sin(turn)], axis=1).tolist()
     return corners
@@ -102,14 +102,14 @@ def ear(ctx: moderngl.Context, grass: Grass) -> Iterator[CardEar]:
 
 
 def mixed(place: Floats, grass: Grass) -> Grass:
-    """Both kinds, in turn."""
+    """Return grass of both kinds, in turn."""
     return Grass(np.arange(len(place)) % 2, grass.step, grass.rise, grass.fall)
 
 
 def both(
     ear: CardEar, grass: Grass, now: list[Blowing], place: Floats, *, time: float, mixing: Mixing
 ) -> tuple[Floats, Floats]:
-    """What receivers hear on the card, and by numpy."""
+    """Return the messages computed by the card, and by numpy."""
     receivers, quarantine = lone_receivers(place, mixed(place, grass)), Quarantine()
     found = ear.hear(now, receivers, quarantine, time=time, seed=7, mixing=mixing)
     return found, hear(now, receivers, quarantine, time=time, seed=7, mixing=mixing)
@@ -120,7 +120,7 @@ def at_once(*winds: WindPrimitive, time: float) -> list[Blowing]:
 
 
 def around(pose: Pose, extent: Extent | None, count: int) -> Floats:
-    """Random ground positions in a wind's rectangle and a little beyond it."""
+    """Return random ground positions in a wind's extent and a little beyond it."""
     box = (-60.0, 60.0, -60.0, 60.0) if extent is None else (extent.left, extent.right, extent.ahead, extent.behind)
     low, high = np.array([box[0], box[2]]) - 0.5, np.array([box[1], box[3]]) + 0.5
     own = np.random.default_rng(3).uniform(low, high, (count, 2)).astype(np.float32)
@@ -168,7 +168,7 @@ def test_n4_a_wind_of_any_values_is_heard_alike_at_any_time(
     ],
 )
 def test_n4_masks_end_at_the_same_places(ear: CardEar, grass: Grass, wind: WindPrimitive) -> None:
-    """A tenth of a millimetre apart, across every rim: where a wind of higher claim cancels a steady breeze."""
+    """Pairs of places 0.1 mm apart across every rim, where a wind of higher claim cancels a steady breeze."""
     now = at_once(wind, CALM, time=4.0)
     turn = np.linspace(0.0, 2.0 * np.pi, 90)
     rays = np.stack([np.cos(turn), np.sin(turn)], axis=1)[:, None] * np.linspace(0.0, 12.0, 12001)[:, None]

@@ -1,4 +1,4 @@
-"""The whirlwind (W8): along circles, stronger inside, a pattern that goes slowly round."""
+"""The whirlwind (W8): messages along circles, stronger inside, and a pattern that turns slowly."""
 
 from collections.abc import Callable
 from typing import Literal
@@ -19,7 +19,7 @@ WIND = Whirlwind(radius=5.0, swing=0.0, soft=0.0)
 
 
 def ring(radius: float, count: int = 360, *, x: float = 0.0, z: float = 0.0) -> tuple[Floats, Floats]:
-    """Places on a circle, and the directions outwards there."""
+    """Return places on a circle, and the outward directions there."""
     angle = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)
     out = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     return (out * radius + [x, z]).astype(np.float32), out.astype(np.float32)
