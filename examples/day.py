@@ -31,7 +31,7 @@ class Game:
         self.window.push_handlers(self.keys, self.on_draw)
 
     def update(self, dt: float) -> None:
-        """Let time go by: `dt` [s]."""
+        """Advance the time by `dt` [s]."""
         turned, more = self.keys[key.RIGHT] - self.keys[key.LEFT], self.keys[key.UP] - self.keys[key.DOWN]
         self.hour = (self.hour + dt * (HOURS + 2.0 * turned)) % 24.0
         self.clouds = min(max(self.clouds + dt * CLOUDS * more, 0.0), 1.0)
@@ -48,7 +48,7 @@ class Game:
 
 
 def main(frames: int | None = None) -> None:
-    """Play until the window is closed, or for some frames of 1/60 s."""
+    """Play until the window is closed, or for a number of frames of 1/60 s."""
     game = Game()
     if frames is None:
         pyglet.clock.schedule_interval(game.update, 1 / 60)

@@ -66,7 +66,7 @@ class Game:
             self.prairie.sow("poppy", Footprint(radius=1.5), 0.9, soft=1.0, pose=Pose(-8.0, float(place)))
 
     def update(self, dt: float) -> None:
-        """Drive on for `dt` [s], and cut what lies before the mower."""
+        """Drive on for `dt` [s], and cut the grass before the mower."""
         self.prairie.advance(dt)
         yaw = self.pose.yaw + 1.2 * dt * (self.keys[key.RIGHT] - self.keys[key.LEFT])
         way = 3.0 * dt * self.keys[key.UP]
@@ -107,7 +107,7 @@ class Game:
 
 
 def main(frames: int | None = None) -> None:
-    """Farm until the window is closed, or for some frames of 1/60 s."""
+    """Farm until the window is closed, or for a number of frames of 1/60 s."""
     game = Game()
     if frames is None:
         pyglet.clock.schedule_interval(game.update, 1 / 60)

@@ -1,6 +1,6 @@
 """A first-person game with pyglet's own camera: walk among boulders that stand in the grass, and leave a way in it.
 
-Who walks is an entity with a `Presser`. The game sets `window.view` and `window.projection` as any pyglet game does,
+The walker is an entity with a `Presser`. The game sets `window.view` and `window.projection` as any pyglet game does,
 and hands both to the prairie. W, A, S and D walk, the mouse looks, Escape ends. Run it with `python first_person.py`.
 """
 
@@ -46,7 +46,7 @@ void main() {
 
 
 class Game:
-    """The window, the boulders, and who walks among them."""
+    """The window, the boulders, and the walker among them."""
 
     def __init__(self) -> None:
         self.window = pyglet.window.Window(*SIZE, caption="Boulders", resizable=True)
@@ -70,7 +70,7 @@ class Game:
         return made
 
     def update(self, dt: float) -> None:
-        """Walk on for `dt` [s]: what is held down says where."""
+        """Walk on for `dt` [s] as the held keys say."""
         self.prairie.advance(dt)
         ahead, right = self.keys[key.W] - self.keys[key.S], self.keys[key.D] - self.keys[key.A]
         self.x += 2.0 * dt * (ahead * sin(self.yaw) + right * cos(self.yaw))
@@ -100,7 +100,7 @@ class Game:
 
 
 def main(frames: int | None = None) -> None:
-    """Walk until the window is closed, or for some frames of 1/60 s."""
+    """Walk until the window is closed, or for a number of frames of 1/60 s."""
     game = Game()
     if frames is None:
         game.window.set_exclusive_mouse()

@@ -1,7 +1,7 @@
 """Two hundred animals wander over a prairie as a herd, tread the grass down, and leave paths.
 
 Each is an esper entity: `Animal` is the game's own; tallgrass knows where it is (`Pose`) and what it treads with
-(`Presser`). What a frame takes is shown below. Run it with `python herd.py`.
+(`Presser`). The window shows the time of a frame. Run it with `python herd.py`.
 """
 
 import sys
@@ -40,13 +40,13 @@ void main() {
 
 @dataclass
 class Animal:
-    """What the game knows of an animal: how fast it goes [m/s]."""
+    """The game's own component of an animal: its speed [m/s]."""
 
     speed: float
 
 
 class Wander(esper.Processor):
-    """Moves all animals at once: away from those too near, along with those around, and back from too far out."""
+    """Moves all animals at once: apart where they crowd, along with their neighbours, and back from too far out."""
 
     def process(self, dt: float) -> None:
         """Walk on for `dt` [s]."""
@@ -65,7 +65,7 @@ class Wander(esper.Processor):
 
 
 class Game:
-    """The window, the herd, and what a frame has taken."""
+    """The window, the herd, and the time of a frame."""
 
     def __init__(self) -> None:
         self.window = pyglet.window.Window(960, 540, caption="A herd")
@@ -80,7 +80,7 @@ class Game:
         self.window.push_handlers(self.on_draw)
 
     def on_draw(self) -> None:
-        """Draw the herd, then the prairie around it, then how long ago that was done before."""
+        """Draw the herd, then the prairie around it, then the time since the last frame."""
         x, z, yaw = np.array([(at.x, at.z, at.yaw) for _, (_, at) in esper.get_components(Animal, Pose)]).T[..., None]
         ahead, high, large = BALLS.T[:, None] + 0.0 * x
         balls = np.stack([x + np.sin(yaw) * ahead, high, z - np.cos(yaw) * ahead, large], axis=-1)
@@ -102,7 +102,7 @@ class Game:
 
 
 def main(frames: int | None = None) -> None:
-    """Wander until the window is closed, or for some frames of 1/60 s."""
+    """Wander until the window is closed, or for a number of frames of 1/60 s."""
     game = Game()
     if frames is None:
         pyglet.clock.schedule_interval(esper.process, 1 / 60)

@@ -84,7 +84,7 @@ def land() -> dict[str, object]:
 
 
 def cut_off(projection: Mat4, view: Mat4) -> NDArray[np.float64]:
-    """Return a projection whose near plane is the water, as a mirrored view has it: what is deeper is left out."""
+    """Return a projection whose near plane is the water's surface in a mirrored view: all below it is clipped."""
     made, see = (np.array(matrix).reshape(4, 4).T for matrix in (projection, view))
     plane = np.array([0.0, 1.0, 0.0, -0.02]) @ np.linalg.inv(see)
     corner = np.linalg.inv(made) @ [np.sign(plane[0]), np.sign(plane[1]), 1.0, 1.0]
@@ -112,12 +112,12 @@ class Game:
         self.window.push_handlers(self.keys, self.on_draw)
 
     def update(self, dt: float) -> None:
-        """Let time go by: `dt` [s]."""
+        """Advance the time by `dt` [s]."""
         self.prairie.advance(dt)
         self.yaw += 0.6 * dt * (self.keys[key.RIGHT] - self.keys[key.LEFT])
 
     def draw_mirrored(self, view: Mat4, projection: Mat4) -> None:
-        """Draw what the water mirrors into a texture."""
+        """Draw the mirrored view into a texture."""
         self.target.bind()
         gl.glClear(gl.GL_COLOR_BUFFER_BIT | gl.GL_DEPTH_BUFFER_BIT)
         self.prairie.draw(view @ MIRRORED, cut_off(projection, view @ MIRRORED), viewer="mirror")
@@ -142,7 +142,7 @@ class Game:
 
 
 def main(frames: int | None = None) -> None:
-    """Look at it until the window is closed, or for some frames of 1/60 s."""
+    """Show the lake until the window is closed, or for a number of frames of 1/60 s."""
     game = Game()
     if frames is None:
         pyglet.clock.schedule_interval(game.update, 1 / 60)

@@ -58,14 +58,14 @@ void main() {
 
 
 def road(part: float) -> tuple[float, float]:
-    """Return where the road is (x, z) [m], after a part of its round."""
+    """Return the road's place (x, z) [m] at a fraction of its round."""
     turn = 2.0 * pi * part
     far = 70.0 + 16.0 * sin(3.0 * turn + 1.0) + 7.0 * cos(5.0 * turn)
     return far * sin(turn), -far * cos(turn)
 
 
 def boxes(parts: Boxes) -> dict[str, Any]:
-    """Return triangles of boxes, as a vertex list takes them."""
+    """Return triangles of boxes for a vertex list."""
     faces = []
     for axis in range(3):
         for side in (-1.0, 1.0):
@@ -125,7 +125,7 @@ class Game:
             esper.add_component(lamp, Pose(place.x, place.z, self.yaw, y=place.y + high))
 
     def along(self, right: float, ahead: float) -> Vec3:
-        """Return a step as the car has it, in the world."""
+        """Return a vector of the car's frame in the world's."""
         s, c = sin(self.yaw), cos(self.yaw)
         return Vec3(right * c + ahead * s, 0.0, right * s - ahead * c)
 
@@ -147,7 +147,7 @@ class Game:
 
 
 def main(frames: int | None = None) -> None:
-    """Drive until the window is closed, or for some frames of 1/60 s."""
+    """Drive until the window is closed, or for a number of frames of 1/60 s."""
     game = Game()
     if frames is None:
         pyglet.clock.schedule_interval(game.update, 1 / 60)

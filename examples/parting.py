@@ -25,7 +25,7 @@ SIZE = (960, 540)
 
 @dataclass
 class Runner:
-    """A character: its speed [m/s], its turning to the right [rad/s], and how far it has come [m]."""
+    """A character: its speed [m/s], its turning to the right [rad/s], and the distance it has run [m]."""
 
     speed: float = 4.0
     turning: float = 0.0
@@ -33,7 +33,7 @@ class Runner:
 
 
 class Run(esper.Processor):
-    """Moves characters; their blast goes with them, because it is where their `Pose` is."""
+    """Moves characters; their blast moves along, as it is on the same entity as their `Pose`."""
 
     def process(self, dt: float) -> None:
         """Run on for `dt` [s]."""
@@ -44,7 +44,7 @@ class Run(esper.Processor):
 
 
 class Figure:
-    """What is seen of a character: a body and a head that bob as it runs."""
+    """The model of a character: a body and a head that bob as it runs."""
 
     def __init__(self) -> None:
         self.batch = pyglet.graphics.Batch()
@@ -102,7 +102,7 @@ class Game:
 
 
 def main(frames: int | None = None) -> None:
-    """Run until the window is closed, or for some frames of 1/60 s."""
+    """Run until the window is closed, or for a number of frames of 1/60 s."""
     game = Game()
     if frames is None:
         pyglet.clock.schedule_interval(game.update, 1 / 60)

@@ -94,7 +94,7 @@ void main() {
 
 
 def direction(azimuth: float, elevation: float) -> tuple[float, float, float]:
-    """Return where something stands in the sky, by its azimuth and elevation [degrees]."""
+    """Return a direction in the sky from its azimuth and elevation [degrees]."""
     turn, up = radians(azimuth), radians(elevation)
     return cos(up) * sin(turn), sin(up), -cos(up) * cos(turn)
 
@@ -117,7 +117,7 @@ class Game:
         self.window.push_handlers(self.keys, self.on_draw)
 
     def update(self, dt: float) -> None:
-        """Let time go by: `dt` [s]."""
+        """Advance the time by `dt` [s]."""
         self.prairie.advance(dt)
         self.yaw += 0.8 * dt * (self.keys[key.RIGHT] - self.keys[key.LEFT])
 
@@ -136,7 +136,7 @@ class Game:
 
 
 def main(frames: int | None = None) -> None:
-    """Look at it until the window is closed, or for some frames of 1/60 s."""
+    """Show the planet until the window is closed, or for a number of frames of 1/60 s."""
     game = Game()
     if frames is None:
         pyglet.clock.schedule_interval(game.update, 1 / 60)

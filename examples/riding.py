@@ -18,10 +18,10 @@ from tallgrass import Prairie
 
 SIZE = (960, 540)
 EYE = (2.0, 66.0)
-"""Where the listener stands (x, z) [m]."""
+"""Place of the listener (x, z) [m]."""
 
 SEEDS, SPREAD, CARRY = 900, np.array([24.0, 1.8, 30.0]), 9.0
-"""How many seeds there are, how far they are scattered (x, y, z) [m], and how fast a full wind carries them [m/s]."""
+"""Number of seeds, extent of their cloud (x, y, z) [m], and their speed in a full wind [m/s]."""
 MIDDLE = np.array([EYE[0], 2.0, EYE[1] - SPREAD[2]])
 SWITCHES = gl.GL_DEPTH_TEST, gl.GL_BLEND, gl.GL_PROGRAM_POINT_SIZE
 
@@ -41,7 +41,7 @@ void main() {
 
 
 def murmur() -> pyglet.media.Source:
-    """Return four seconds of noise that is softer the higher it is, and ends as it begins."""
+    """Return a loop of four seconds of noise, softer at higher frequencies."""
     tones = np.fft.rfft(np.random.default_rng(1).normal(size=4 * 22050))
     sound = np.fft.irfft(tones / np.maximum(np.fft.rfftfreq(4 * 22050, 1 / 22050), 120.0) ** 1.2)
     file = io.BytesIO()
@@ -99,7 +99,7 @@ class Game:
 
 
 def main(frames: int | None = None) -> None:
-    """Ride until the window is closed, or for some frames of 1/60 s, without a sound."""
+    """Ride until the window is closed, or for a number of frames of 1/60 s without sound."""
     game = Game()
     if frames is None:
         game.player.play()

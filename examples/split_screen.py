@@ -27,7 +27,7 @@ Color = tuple[int, int, int, int]
 
 
 class Walker:
-    """One of the two: where it is, what it treads, and what the other sees of it."""
+    """One of the two: its pose, its feet on the grass, and its model for the other one's view."""
 
     def __init__(self, name: str, pose: Pose, color: Color, keys: tuple[int, int, int]) -> None:
         self.name, self.color, (self.ahead, self.left, self.right) = name, color, keys
@@ -51,7 +51,7 @@ class Walker:
             part.matrix = Mat4.from_translation(self.feet + UP * high) @ Mat4.from_scale(Vec3(wide, tall, wide))
 
     def view(self) -> Mat4:
-        """Return what it sees."""
+        """Return its view matrix."""
         eye = self.feet + UP * 2.1
         return Mat4.look_at(eye, eye + Vec3(sin(self.pose.yaw), -0.12, -cos(self.pose.yaw)), UP)
 
@@ -76,7 +76,7 @@ class Game:
             walker.walk(dt, self.keys, self.prairie)
 
     def draw_half(self, walker: Walker, other: Walker, left: int, width: int, height: int) -> None:
-        """Draw what a walker sees, from a column of the window on."""
+        """Draw a walker's view into half of the window, from a column on."""
         gl.glViewport(left, 0, width, height)
         self.window.projection = Mat4.perspective_projection(width / height, 0.1, 2000.0, 50.0)
         self.window.view = walker.view()
@@ -120,7 +120,7 @@ class Game:
 
 
 def main(frames: int | None = None) -> None:
-    """Play until the window is closed, or for some frames of 1/60 s."""
+    """Play until the window is closed, or for a number of frames of 1/60 s."""
     game = Game()
     if frames is None:
         pyglet.clock.schedule_interval(game.update, 1 / 60)

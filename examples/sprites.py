@@ -31,7 +31,7 @@ def butterfly(color: str) -> pyglet.image.ImageData:
 
 
 class Butterfly:
-    """One of them: a sprite that flutters, and drifts with the wind of the place that it flies over."""
+    """A butterfly: a sprite that flutters, and drifts with the wind of the place below it."""
 
     def __init__(self, random: Random, batch: pyglet.graphics.Batch, group: pyglet.graphics.Group) -> None:
         image = butterfly(random.choice(COLORS))
@@ -51,7 +51,7 @@ class Butterfly:
 
 
 class Game:
-    """The window, what is in its batch, and the score."""
+    """The window, its batch, and the score."""
 
     def __init__(self) -> None:
         self.window = pyglet.window.Window(*SIZE, caption="Butterflies")
@@ -66,7 +66,7 @@ class Game:
         self.window.push_handlers(self.on_draw, self.on_mouse_press)
 
     def camera(self) -> tuple[Mat4, Mat4]:
-        """Return the view and the projection that the prairie is drawn with: a camera that never moves."""
+        """Return the prairie's view and projection: those of a camera that never moves."""
         eye = Vec3(0.0, float(self.prairie.height_at([(0.0, 60.0)])[0]) + 3.0, 60.0)
         view = Mat4.look_at(eye, eye + Vec3(0.0, -0.1, -1.0), Vec3(0.0, 1.0, 0.0))
         return view, Mat4.perspective_projection(SIZE[0] / SIZE[1], 0.1, 2000.0, 40.0)
@@ -94,7 +94,7 @@ class Game:
 
 
 def main(frames: int | None = None) -> None:
-    """Play until the window is closed, or for some frames of 1/60 s."""
+    """Play until the window is closed, or for a number of frames of 1/60 s."""
     game = Game()
     if frames is None:
         pyglet.clock.schedule_interval(game.update, 1 / 60)

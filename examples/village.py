@@ -1,7 +1,7 @@
 """A village at dusk: the game's own ground and houses, shadows of both on each other and on the grass, and lamps.
 
-The game draws its ground and houses first; the prairie then lays its grass over them (`parts` without "ground"). What
-the sun sees is drawn into a depth texture, which the game's own things and the grass ask. Run it with
+The game draws its ground and houses first; the prairie then lays its grass over them (`parts` without "ground"). The
+shadow map, a depth texture drawn from the sun, is read by the game's own things and by the grass. Run it with
 `python village.py`.
 """
 
@@ -68,19 +68,19 @@ Faces = tuple[Rows, Rows]
 
 
 def box(x: float, low: float, high: float, z: float, color: Rows) -> Faces:
-    """Return the four sides of a box about the middle, (4, 4, 3), and their colours, the same."""
+    """Return the four sides of a box about the middle, (4, 4, 3), and their colours, in the same shape."""
     round_it = [(-x, z), (x, z), (x, -z), (-x, -z), (-x, z)]
     sides = [[(a, low, b), (c, low, d), (c, high, d), (a, high, b)] for (a, b), (c, d) in pairwise(round_it)]
     return np.array(sides), np.tile(color, (4, 4, 1))
 
 
 def both(face: list[tuple[float, float, float]], color: Rows) -> Faces:
-    """Return a face, and the same on the other side."""
+    """Return a face, and the same one turned to the other side."""
     return np.array([face, np.array(face) * (-1.0, 1.0, -1.0)]), np.tile(color, (2, 4, 1))
 
 
 def house(width: float, depth: float, height: float) -> list[Faces]:
-    """Return what a house is made of: walls, windows that are lit, and a gable roof."""
+    """Return the faces of a house: walls, lit windows, and a gable roof."""
     w, d, top, eaves, out = width / 2.0, depth / 2.0, height + 0.45 * width, height - 0.36, depth / 2.0 + 0.4
     return [
         box(w, -1.0, height, d, WALL), box(w + 0.02, 1.0, 2.0, 0.5, PANE), box(0.5, 1.0, 2.0, d + 0.02, PANE),
@@ -125,7 +125,7 @@ class Game:
         self.window.push_handlers(self.on_draw)
 
     def put(self, faces: Faces, x: float, z: float, yaw: float = 0.0) -> Faces:
-        """Return what stands at a place on the ground, turned."""
+        """Return faces moved to a place on the ground, and turned."""
         s, c, y = sin(yaw), cos(yaw), float(self.prairie.height_at([(x, z)])[0])
         return faces[0] @ np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]]) + (x, y, z), faces[1]
 
@@ -162,7 +162,7 @@ class Game:
         gl.glDisable(gl.GL_DEPTH_TEST)
 
     def see_by_sun(self) -> pyglet.image.Texture:
-        """Draw what the sun sees into a depth texture, and return it."""
+        """Draw the view from the sun into a depth texture, and return it."""
         depth = gl.GL_DEPTH_COMPONENT
         shades = pyglet.image.Texture.create(MAP, MAP, internalformat=gl.GL_DEPTH_COMPONENT24, fmt=depth)
         target = Framebuffer()
@@ -192,7 +192,7 @@ class Game:
 
 
 def main(frames: int | None = None) -> None:
-    """Look at it until the window is closed, or for some frames of 1/60 s."""
+    """Show the village until the window is closed, or for a number of frames of 1/60 s."""
     game = Game()
     if frames is None:
         pyglet.clock.schedule_interval(game.prairie.advance, 1 / 60)

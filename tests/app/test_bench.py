@@ -38,7 +38,7 @@ FRAME = COMMON | {
     "seen_3d_ms", "ratio_to_seen_3d", "yardstick_ms", "cpu_over_yardstick", "animation_ms", "animation_part",
 }  # fmt: skip
 NARROW = (160, 216)
-"""A picture that reaches as far as a wide one, with less than half of its blades [pixels]."""
+"""Size of a picture that shows the same distances as a wide one, with less than half of its blades [pixels]."""
 
 PICTURE = COMMON | {"flip", "score", "score_msaa", "contrast", "bands"}
 pytestmark = pytest.mark.gl

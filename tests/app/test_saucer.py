@@ -47,7 +47,7 @@ def grassy(xz: Floats) -> Floats:
 
 
 GRASS = 0.75
-"""How high grass stands on all these grounds [m]."""
+"""Height of the grass on all these grounds [m]."""
 
 HILLS = Ground(hills, (200.0, 100.0), grassy)
 WIDE = Ground(hills, (1e6, 1e6), grassy)

@@ -44,7 +44,7 @@ Python = Callable[..., str]
 
 COARSEST = [StripRing(to=8, strips=2, columns=1, sections=1, texel=0.03)]
 LITTLE = PRESETS["low"].model_copy(update={"blades": 40, "models": 1, "strip_rings": COARSEST, "carpet": 16})
-"""What takes the place of the preset low: to grow it takes no longer than to draw a picture."""
+"""Quality that replaces the preset low: growing it takes no longer than drawing a picture."""
 
 ALIKE = models._Mechanics.of(GrassKind()), 0  # noqa: SLF001
 """How all grass bends on these pages, and its seed: to simulate each kind takes longer than to draw its picture."""
@@ -69,19 +69,19 @@ pyglet.window.Window.flip = shown
 """Ends a program that would run until its window is closed, after some pictures."""
 
 HERE = re.compile(r"(tallgrass (shot|film|check) (?!.*--on)[^|>&]*\n)+")
-"""Commands that are run in this process; most of the time that others take goes into starting one for each."""
+"""Commands that are run in this process, as starting a process takes longer than most of them."""
 
 PROGRAM = re.compile(r"(?:python|pytest -q) (\w+\.py)\n")
-"""A command that runs a page's own program, or its own test."""
+"""Commands that run a page's own program, or its own test."""
 
 MEASURED = {"performance.md"}
-"""Pages that tell how much grass there is."""
+"""Pages with counts of blades."""
 
 LONG = {
     "cameras.md", "embedding.md", "farm.md", "gallery.md", "ground.md", "mowing.md", "music.md", "smooth.md",
     "systems.md", "world.md",
 }  # fmt: skip
-"""Pages that take 2 to 17 s. What they call is called by the tests of frames, hosts and examples as well."""
+"""Pages that take 2 to 17 s; tests of frames, hosts and examples call the same functions."""
 
 COARSE = {
     r"^tallgrass (shot|film)": r"\g<0> --preset low",
@@ -93,14 +93,14 @@ COARSE = {
     r'preset="medium"': 'preset="low"',
     r"stage\(ctx, \(\d+, \d+\)\)": "stage(ctx, (160, 90))",
 }
-"""What is drawn coarsely here: growing fine grass takes longer than everything else on these pages."""
+"""Replacements that make commands coarse: growing fine grass takes longer than all else on these pages."""
 
 SMALL = {
     r'preset="medium"': 'preset="low"',
     r"stage\(ctx, \(\d+, \d+\)\)": "stage(ctx, (160, 90))",
     r"Window\(\d+, \d+": "Window(160, 90",
 }
-"""The same in programs."""
+"""Replacements that make programs coarse."""
 
 
 def blocks(page: str) -> list[re.Match[str]]:

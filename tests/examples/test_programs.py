@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 LONG = {"day", "farm", "lake", "night_drive", "planet", "riding", "split_screen", "village"}
-"""What takes 2 to 12 s: the others open windows and draw grass in every way that these do."""
+"""Examples that take 2 to 12 s; the other ones draw in all the same ways."""
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.py"))
 Python = Callable[..., str]
@@ -34,7 +34,7 @@ def look(window):
 pyglet.window.Window.flip, pyglet.window.Window.__init__ = look, small
 atexit.register(lambda: print(*seen))
 """
-"""Tells how many colours the lower third of each picture has: small ones."""
+"""Code that prints the number of colours in the lower third of each picture, and makes pictures small."""
 
 
 @pytest.mark.window

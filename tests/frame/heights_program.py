@@ -14,7 +14,7 @@ from tallgrass.testing import headless_context, looking, stage
 
 SIDE, CELL = 4097, 2.5
 HOLE = 9
-"""Samples along a side: 20 m."""
+"""Number of samples along a side: 20 m."""
 
 WARM, TIMES = 40, 40
 SHALLOW = 2.0

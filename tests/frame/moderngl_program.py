@@ -44,7 +44,7 @@ STORES = {
     0x0CF5: 2, 0x0CF2: 999, 0x0CF0: 1, 0x0CF1: 1, 0x0CF3: 2, 0x0CF4: 3, 0x806D: 1, 0x806E: 7, 0x0D05: 8, 0x0D02: 999,
     0x0D00: 1, 0x0D04: 3,
 }  # fmt: skip
-"""How texels lie in memory, as nobody else lays them."""
+"""Unusual layout of texels in memory."""
 
 ON_UNIT = {"texture": 0x8069, "texture array": 0x8C1D}
 

@@ -137,7 +137,7 @@ def plain(load: Load) -> Prairie:
 
 
 FAINT = 0.05
-"""What rows may swing by, in parts of how much blades differ: fainter ones nobody makes out among these."""
+"""Largest amplitude of rows, relative to the deviation of blades: fainter ones are invisible among blades."""
 
 
 def periodic(picture: Doubles, along: Doubles, spacing: float) -> float:

@@ -31,7 +31,7 @@ FLAT = (
     .replace("models: 2", "models: 1")
 )
 NEAR, FAR = 16.0, -12.0
-"""Where a floor lies among strips, and where on the carpet (z) [m]."""
+"""z of a floor among strips, and of one on the carpet [m]."""
 
 HALF, LIFT = 2.0, 0.05
 MAGENTA = 255.0, 0.0, 255.0

@@ -29,20 +29,20 @@ pytest.importorskip("flip_evaluator")
 CAMERAS = Path(__file__).parents[1] / "cameras"
 TODAY = CAMERAS / "today.toml"
 SIZE, SAMPLES = (160, 180), 4
-"""A picture that reaches as far as a wide one: what takes long are the blades of its reference."""
+"""Size of pictures [pixels], narrow, as blades of references take long; and samples across a pixel."""
 
 GOAL = {"luminance": 0.05, "hue": 3.0, "contrast": 0.8, "flip": 0.0}
-"""By how much the worst band may be too bright or too dark; by how many degrees off; the least contrast; and FLIP."""
+"""Largest errors of the worst band's luminance and hue [degrees], least contrast, and FLIP."""
 
 LOW_CONTRAST = 0.7
-"""The least contrast in the preset low."""
+"""Least contrast at preset low."""
 
 ROOM = {"luminance": 0.003, "hue": 0.2, "contrast": 0.01, "flip": 0.001}
 CARDS_ROOM = {"luminance": 0.006, "hue": 0.4, "contrast": 0.02, "flip": 0.003}
-"""What rasterisers, and cards, may differ by from the one that the figures are of."""
+"""Tolerances for other rasterisers and cards than that of the recorded figures."""
 
 QUICK = {"bare", "dusk", "saucer", "telephoto", "thin"}
-"""Those whose grass is grown in a moment, and that show what the others do not."""
+"""Cameras whose grass grows in a moment, and that together show most artefacts."""
 
 Figures = dict[str, float]
 

@@ -32,7 +32,7 @@ quality:
 """
 STEP = 0.05
 BEFORE, BEHIND = 20.0005, 19.9995
-"""On either side of a border between patches, at z = 20 m: beyond what is still taken for the edge itself."""
+"""z on either side of a border between patches at z = 20 m, beyond the tolerance of the edge itself [m]."""
 
 
 @pytest.fixture(scope="module")

@@ -32,10 +32,10 @@ SCENE: dict[str, Any] = {
 }
 CAMERA = Camera((0.0, 1.7, 12.0), 0.0, -0.1, np.radians(60.0))
 SIDE, HALF, DEEP = 512, 6.0, 40.0
-"""Pixels of the map; half its side, and half of how deep it is [m]."""
+"""Side of the map [pixels]; half its side, and half its depth [m]."""
 
 WALL = 2.0
-"""Where the wall stands that faces the sun (z) [m]: grass stands before it, towards -z."""
+"""z of the wall that faces the sun [m]; grass stands before it, towards -z."""
 
 
 @pytest.fixture(scope="module")

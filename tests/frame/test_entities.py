@@ -27,10 +27,10 @@ BREEZE = FLAT + "wind: [{ kind: breeze, strength: 0.3 }]\n"
 ABOVE = looking(0.6, 4.2, 22.0, pitch=-30.0, view=55.0)
 PATCH = 2.5
 PLACES = {"blades": (0.6, 17.8), "strips": (0.6, 11.0), "carpet": (0.6, -1.5)}
-"""A place that ABOVE sees in each representation."""
+"""Place in each representation that ABOVE shows."""
 
 FEWEST = {"blades": 300, "strips": 100, "carpet": 30}
-"""Pixels there that change at least where something happens to the patch."""
+"""Least number of pixels there that change with the patch."""
 
 Picture = NDArray[np.float64]
 

@@ -32,7 +32,7 @@ quality:
   carpet_to: 16
   carpet: 256
 """
-"""Flowers alone, on black ground: their eyes are of the petals' colour until a test says which."""
+"""Flowers alone, on black ground; their eyes have the petals' colour unless a test sets another."""
 
 BLUE, RED = BED.replace('eye: "#d02020"', 'eye: "#2020d0"'), BED
 

@@ -29,7 +29,7 @@ Draw = Callable[[Stage, Prairie], None]
 At = Callable[[float, float], None]
 
 NOTHING_KEEPS_IT = 1e-6
-"""A frame time [s]."""
+"""Frame time that no frame can keep [s]."""
 
 VERTEX = """#version 330
 uniform mat4 clip;

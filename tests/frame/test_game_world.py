@@ -30,7 +30,7 @@ Aim = Callable[..., Camera]
 WINDY = LITTLE + "wind: [{ kind: breeze, strength: 0.4 }, { kind: gust, position: [-20, 0] }]\n"
 HERE = np.array([[0.0, 0.0], [3.0, 4.0], [-9.0, 14.0]], np.float32)
 BESIDE = np.array([[0.0, 8.5]], np.float32)
-"""Where a runner is passed by, a little to its side."""
+"""Place that a runner passes, a little to its side."""
 
 SEEN = np.array([[0.0, 12.5]], np.float32)
 """A place that no crest hides."""

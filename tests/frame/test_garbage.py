@@ -28,7 +28,7 @@ quality:
 wind: [{ kind: breeze }, { kind: turbulence }]
 """
 SPEED = 50.0 / 60.0
-"""How far a fast flight goes in a frame [m]."""
+"""Distance of a fast flight in a frame [m]."""
 
 
 @pytest.fixture(scope="module")

@@ -25,7 +25,7 @@ Aim = Callable[..., Camera]
 OnCard = Callable[[Prairie], list[tuple[Receiving, Floats]]]
 
 SIDE, NINE = 3, 9
-"""Width of the stretch of one kind [m]; how many there are."""
+"""Width of the stretch of one kind [m], and the number of kinds."""
 
 ALL = Footprint(radius=30.0)
 

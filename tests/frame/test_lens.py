@@ -16,7 +16,7 @@ from tallgrass.testing import Stage
 
 CAMERAS = Path(__file__).parents[1] / "cameras"
 SIZE = (160, 720)
-"""As many lines as a whole picture has, as grain is counted in pixels; and few columns, for the reference's sake."""
+"""As many lines as a whole picture, as grain is measured in pixels; few columns, as references take long [pixels]."""
 
 GOAL = 0.8
 

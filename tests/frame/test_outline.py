@@ -36,7 +36,7 @@ quality:
   carpet: 64
 """
 AWAY = 50.0
-"""Where strips give way to the carpet [m]."""
+"""Distance at which strips give way to the carpet [m]."""
 
 WAY = np.linspace(0.0, 1.0, 11)
 
@@ -55,9 +55,9 @@ class Story:
 
     whole: list[Doubles]
     strips: list[Doubles]
-    """The same without the carpet."""
+    """Pictures without the carpet."""
     bare: Doubles
-    """The ground alone."""
+    """Picture of the ground alone."""
 
 
 @pytest.fixture(scope="module")

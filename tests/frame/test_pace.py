@@ -16,7 +16,7 @@ Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
 
 PACE, STEP = 1.6, 0.1
-"""How fast the walker goes [m/s], and time between frames [s]."""
+"""Speed of the walker [m/s], and time between frames [s]."""
 
 
 def test_r2_on_a_walk_frames_have_as_much_to_do_however_many_patches_are_changing(

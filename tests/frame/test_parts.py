@@ -26,10 +26,10 @@ LOW = STILL.replace("[0.2, 0.4]", "[0.12, 0.2]").replace("[0.5, 0.9]", "[0.15, 0
 """Dense grass, hardly higher than a game's own ground may be above the prairie's."""
 
 SKY = 0.2, 0.4, 0.6
-"""What a game clears its framebuffer with."""
+"""Colour with which a game clears its framebuffer."""
 
 EARTH = np.array([255.0, 0.0, 255.0])
-"""The colour of a game's own ground: no grass has any of it."""
+"""Colour of a game's own ground, which no grass has."""
 
 VERTEX = """#version 330
 in vec3 at;

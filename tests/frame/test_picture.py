@@ -64,7 +64,7 @@ light: { zenith: "#000000", horizon: "#000000", haze: 1000000, ground: "#000000"
     + QUALITY
 )
 SQUARE = 10
-"""Pixels of a side of the squares that pictures are compared by."""
+"""Side of the squares by which pictures are compared [pixels]."""
 
 LONE = """\
 tallgrass: 2

@@ -25,7 +25,7 @@ OnCard = Callable[[Prairie], list[tuple[Receiving, Floats]]]
 
 FLAT = LITTLE.replace("scale: 4", "scale: 0")
 CLOSE = 1e-5
-"""By how much a message on the graphics card may differ from that of numpy where only pressers act."""
+"""Tolerance between messages of the graphics card and of numpy, with pressers alone."""
 
 
 def run(prairie: Prairie, entity: int, *, far: float) -> None:

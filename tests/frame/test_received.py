@@ -39,7 +39,7 @@ Aim = Callable[..., Camera]
 OnCard = Callable[[Prairie], list[tuple[Receiving, Floats]]]
 
 CLOSE = 1e-3
-"""By how much a message on the graphics card may differ from that of numpy, and a height [m]."""
+"""Tolerance between messages of the graphics card and of numpy, and between heights [m]."""
 
 MAPPED = """\
 tallgrass: 2

@@ -184,7 +184,7 @@ EDITS: dict[str, list[tuple[str, str]]] = {
     "how winds meet": [("camera:", "mixing: priority\ncamera:")],
 }
 HELD_BESIDE = {"a colour", "the seed"}
-"""What other tests here read again as well."""
+"""Changes that other tests here cover, too."""
 
 
 @pytest.mark.parametrize(

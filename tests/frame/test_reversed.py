@@ -28,7 +28,7 @@ FROM_ZERO = DEFAULT_CLIP[0], 0x935F
 """`GL_ZERO_TO_ONE`."""
 
 NEAR, FAR = 0.1, 5000.0
-"""Of a stage's projection [m]."""
+"""Near and far plane of a stage's projection [m]."""
 
 VERTEX = """#version 330
 in vec3 at;
@@ -45,7 +45,7 @@ class Way:
 
     projection: Callable[[Numbers], Numbers]
     away: Callable[[Numbers], Numbers]
-    """How far off things of some depth are [m]."""
+    """Returns distances from depths [m]."""
 
     control: tuple[int, int] = DEFAULT_CLIP
     range: tuple[float, float] = (0.0, 1.0)

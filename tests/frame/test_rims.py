@@ -14,13 +14,13 @@ from tallgrass.testing import Stage, looking
 
 SIZE = 240, 160
 HEIGHT, AWAY = 10.0, 60.0
-"""How high the cliff is, and how far off its foot [m]."""
+"""Height of the cliff, and distance of its foot [m]."""
 
 GRASS = slice(90, 110)
-"""Rows of a picture in which there is nothing but the cliff's grass."""
+"""Rows of a picture that show the cliff's grass alone."""
 
 WITHIN = 0.1
-"""How far its outline may be from the reference's, in the mean of a metre and a half of it [m]."""
+"""Largest distance of its outline from the reference's, as a mean over a metre and a half [m]."""
 
 
 @pytest.fixture(scope="module")

@@ -28,7 +28,7 @@ Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
 
 WIDTH = 0.035
-"""How broad a blade is [m]."""
+"""Width of a blade [m]."""
 
 SCENE: dict[str, Any] = {
     "tallgrass": 2,
@@ -52,13 +52,13 @@ MIDDLE, UP, YAW = (LOW + HIGH) / 2.0, (0.2, 1.0, -0.15), 0.7
 """The box's middle [m]; where it stands along and heads for when it is turned [rad]."""
 
 ROD, THICK = 3.4, 0.8
-"""How long a capsule is there, and half of how thick [m]."""
+"""Length and radius of a capsule [m]."""
 
 FINE = 3
-"""How many rays go through a pixel across and up."""
+"""Number of rays through a pixel, across and up."""
 
 HALF, DEEP = 12.0, 60.0
-"""Half the side of the map, and half of how deep it is [m]."""
+"""Half the side of the map, and half its depth [m]."""
 
 
 def to_sun(azimuth: float = 160.0, elevation: float = 40.0) -> Array:
@@ -167,7 +167,7 @@ CASTERS: dict[str, tuple[Shade | None, Callable[[Array], NDArray[np.bool_]]]] = 
     "turned": (Shade(tuple(MIDDLE), size=tuple(HIGH - LOW), up=UP, yaw=YAW), in_turned),
     "capsule": (Shade(tuple(MIDDLE), THICK, ROD, UP, capsule=True), in_capsule),
 }
-"""What throws a shadow, without a shade the map; and where its shadow is."""
+"""Casters: a shade, or None for the map; and the function that returns whether places lie in the shadow."""
 
 
 @pytest.mark.parametrize(

@@ -38,10 +38,10 @@ STORM = GRASS + (
 )
 
 FEWER = CALM.replace("carpet: 16", "carpet: 16\n  pixels: 0.5")
-"""With fewer pixels, which are filtered up."""
+"""The scene with fewer pixels, which are enlarged."""
 
 FRAMES = 40
-"""After which all that came with a viewer is over."""
+"""Number of frames after which all transitions of a new viewer are over."""
 
 CALLS = 1620, 2340, 1910
 """What a frame may call in calm air, in a storm and with fewer pixels, in Python and from there in C: they were 1588,

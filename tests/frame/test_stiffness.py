@@ -41,7 +41,7 @@ quality:
   carpet: 64
 """
 LENGTH = 0.5
-"""Of every blade [m]."""
+"""Length of every blade [m]."""
 
 SOFT, STIFF = 0.2, 8
 NOW = 9.0

@@ -40,10 +40,10 @@ wind: [{wind}]
 """
 CAMERA = Camera((0.0, 8.0, 8.0), 0.0, -0.8, np.radians(30.0))
 SIZE, SQUARE = (96, 64), 16
-"""Pixels of a picture, and of the squares that it is compared by."""
+"""Size of a picture, and side of the squares by which it is compared [pixels]."""
 
 BEFORE, BEHIND, LEFT = 0.0, 180.0, -90.0
-"""Azimuths of the sun as the camera has it [degrees]."""
+"""Azimuths of the sun relative to the camera [degrees]."""
 
 RIDGE_X, RIDGE_HEIGHT = -8.0, 5.0
 """Where the ridge runs along z, to the left of all that is seen, and how high it is [m]."""

@@ -19,7 +19,7 @@ Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
 
 COMBINED = 48
-"""GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS at least, in OpenGL 3.3."""
+"""Least GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS of OpenGL 3.3."""
 
 SAMPLERS = {*range(0x8B5D, 0x8B65), *range(0x8DC0, 0x8DD9)}
 """Types of uniforms that read textures."""

@@ -28,7 +28,7 @@ MADE = (
     (carpet, "tiles_around"),
     (carpet, "find_edges"),
 )
-"""What takes long, and is the same as long as a viewer stands still."""
+"""Functions that take long, and whose results stay while a viewer stands still."""
 
 
 def seen(stage: Stage, prairie: Prairie, aim: Camera, viewer: str) -> Picture:

@@ -37,9 +37,9 @@ COUNT = int(os.environ.get("TALLGRASS_FUZZ", "300"))
 SEED = int(os.environ.get("TALLGRASS_FUZZ_SEED", "1"))
 FIRST = int(os.environ.get("TALLGRASS_FUZZ_FROM", "0"))
 LONGEST = 10.0
-"""How long one scene may take to be read or refused, with its maps and its wind [s]."""
+"""Longest time of reading or refusing a scene, with its maps and winds [s]."""
 MOST_MEMORY = 150.0
-"""How much memory a whole run may come to need [MB]: that of the one case that needs most."""
+"""Most memory of a whole run [MB]: that of the case that needs most."""
 
 HERE = Path(__file__).parent
 Random = np.random.Generator

@@ -31,7 +31,7 @@ System = Callable[[], object]
 
 FLAT = Terrain(np.zeros((81, 81), np.float32), 1.0)
 WIDE = (2 * 9 + 1) ** 2
-"""Patches around a viewer."""
+"""Number of patches around a viewer."""
 
 
 @pytest.fixture

@@ -19,7 +19,7 @@ from tallgrass.systems import streaming
 from tallgrass.systems.streaming import Streaming
 
 EYE = 112.0, 2.0, 0.0
-"""Where a viewer has come so far that the window has to go on, and no farther."""
+"""Place of a viewer at which the window just has to move."""
 
 
 def level(x: Any, z: Any) -> Any:

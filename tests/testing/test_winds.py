@@ -55,7 +55,7 @@ def test_a_right_wind_has_no_problems() -> None:
 
 
 CALLS: list[float] = []
-"""What the impure winds below remember."""
+"""Memory of the impure winds below."""
 
 
 @pytest.fixture(autouse=True)

@@ -1,4 +1,4 @@
-"""The vortex street keeps the rules of winds, and its vortices turn and drift as behind a rock."""
+"""The vortex street keeps the rules of winds, and its whirls turn and drift as behind a rock."""
 
 import numpy as np
 from vortex_street import VortexStreet

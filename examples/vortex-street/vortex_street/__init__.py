@@ -15,16 +15,16 @@ class VortexStreet(PlacedWind):
     rock: float = Field(default=2.0, ge=0.2, le=50.0)
     """Width of the rock [m]."""
     speed: float = Field(default=2.5, ge=0.0, le=40.0)
-    """How fast the whirls drift [m/s]."""
+    """Speed at which the whirls drift [m/s]."""
     strength: float = Field(default=0.8, ge=0.0, le=1.0)
     """Posture index that a young whirl adds on its rim."""
 
     def rates(self) -> tuple[float]:
-        """Return how many whirls the rock sheds in a second; so they go on smoothly when a game changes the speed."""
+        """Return the frequency of whirls [1/s], so that they go on smoothly when a game changes the speed."""
         return (self.speed / (2.5 * self.rock),)
 
     def extent(self, *, time: float) -> Extent:
-        """Return the rectangle of ten whirls; a rock sheds one on each side every five of its widths."""
+        """Return the rectangle of ten whirls; on each side they are five widths of the rock apart."""
         return Extent(-2.5 * self.rock, 2.5 * self.rock, -25.0 * self.rock, 0.0)
 
     def mask(self, place: np.ndarray, /, *, time: float) -> np.ndarray:
@@ -44,6 +44,6 @@ class VortexStreet(PlacedWind):
         return np.asarray(message / np.maximum(1.0, np.linalg.norm(message, axis=1, keepdims=True)))
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
-        """Return what its twin reads beside its fields: side and age of the latest whirl."""
+        """Return the numbers that its twin reads in addition to its fields: side and age of the latest whirl."""
         latest, age = divmod(self.phases(time=time)[0], 1.0)
         return TwinValues({"side": latest % 2 * 2 - 1, "age": age})

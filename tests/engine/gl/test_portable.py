@@ -17,7 +17,7 @@ STAGES = sorted(
 PIXELS = [name for name in STAGES if name.endswith(".frag")]
 
 DIFFERENCE = re.compile(r"\b(?:dFdx|dFdy|fwidth|texture)\(")
-"""What a pixel finds out from its neighbours: they must have come to the same line."""
+"""Functions that read neighbouring pixels, which must have reached the same line."""
 
 SAME = re.compile(r"anything_is_cut\(\)|any_maps\(\)|earth_side|over_hosts|\bform ==|\bmixed\.|\brow_told\.|\brough <")
 """What is the same for all pixels of a draw, or of a flat card: a condition on these parts none from its neighbours."""

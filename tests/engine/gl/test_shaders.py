@@ -193,7 +193,7 @@ def test_lines_that_are_handed_in_stand_in_place_of_a_file(library: dict[str, li
 
 PLAIN_NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+)(?:e[-+]?\d+)?u?(?![\w.])")
 OWN_TABLE = "engine/shaders/lib/random.glsl"
-"""Its numbers are those of the hash, and tests hold them bit for bit against `engine/random.py`."""
+"""Its numbers are the hash's own; tests compare them bit for bit with `engine/random.py`."""
 
 SHADERS = [
     path.relative_to(ROOT).as_posix()

@@ -88,7 +88,7 @@ def test_beyond_the_terrain_its_nearest_edge_holds(x: float, z: float) -> None:
 
 MIRRORED = replace(rough(), mirrored=True)
 SEEN = Terrain(np.pad(rough().heights, ((24, 24), (39, 39)), mode="reflect"), 2.0)
-"""What is seen in its mirrors, three times as far to each side and a part of the fourth."""
+"""The terrain with its mirror images: three to each side, and a part of the fourth."""
 
 
 def test_mirrored_ground_goes_on_as_what_is_seen_in_a_mirror_along_its_edges() -> None:

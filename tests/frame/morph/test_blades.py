@@ -19,7 +19,7 @@ from tallgrass.systems.transition import weights
 Defines = dict[str, str | int]
 
 SIZE = (1280, 720)
-"""Of the picture that the blades are on their way in [pixels]."""
+"""Size of the picture in which blades morph [pixels]."""
 RIBBON = "systems/show/blades/ribbon.vert"
 
 

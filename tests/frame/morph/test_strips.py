@@ -12,7 +12,7 @@ from tallgrass.systems.show.strips.pool import is_reversed
 from tallgrass.systems.show.strips.shown import StripsShown
 
 FILTERED = 0.02
-"""What places may differ by where cards filter heights: by 256 steps between two texels [m]."""
+"""Tolerance of places, as cards filter heights in 256 steps between two texels [m]."""
 
 
 def bent(scene: Any, kind: NDArray[np.int64], message: NDArray[np.float32]) -> Doubles:

@@ -26,7 +26,7 @@ EYE = (0.3, 1.7, 0.7)
 ALL_ROUND = (0.0, pi)
 SPACING = 1.25
 CORNER = (31.0, 11.0)
-"""Where grass ends: in a corner of a tile."""
+"""Place (x, z) where grass ends, in a corner of a tile [m]."""
 
 
 def touches(rectangles: Rectangles) -> Mask:

@@ -17,7 +17,7 @@ out float told;
 void main() { told = thinned(row.x, row.y, row.z, 4.0, row.w); }"""
 TEXELS, BLADES, SAMPLES, COVERS = 1500, 6, 64, 0.15
 MANY = 3.0
-"""A level of the mip-maps whose texels show many blades."""
+"""Mip level whose texels show many blades."""
 
 
 @pytest.mark.parametrize("dense", [0.1, 0.25, 0.6])

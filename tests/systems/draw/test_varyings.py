@@ -18,7 +18,7 @@ from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import LITTLE, looking
 
 SURE = 60
-"""GL_MAX_VARYING_COMPONENTS at least, in OpenGL 3.3."""
+"""Least GL_MAX_VARYING_COMPONENTS of OpenGL 3.3."""
 
 NUMBERS = {0x1406: 1, 0x8B50: 2, 0x8B51: 3, 0x8B52: 4, 0x8B5C: 16, 0x1404: 1}
 """Numbers of GL_FLOAT, its vectors, GL_FLOAT_MAT4 and GL_INT."""

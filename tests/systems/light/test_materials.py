@@ -27,7 +27,7 @@ PATCH = 2.5
 HEIGHTS = np.array([0.0, 0.2, 0.4, 0.6, 0.8, 0.95])
 SAMPLES = 400
 FEW = PRESETS["low"].model_copy(update={"models": 1, "strip_rings": PRESETS["low"].strip_rings[-1:]})
-"""The blades of the preset low, and little else: light knows of nothing else."""
+"""The preset low with one model and the coarsest strips: light depends on its blades alone."""
 
 KINDS = {
     "meadow": GrassKind(height=[0.4, 0.7]),

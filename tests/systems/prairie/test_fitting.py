@@ -28,7 +28,7 @@ SCENE: dict[str, Any] = {
     "quality": safe_load(LITTLE)["quality"],
 }
 OLD = Path(__file__).with_name("format-3.prairie")
-"""Made on this scene by a release that wrote format 3."""
+"""State of this scene, written in format 3."""
 
 SOWN, DUG = (-10.0, 13.0), (2.5, 2.5)
 

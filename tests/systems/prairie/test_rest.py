@@ -16,7 +16,7 @@ from tallgrass.testing import looking, watch
 from .conftest import Load
 
 STOOD = 90
-"""Frames after which all that came with the viewer is over."""
+"""Number of frames after which all transitions of a new viewer are over."""
 
 
 def follow(prairie: Prairie, *, x: float = 0.0, height: float = 4.0, view: float = 45.0) -> None:

@@ -36,7 +36,7 @@ def directions(message: Floats) -> Floats:
 
 
 def on_ellipse(across: float, along: float, part: float) -> tuple[Floats, Floats, Floats]:
-    """Return places inside of an ellipse's outline along its normals, these normals, and the places on the outline."""
+    """Return places inside of an ellipse's outline along its normals, these normals, and directions from its middle."""
     angle = np.linspace(0.0, 2.0 * np.pi, 72, endpoint=False)
     edge = np.stack([across * np.cos(angle), along * np.sin(angle)], axis=1)
     normal = np.stack([np.cos(angle) / across, np.sin(angle) / along], axis=1)

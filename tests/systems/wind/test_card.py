@@ -100,7 +100,7 @@ def agrees(ear: CardEar, now: list[Blowing], mixing: Mixing = "weight", quaranti
 
 
 def written(monkeypatch: pytest.MonkeyPatch, kind: type[WindPrimitive], text: str) -> Twin:
-    """Return the function that gives a class of winds a twin whose text exists in memory only."""
+    """Give a class of winds a twin whose text exists in memory only, and return the twin."""
     twin = Twin.of(f"{kind.__name__}.glsl", text.splitlines())
     monkeypatch.setattr("tallgrass.systems.wind.card.twin_of", lambda other: twin if other is kind else twin_of(other))
     return twin

@@ -18,7 +18,7 @@ from tallgrass.systems.wind.turbulence import Turbulence
 STILL = Grass(np.zeros(0, np.intp), *np.ones((3, 1, 2), np.float32))
 WIND = Turbulence(direction=33.0, strength=0.3, intensity=0.2, scale=20.0, speed=8.0)
 STEP, LONG = 1.0 / 64.0, 4096
-"""Length scales between places along the wind, and how many there are on a line."""
+"""Distance of places along the wind [length scales], and their number on a line."""
 
 HOUR, WITHIN = 3600.0, 4.0 * 3600.0
 

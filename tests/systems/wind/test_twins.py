@@ -26,7 +26,7 @@ from tallgrass.testing.twins import CLOSE_TWIN, CardEar
 
 CALM = Breeze(strength=0.3, gustiness=0.0, swing=0.0, direction=0.0)
 ROUNDED = 1.5
-"""By how much more than a rasteriser a card's own sines and filters may round: NVIDIA's by 1.3."""
+"""Factor on tolerances for a card's own sines and filters; NVIDIA's need 1.3."""
 
 LATE = st.floats(0.0, 36000.0)
 INDEX = st.floats(0.0, 1.0)
