@@ -3,15 +3,24 @@
 import logging
 import os
 import tempfile
+from collections.abc import Iterator
 from contextlib import suppress
 from functools import cache
 from hashlib import blake2b
+from importlib.metadata import PackageNotFoundError, version
+from importlib.resources import files
+from importlib.resources.abc import Traversable
 from pathlib import Path
+
+import numpy as np
 
 log = logging.getLogger("tallgrass")
 
 DIGEST = 32
 """Length of a checksum [bytes]."""
+
+CODE = ".py", ".glsl", ".vert", ".frag"
+"""Suffixes of source files."""
 
 
 def cache_folder() -> Path | None:
@@ -34,6 +43,31 @@ def tell_nothing_is_kept(folder: str, reason: str, /) -> None:
         "what has been grown cannot be kept in %s (%s), so it is grown each time: TALLGRASS_CACHE may name a folder",
         folder, reason,
     )  # fmt: skip
+
+
+@cache
+def code_hash(*paths: str) -> str:
+    """Return a hexadecimal hash of the sources at paths in this package, files or folders, for the key of a cache.
+
+    So nothing is used that other code has made. The versions of this package and of numpy count, too: a game that was
+    compiled has no sources.
+    """
+    digest = blake2b(np.__version__.encode(), digest_size=DIGEST // 2)
+    with suppress(PackageNotFoundError):
+        digest.update(version("tallgrass").encode())
+    for path in paths:
+        for name, source in _sources(path, files("tallgrass").joinpath(path)):
+            digest.update(name.encode() + b"\0" + source.read_bytes())
+    return digest.hexdigest()
+
+
+def _sources(path: str, entry: Traversable) -> Iterator[tuple[str, Traversable]]:
+    """Yield the path and file of each source file at a path, in order; nothing where there is none."""
+    if entry.is_dir():
+        for inner in sorted(entry.iterdir(), key=lambda each: each.name):
+            yield from _sources(f"{path}/{inner.name}", inner)
+    elif entry.is_file() and path.endswith(CODE):
+        yield path, entry
 
 
 def checksum(data: bytes | memoryview, key: str, /) -> bytes:

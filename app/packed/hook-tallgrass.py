@@ -8,17 +8,9 @@ from PyInstaller.utils.hooks import collect_data_files, collect_entry_point, cop
 FILES = {
     "tallgrass.scenes": ["*.yaml", "*.png"],
     "tallgrass.engine": ["**/*.glsl", "**/*.vert", "**/*.frag"],
-    "tallgrass.systems": [
-        "**/*.glsl",
-        "**/*.vert",
-        "**/*.frag",
-        "grow/*.py",
-        "stock/*.py",
-        "**/grow.py",
-        "light/repeating.py",
-    ],
+    "tallgrass.systems": ["**/*.glsl", "**/*.vert", "**/*.frag", "**/*.py"],
 }
-"""Files read at run time, by package. Code that grows grass is read, too: its hash is a part of the cache's keys."""
+"""Files read at run time, by package. Code counts, too: its hash is a part of the keys of caches."""
 
 datas = copy_metadata("tallgrass")
 hiddenimports = []

@@ -6,8 +6,6 @@ Zero Dawn, 2015). Each texel also holds the gradient of the noise, from which a 
 """
 
 from functools import cache
-from hashlib import blake2b
-from importlib.resources import files
 from itertools import product
 
 import moderngl
@@ -16,7 +14,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Floats
 from ...engine.gl.functions import NUMBERS, functions_of
-from ...engine.kept import DIGEST, keep, kept
+from ...engine.kept import code_hash, keep, kept
 from .repeating import CLOUDS_SIDE
 
 SIDE = 64
@@ -85,9 +83,7 @@ _LEVEL_ENDS = np.cumsum([4 * (SIDE >> level) ** 3 for level in range(LEVELS - 1)
 
 def _cached_levels() -> NDArray[np.uint8]:
     """Return all levels, concatenated, from the cache where possible: making them takes a quarter second."""
-    digest = blake2b(np.__version__.encode(), digest_size=DIGEST // 2)
-    digest.update((files("tallgrass.systems") / "light/billows.py").read_bytes())
-    key = digest.hexdigest()
+    key = code_hash("systems/light/billows.py")
     cached = kept(key + SUFFIX, key)
     if cached is not None:
         return np.frombuffer(cached, np.uint8)

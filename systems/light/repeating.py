@@ -1,9 +1,8 @@
 """Maps that repeat over the terrain: the density of clouds, and litter and low leaves on the ground."""
 
 from collections.abc import Sequence
-from functools import cache, lru_cache
+from functools import lru_cache
 from hashlib import blake2b
-from importlib.resources import files
 from itertools import pairwise
 
 import moderngl
@@ -14,7 +13,7 @@ from ...components.arrays import Doubles, Floats
 from ...components.wind import WindPrimitive
 from ...engine.gl.mipmaps import mipmapped_image
 from ...engine.gl.rasteriser import anisotropy
-from ...engine.kept import DIGEST, keep, kept
+from ...engine.kept import DIGEST, code_hash, keep, kept
 from ..grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
 from ..wind.blow import mean_wind
 
@@ -23,6 +22,9 @@ SIDE = 512
 
 LITTER_SIDE = 1.8
 """Side of the square of ground that repeats [m]."""
+
+CODE = "systems/light/repeating.py", "systems/grow/raster.py"
+"""Sources that make the maps."""
 
 STRAWS = 2600
 """Number of straws on that square."""
@@ -237,19 +239,10 @@ def repeating_levels(*, seed: int) -> tuple[NDArray[np.uint8], ...]:
 def _cached_texels(seed: int) -> NDArray[np.uint8]:
     """Return the finest level, from the cache where possible: making it takes half a second."""
     shape = SIDE, SIDE, 3
-    key = blake2b(f"{_code_hash()} {seed}".encode(), digest_size=DIGEST // 2).hexdigest()
+    key = blake2b(f"{code_hash(*CODE)} {seed}".encode(), digest_size=DIGEST // 2).hexdigest()
     cached = kept(key + SUFFIX, key)
     if cached is not None and len(cached) == np.prod(shape):
         return np.frombuffer(cached, np.uint8).reshape(shape)
     texels = np.stack([cloud_map(seed=seed), *ground_maps(seed=seed)], axis=-1)
     keep(key + SUFFIX, key, texels.tobytes(), most=MOST_FILES)
     return texels
-
-
-@cache
-def _code_hash() -> str:
-    """Return a hash of the code that makes the maps, so that maps cached by other code are not used."""
-    digest = blake2b(np.__version__.encode(), digest_size=DIGEST // 2)
-    for name in ("light/repeating.py", "grow/raster.py"):
-        digest.update((files("tallgrass.systems") / name).read_bytes())
-    return digest.hexdigest()

@@ -1,25 +1,22 @@
 """The cache of growths on disk, under a hash of everything that a growth depends on."""
 
 import json
-from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import asdict
-from functools import cache
 from hashlib import blake2b
-from importlib.resources import files
-from importlib.resources.abc import Traversable
 from pathlib import Path
-
-import numpy as np
 
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
-from ...engine.kept import cache_folder, forget_oldest, mark_used, tell_nothing_is_kept, write_whole
+from ...engine.kept import cache_folder, code_hash, forget_oldest, mark_used, tell_nothing_is_kept, write_whole
 from ..grow.layout import layout_of
 from ..grow.record import Growth
 from ..show.registry import REPRESENTATIONS
 from .archive import pack, unpack
 from .models import blade_count, grow
+
+CODE = "systems/grow", "systems/stock", *(f"systems/show/{each.name}/grow.py" for each in REPRESENTATIONS)
+"""Sources that grow grass; a representation without pictures of its own has no `grow.py`."""
 
 _SUFFIX = ".growth"
 _MOST = 48
@@ -76,7 +73,7 @@ def _kept(kind: GrassKind, quality: Quality, key: str, folder: Path) -> Growth |
 def growth_key(kind: GrassKind, quality: Quality, /, *, seed: int) -> str:
     """Return a hexadecimal hash of all that the result of `grow` depends on: not of colours or places."""
     depends = {
-        "version": _version(),
+        "code": code_hash(*CODE),
         "seed": seed,
         "kind": _grown_by(kind),
         "layout": asdict(layout_of(kind, quality)),
@@ -96,22 +93,3 @@ def _grown_by(kind: GrassKind) -> dict[str, object]:
     if kind.head is not None:
         kept["head"] = kind.head.model_dump(exclude={"eye"}, mode="json") | {"eye": kind.head.eye is not None}
     return kept
-
-
-@cache
-def _version() -> str:
-    """Return a hash of the code that grows, so that a growth of other code is never used."""
-    digest = blake2b(np.__version__.encode(), digest_size=16)
-    for name, source in sorted(_sources(files("tallgrass.systems"))):
-        digest.update(name.encode() + b"\0" + source.read_bytes())
-    return digest.hexdigest()
-
-
-def _sources(folder: Traversable, path: str = "") -> Iterator[tuple[str, Traversable]]:
-    """Yield the path and file of all code that grows: `grow`, `stock`, and each representation's `grow.py`."""
-    for entry in folder.iterdir():
-        name = f"{path}/{entry.name}"
-        if entry.is_dir():
-            yield from _sources(entry, name)
-        elif entry.name == "grow.py" or (name.startswith(("/grow/", "/stock/")) and name.endswith(".py")):
-            yield name, entry

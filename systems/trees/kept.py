@@ -3,22 +3,21 @@
 import io
 import json
 import zipfile
-from collections.abc import Iterator
 from contextlib import suppress
-from functools import cache
 from hashlib import blake2b
-from importlib.resources import files
-from importlib.resources.abc import Traversable
 
 import numpy as np
 
 from ...components.arrays import Bytes
-from ...engine.kept import keep, kept
+from ...engine.kept import code_hash, keep, kept
 from .bake import CARD
 from .far import COARSER, COLUMNS, LEVELS, ROWS
 from .twig import PICTURES as OF_TWIGS
 
 SUFFIX = ".trees"
+
+CODE = "systems/trees", "engine/shaders/lib"
+"""Sources that grow and draw trees."""
 
 MOST = 24
 """Number of files that are kept, one a kind of tree, of some megabytes each."""
@@ -32,7 +31,7 @@ Picture = list[Bytes]
 
 def kind_key(habit: str, seed: int, renderer: str, /) -> str:
     """Return the cache key of a kind's pictures on a graphics card, in hexadecimal; colours are not in it."""
-    depends = {"version": _version(), "habit": habit, "seed": seed, "renderer": renderer}
+    depends = {"code": code_hash(*CODE), "habit": habit, "seed": seed, "renderer": renderer}
     return blake2b(json.dumps(depends, sort_keys=True).encode(), digest_size=20).hexdigest()
 
 
@@ -76,20 +75,3 @@ def sizes_of(sides: list[tuple[int, int]], /) -> list[list[tuple[int, int, int, 
     return [
         [(layers, rows >> level, columns >> level, 4) for level in levels] for layers, rows, columns, levels in each
     ]
-
-
-@cache
-def _version() -> str:
-    """Return a hash of the code that grows and draws trees: pictures of other code do not count."""
-    digest = blake2b(np.__version__.encode(), digest_size=16)
-    root = files("tallgrass")
-    for folder in (root / "systems" / "trees", root / "engine" / "shaders" / "lib"):
-        for name, source in sorted(_sources(folder)):
-            digest.update(name.encode() + b"\0" + source.read_bytes())
-    return digest.hexdigest()
-
-
-def _sources(folder: Traversable) -> Iterator[tuple[str, Traversable]]:
-    for entry in folder.iterdir():
-        if entry.is_file() and entry.name.endswith((".py", ".glsl", ".vert", ".frag")):
-            yield entry.name, entry

@@ -106,7 +106,7 @@ def test_another_quality_is_grown_anew(change: dict[str, Any]) -> None:
 
 def test_another_seed_or_other_code_is_grown_anew(monkeypatch: pytest.MonkeyPatch) -> None:
     keys = {growth_key(KIND, SMALL, seed=seed) for seed in (5, 6)}
-    monkeypatch.setattr(cache, "_version", lambda: "other")
+    monkeypatch.setattr(cache, "code_hash", lambda *_: "other")
     keys.add(growth_key(KIND, SMALL, seed=5))
     assert len(keys) == 3
 
