@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ..components.arrays import Doubles
 from ..components.pose import Pose
 
-NUMBERS = (float, int, np.floating, np.integer)
+NUMBER_TYPES = (float, int, np.floating, np.integer)
 """Types that are accepted as a number."""
 
 _PLAIN = frozenset({float, np.float64, np.float32})
@@ -81,7 +81,7 @@ def as_rays(origin: object, direction: object, /) -> tuple[Doubles, Doubles]:
 def is_somewhere(pose: Pose, /) -> bool:
     """Return whether a game's pose has numbers within `FARTHEST` for its position and yaw."""
     numbers = (pose.x, pose.z, pose.yaw, 0.0 if pose.y is None else pose.y)
-    return all(isinstance(n, NUMBERS) and -FARTHEST <= n <= FARTHEST for n in numbers)
+    return all(isinstance(n, NUMBER_TYPES) and -FARTHEST <= n <= FARTHEST for n in numbers)
 
 
 def as_places_of(poses: Iterable[Pose], /) -> Doubles | None:
@@ -136,7 +136,7 @@ def must_be_time(thing: object, what: str = "a wind is asked for", at: str = "at
 
 
 def _must_be_seconds(thing: object, what: str, at: str) -> None:
-    if not isinstance(thing, NUMBERS):
+    if not isinstance(thing, NUMBER_TYPES):
         raise TypeError(f"{what} {at} a number of seconds, not {at} {shortened(thing)}")
     if not 0.0 <= thing <= LONGEST:
         raise ValueError(f"{what} {at} 0 s to {LONGEST:g} s, not {at} {thing}")

@@ -13,7 +13,7 @@ import esper
 
 from ..components.pose import Pose
 from ..components.resident import Resident
-from .handed import NUMBERS, SOMEWHERE, is_somewhere
+from .handed import NUMBER_TYPES, SOMEWHERE, is_somewhere
 
 Component = TypeVar("Component")
 Other = TypeVar("Other")
@@ -246,7 +246,7 @@ class Advance(esper.Processor):
         del args, options
         if dt is None:
             return
-        if not isinstance(dt, NUMBERS):
+        if not isinstance(dt, NUMBER_TYPES):
             raise TypeError(
                 f"esper.process hands its arguments to every processor, and tallgrass needs dt [s] first, not {dt!r}"
             )

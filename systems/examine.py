@@ -16,7 +16,7 @@ from ..engine.terrain.record import Density, Terrain
 from .fitting import kinds_of
 from .mow.sown import carried
 from .press.footprint import discs_of
-from .press.trail import BEGUN, FIRST, LAST, LEFT, NUMBERS, REACH, Stretches
+from .press.trail import BEGUN, COLUMNS, FIRST, LAST, LEFT, REACH, Stretches
 from .press.walk import WalkState
 from .pressers import Treading
 from .saved import Arrays, Saved, SavedTreading, SavedWalk, component_of, fields_of, from_planes, refuse
@@ -76,7 +76,7 @@ def _doubles(arrays: Arrays, name: str, shape: tuple[int, ...]) -> Doubles:
 
 
 def _stretches(arrays: Arrays, name: str, count: int = -1) -> Stretches:
-    found = _doubles(arrays, name, (count, NUMBERS))
+    found = _doubles(arrays, name, (count, COLUMNS))
     length = np.hypot(*(found[:, LAST] - found[:, FIRST]).T)
     in_range = (np.abs(found[:, : LAST.stop]) <= FARTHEST).all() and (length <= LONGEST).all()
     in_range = in_range and ((found[:, REACH] > 0.0) & (found[:, REACH] <= WIDEST)).all()

@@ -10,7 +10,7 @@ from math import ceil, floor, inf, log
 from statistics import median
 from time import perf_counter
 
-from ..engine.handed import NUMBERS
+from ..engine.handed import NUMBER_TYPES
 from .around.outlook import Outlook
 from .around.pace import change_step
 from .painter import Painter
@@ -171,7 +171,7 @@ class Governor:
 
     @hold.setter
     def hold(self, seconds: float | None) -> None:
-        if seconds is not None and not (isinstance(seconds, NUMBERS) and 0.0 < seconds < inf):
+        if seconds is not None and not (isinstance(seconds, NUMBER_TYPES) and 0.0 < seconds < inf):
             raise ValueError(f"a frame is held to a time above 0 s, or to None for no limit, not to {seconds!r}")
         self._hold = seconds
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 from weakref import WeakKeyDictionary
@@ -19,20 +18,18 @@ from ..engine.scene import LoadedScene, SceneLike, must_be_read, read_again, rea
 from ..engine.schedule import Phase, Schedule
 from ..engine.world import World
 from .around.asked import Frame
-from .around.outlook import Outlook
 from .around.transitions import SEAMLESS, Transitions
 from .assembly import Assembly, replace_built_in
 from .features import feature_of
-from .frame.feature import Feature, overriding
 from .govern import Governor
+from .looking import Looking
 from .painter import Painter
 from .ripen import Ripening, Stage
 from .saving import Saving
 from .screen import Screen
 from .seasons import Seasons
-from .site import Site, found_again, found_site, outlook_on, settle_on
+from .site import Site, found_again, found_site, settle_on
 from .statistics import Statistics
-from .streaming import Streaming
 from .tending import Tending
 from .trees.feature import Trees
 
@@ -44,9 +41,6 @@ if TYPE_CHECKING:
 
 REHEARSAL = "tallgrass is prepared"
 """Name of the viewer for whom `prepare` rehearses a frame before anybody has looked."""
-
-LEAP = 2.0
-"""Distance beyond which a viewer's move in one frame counts as a jump [patch sides]."""
 
 
 class Prairie(Tending):
@@ -79,11 +73,11 @@ class Prairie(Tending):
         self.governor = Governor(hold)  # raises for a bad hold, so before any entities are made
         site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
         super().__init__(site, World(self.advance), live=live)
-        self._stepping, self._looking = (overriding(Feature, name, self.features) for name in ("step", "look"))
         self.loaded, self.preset, self._origin = loaded, preset, (0.0, 0.0, 0.0)
         self._readings: WeakKeyDictionary[Site, LoadedScene] = WeakKeyDictionary()
         self._seasons = Seasons(loaded.scene)
-        self._ripening, self._streaming = Ripening(self._seasons, live=live), Streaming(live=live)
+        self._ripening = Ripening(self._seasons, live=live)
+        self._looking = Looking(self.viewers, self.features, live=live)
         self.lod: LodName = lod
         self.statistics, self.systems = Statistics(blades_field=site.blades), Schedule(live, self.world.come_back)
         screen = Screen(ctx, self.features, self.winds, linear=linear)
@@ -174,11 +168,11 @@ class Prairie(Tending):
         before = self.viewers[viewer].frame if viewer in self.viewers else None
         frame, asked, goes_on = Frame(seen, self.time, self.site, chosen).after(before, depth=depth)
         if not goes_on:
-            self._follow_viewers(viewer, seen)
+            self._looking.follow(self.site, viewer, seen, time=self.time)
         with self._assembly.screen.opened(self.site) as painter:
             if painter is None:
                 return
-            outlook = self._look(guest_view(seen), viewer, goes_on=goes_on)
+            outlook = self._looking.look(self.site, viewer, guest_view(seen), time=self.time, goes_on=goes_on)
             outlook.frame = frame
             outlook.note(asked)
             self.governor.begin(outlook, goes_on=goes_on)
@@ -255,8 +249,7 @@ class Prairie(Tending):
         must_be_viewer(viewer)
         seen = view_of(view, projection, self._origin)
         self._advance_kinds()
-        self._follow_viewers(viewer, seen)
-        self._look(seen, viewer)
+        self._take(viewer, seen)
         self.systems.run(last=Phase.SEE)
 
     def group(
@@ -345,7 +338,7 @@ class Prairie(Tending):
         """
         self._released = True
         self._ripening.release()
-        self._streaming.release()
+        self._looking.release()
         for feature in self.features:
             feature.release()
         self._assembly.screen.release()
@@ -379,26 +372,13 @@ class Prairie(Tending):
         """Upload a frame to rehearse, as a temporary viewer sees it by the scene's own camera."""
         camera = camera_at(self.scene.camera, None, self.height_at)
         seen = view_of(view_matrix(camera), projection_matrix(camera.view, 1.0))
-        self._follow_viewers(REHEARSAL, seen)
-        self._look(seen, REHEARSAL)
+        self._take(REHEARSAL, seen)
         for _, name, system in self._built:
             if name != "draw":
                 system.run()
         self.viewers.forget(REHEARSAL)
 
-    def _follow_viewers(self, viewer: str, seen: View) -> None:
-        """Let streaming ground and features follow the viewers, one of whom now sees by `seen`."""
-        others = [outlook.viewer for outlook in self.viewers.values() if outlook.viewer.name != viewer]
-        self._streaming.follow(self.site.ground.terrain, seen.eye, others, time=self.time)
-        for feature in self._stepping:
-            feature.step(viewer, seen.eye, time=self.time)
-
-    def _look(self, seen: View, viewer: str, *, goes_on: bool = False) -> Outlook:
-        """Let a viewer look, unless it `goes_on` with its last frame; return its outlook."""
-        outlook = self.viewers.looking(viewer, partial(outlook_on, self.site))
-        if goes_on:
-            return outlook
-        for feature in self._looking:
-            feature.look(outlook)
-        outlook.look(seen, time=self.time, leap=LEAP * self.site.ground.patch)
-        return outlook
+    def _take(self, viewer: str, seen: View) -> None:
+        """Let a viewer take a new view, without drawing."""
+        self._looking.follow(self.site, viewer, seen, time=self.time)
+        self._looking.look(self.site, viewer, seen, time=self.time)

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from ..engine.declared.grass import GrassKind
 from ..engine.declared.scene import Scene
-from ..engine.handed import NUMBERS
+from ..engine.handed import NUMBER_TYPES
 from ..engine.scene.validate import changed_kind
 from .saved import SavedEase, SavedSeason, refuse
 
@@ -115,7 +115,7 @@ class Seasons:
 
     def change(self, name: str, keys: Mapping[str, object], /, *, over: float, time: float) -> None:
         """Change keys of a kind over `over` seconds from `time` [s] on; raises ValueError for what cannot change."""
-        if not isinstance(over, NUMBERS) or not 0.0 <= over < inf:
+        if not isinstance(over, NUMBER_TYPES) or not 0.0 <= over < inf:
             raise ValueError(f"a kind changes over a time in seconds, 0 or more, not {shortened(over)}")
         for key, why in ELSEWHERE.items():
             if key in keys:

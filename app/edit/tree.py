@@ -13,7 +13,7 @@ from .brush import Brush
 from .editor import Editor, Refusal
 from .fields import Key, first_part, first_value, item_key, keys_of, tooltip
 from .values import NOTHING, Way, value_at
-from .widgets import NUMBERS, written
+from .widgets import OWN_NUMBERS, written
 from .widgets import field as shown_field
 
 Box = tuple[float, float, float, float]
@@ -91,7 +91,7 @@ class Tree:
             self._branch(key, value, way)
 
     def _set(self, key: Key, new: Any, way: Way) -> None:
-        if new == NUMBERS and key.model is not None:
+        if new == OWN_NUMBERS and key.model is not None:
             new = self.editor.scene.numbers().model_dump()
         self.editor.set(way, new, subject=("field", way))
 

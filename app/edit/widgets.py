@@ -15,7 +15,7 @@ from .values import NOTHING, yaml_text
 WIDE = 1000.0
 """Range above which a slider is too coarse: wider ones are dragged, or get a logarithmic slider."""
 
-NUMBERS = "its own numbers"
+OWN_NUMBERS = "its own numbers"
 """Label of the choice of a part instead of a text."""
 
 _WIDTH = 170.0
@@ -80,8 +80,8 @@ def _numbers(key: Key, values: list[float]) -> Any:
 
 
 def _choice(key: Key, value: Any) -> Any:
-    choices = [*key.choices, *([NUMBERS] if key.model is not None else [])]
-    now = value if isinstance(value, str) else NUMBERS
+    choices = [*key.choices, *([OWN_NUMBERS] if key.model is not None else [])]
+    now = value if isinstance(value, str) else OWN_NUMBERS
     if not imgui.begin_combo(f"##{key.name}", now):
         return NOTHING
     found: Any = NOTHING

@@ -6,7 +6,7 @@ from time import sleep
 
 import moderngl
 
-from .functions import NUMBERS, functions_of
+from .functions import ENUMS, functions_of
 from .limits import limits_of
 from .rasteriser import draws_in_software
 from .shaders import Texts
@@ -62,7 +62,7 @@ class BackgroundCompiler:
         getattr(gl, f"glMaxShaderCompilerThreads{limits_of(gl).parallel_compile}")(AS_MANY)
         made = gl.glCreateProgram()
         for stage, text in (("VERTEX_SHADER", texts.vertex), ("FRAGMENT_SHADER", texts.fragment)):
-            shader = gl.glCreateShader(NUMBERS[stage])
+            shader = gl.glCreateShader(ENUMS[stage])
             given = (c_char_p * 1)(text.strip().encode())  # as moderngl gives it
             gl.glShaderSource(shader, 1, addressof(given), None)
             gl.glCompileShader(shader)
@@ -87,5 +87,5 @@ class BackgroundCompiler:
 
     def _is_made(self, number: int) -> bool:
         found = (c_int * 1)()
-        self._gl.glGetProgramiv(number, NUMBERS["COMPLETION_STATUS"], addressof(found))
+        self._gl.glGetProgramiv(number, ENUMS["COMPLETION_STATUS"], addressof(found))
         return bool(found[0])

@@ -15,7 +15,7 @@ from typing import Any
 
 import moderngl
 
-from .functions import NUMBERS, Functions, functions_of_loader
+from .functions import ENUMS, Functions, functions_of_loader
 from .units import SCRATCH_UNIT
 
 LIBRARIES = {
@@ -94,5 +94,5 @@ def _made(handle: Handle) -> moderngl.Context:
     finally:
         store.default_context = before
     ctx.extra, ctx.default_texture_unit = _OWN, SCRATCH_UNIT
-    functions_of_loader(_loader(handle)).glDisable(NUMBERS["TEXTURE_CUBE_MAP_SEAMLESS"])  # moderngl has set it
+    functions_of_loader(_loader(handle)).glDisable(ENUMS["TEXTURE_CUBE_MAP_SEAMLESS"])  # moderngl has set it
     return ctx

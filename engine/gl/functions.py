@@ -7,7 +7,7 @@ from typing import Any
 
 import moderngl
 
-NUMBERS = {
+ENUMS = {
     "NONE": 0x0000, "BLEND": 0x0BE2, "CULL_FACE": 0x0B44, "DEPTH_TEST": 0x0B71, "PROGRAM_POINT_SIZE": 0x8642,
     "RASTERIZER_DISCARD": 0x8C89, "COLOR_LOGIC_OP": 0x0BF2, "DEPTH_CLAMP": 0x864F, "POLYGON_OFFSET_FILL": 0x8037,
     "SAMPLE_ALPHA_TO_COVERAGE": 0x809E, "SAMPLE_COVERAGE": 0x80A0, "CLIP_DISTANCE0": 0x3000,
@@ -49,7 +49,7 @@ NUMBERS = {
     "VERTEX_SHADER": 0x8B31, "FRAGMENT_SHADER": 0x8B30, "COMPLETION_STATUS": 0x91B1,
     "LAST_VERTEX_CONVENTION": 0x8E4E, "VERTEX_ATTRIB_ARRAY_DIVISOR": 0x88FE,
 }  # fmt: skip
-"""Values of GL's constants, by their names without GL_."""
+"""Values of GL's enums, by their names without GL_."""
 
 RETURN_FLAG = {
     "glIsEnabled": (c_int,), "glIsEnabledi": (c_int,) * 2, "glIsProgram": (c_int,), "glIsBuffer": (c_int,),
@@ -129,9 +129,9 @@ class Functions:
         return found
 
     def number(self, name: str, /) -> int:
-        """Return an integer of GL's state, by its name in `NUMBERS`."""
+        """Return an integer of GL's state, by its name in `ENUMS`."""
         found = (c_int * 1)()
-        self.glGetIntegerv(NUMBERS[name], found)
+        self.glGetIntegerv(ENUMS[name], found)
         return found[0]
 
     def living(self, sort: str, number: int, /) -> int:

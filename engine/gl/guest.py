@@ -9,7 +9,7 @@ import numpy as np
 from ...components.arrays import Doubles
 from ..camera import View, is_reversed
 from .current import current_functions, is_own, own_context
-from .functions import NUMBERS, functions_of
+from .functions import ENUMS, functions_of
 from .host import State, has_windows, is_hidden, loaded_gl, pyglet_context
 from .limits import limits_of
 from .outputs import is_not_plain_2d
@@ -61,7 +61,7 @@ def saved_state(ctx: moderngl.Context | None) -> Iterator[State]:
             "the moderngl context of this prairie was released: load the prairie again, with another one"
         )
     gl = current_functions() if ctx is None else functions_of(ctx)
-    if ctx is not None and gl.glGetString(NUMBERS["VERSION"]) is None:
+    if ctx is not None and gl.glGetString(ENUMS["VERSION"]) is None:
         raise RuntimeError("no GL context is current in this thread: draw in that of the window, or make one current")
     unit = SCRATCH_UNIT if ctx is None else ctx.default_texture_unit
     _saved.append(State(gl, limits_of(gl), unit))

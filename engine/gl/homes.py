@@ -8,7 +8,7 @@ from typing import Any, Generic, Protocol, TypeVar
 import moderngl
 
 from .current import current_handle
-from .functions import NUMBERS, Functions
+from .functions import ENUMS, Functions
 from .host import current, has_windows, is_hidden, is_lost, pyglet_context
 from .stream import Releasable
 
@@ -52,7 +52,7 @@ class Home(Generic[Thing]):
             return False
         bound = gl.number("VERTEX_ARRAY_BINDING")
         gl.glBindVertexArray(*self._mark)
-        gl.glGetVertexAttribiv(0, NUMBERS["VERTEX_ATTRIB_ARRAY_DIVISOR"], found)
+        gl.glGetVertexAttribiv(0, ENUMS["VERTEX_ATTRIB_ARRAY_DIVISOR"], found)
         gl.glBindVertexArray(bound)
         return found[0] == self._token
 

@@ -14,7 +14,7 @@ import moderngl
 import numpy as np
 
 from ...components.arrays import Floats
-from .functions import NUMBERS, Functions
+from .functions import ENUMS, Functions
 from .limits import Limits
 from .outputs import Outputs
 from .units import Units
@@ -22,7 +22,7 @@ from .viewports import Viewports
 
 Box = tuple[int, int, int, int]
 
-DEFAULT_CLIP = NUMBERS["LOWER_LEFT"], NUMBERS["NEGATIVE_ONE_TO_ONE"]
+DEFAULT_CLIP = ENUMS["LOWER_LEFT"], ENUMS["NEGATIVE_ONE_TO_ONE"]
 """OpenGL's default clip space: origin and depth mode of `glClipControl`."""
 
 MODERNGLS = ("BLEND", "CULL_FACE", "DEPTH_TEST", "PROGRAM_POINT_SIZE", "RASTERIZER_DISCARD")
@@ -133,15 +133,15 @@ class StateTable:
     """GL constants of all saved state by name, and an array for the result of each query."""
 
     def __init__(self) -> None:
-        self.switches = [(name, NUMBERS[name]) for name in SWITCHES]
+        self.switches = [(name, ENUMS[name]) for name in SWITCHES]
         results = [(name, (c_int * count)()) for name, count in REMEMBERED]
         # Addresses are passed as integers, which ctypes converts faster than arrays.
-        self.values = [(name, NUMBERS[name], addressof(values), values) for name, values in results]
-        self.off = [(name, NUMBERS[name]) for name in SWITCHED_OFF]
-        self.stores = [(name, NUMBERS[name]) for name in (*ALIGNMENTS, *LAYOUTS)]
-        self.layouts = [NUMBERS[name] for name in LAYOUTS]
-        self.texels = [NUMBERS[name] for name in TEXELS]
-        self.targets = [(f"{name}_BINDING", NUMBERS[name]) for name in TARGETS]
+        self.values = [(name, ENUMS[name], addressof(values), values) for name, values in results]
+        self.off = [(name, ENUMS[name]) for name in SWITCHED_OFF]
+        self.stores = [(name, ENUMS[name]) for name in (*ALIGNMENTS, *LAYOUTS)]
+        self.layouts = [ENUMS[name] for name in LAYOUTS]
+        self.texels = [ENUMS[name] for name in TEXELS]
+        self.targets = [(f"{name}_BINDING", ENUMS[name]) for name in TARGETS]
 
 
 TABLE = StateTable()
@@ -240,7 +240,7 @@ class State:
         for target in TABLE.texels:
             gl.glBindBuffer(target, 0)
         self._units.clear()
-        gl.glProvokingVertex(NUMBERS["LAST_VERTEX_CONVENTION"])
+        gl.glProvokingVertex(ENUMS["LAST_VERTEX_CONVENTION"])
         if self._clip != DEFAULT_CLIP:
             gl.glClipControl(*DEFAULT_CLIP)
 
@@ -259,10 +259,10 @@ class State:
         for name, switch in TABLE.switches:
             (gl.glEnable if name in self._on else gl.glDisable)(switch)
         for target in ("DRAW_FRAMEBUFFER", "READ_FRAMEBUFFER"):
-            gl.glBindFramebuffer(NUMBERS[target], gl.living("Framebuffer", *value[f"{target}_BINDING"]))
+            gl.glBindFramebuffer(ENUMS[target], gl.living("Framebuffer", *value[f"{target}_BINDING"]))
         gl.glViewport(*value["VIEWPORT"])
         gl.glScissor(*value["SCISSOR_BOX"])
-        gl.glPolygonMode(NUMBERS["FRONT_AND_BACK"], value["POLYGON_MODE"][0])
+        gl.glPolygonMode(ENUMS["FRONT_AND_BACK"], value["POLYGON_MODE"][0])
         gl.glFrontFace(*value["FRONT_FACE"])
         gl.glCullFace(*value["CULL_FACE_MODE"])
         gl.glDepthFunc(*value["DEPTH_FUNC"])
@@ -288,12 +288,12 @@ class State:
         buffer = gl.living("Buffer", buffer)
         # A buffer that was bound as a whole has size 0. Both calls also bind the general target, so they come first.
         if buffer and size:
-            gl.glBindBufferRange(NUMBERS[FEEDBACK], 0, buffer, start, size)
+            gl.glBindBufferRange(ENUMS[FEEDBACK], 0, buffer, start, size)
         else:
-            gl.glBindBufferBase(NUMBERS[FEEDBACK], 0, buffer)
+            gl.glBindBufferBase(ENUMS[FEEDBACK], 0, buffer)
         for name, target in TABLE.targets:
             gl.glBindBuffer(target, gl.living("Buffer", *value[name]))
-        gl.glBindRenderbuffer(NUMBERS["RENDERBUFFER"], gl.living("Renderbuffer", *value["RENDERBUFFER_BINDING"]))
+        gl.glBindRenderbuffer(ENUMS["RENDERBUFFER"], gl.living("Renderbuffer", *value["RENDERBUFFER_BINDING"]))
         self._units.restore()
         gl.glActiveTexture(*value["ACTIVE_TEXTURE"])
 
@@ -301,7 +301,7 @@ class State:
 def _feedback(gl: Functions) -> tuple[int, int, int]:
     """Return the buffer at transform feedback's binding point 0, and the start and size of its range [bytes]."""
     buffer, span = c_int(), (c_int64(), c_int64())
-    gl.glGetIntegeri_v(NUMBERS[f"{FEEDBACK}_BINDING"], 0, addressof(buffer))
+    gl.glGetIntegeri_v(ENUMS[f"{FEEDBACK}_BINDING"], 0, addressof(buffer))
     for name, found in zip(("START", "SIZE"), span, strict=True):
-        gl.glGetInteger64i_v(NUMBERS[f"{FEEDBACK}_{name}"], 0, addressof(found))
+        gl.glGetInteger64i_v(ENUMS[f"{FEEDBACK}_{name}"], 0, addressof(found))
     return buffer.value, span[0].value, span[1].value

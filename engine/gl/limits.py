@@ -5,7 +5,7 @@ from ctypes import c_int
 from dataclasses import dataclass
 from functools import lru_cache
 
-from .functions import NUMBERS, Functions
+from .functions import ENUMS, Functions
 
 OLDEST = (3, 3)
 """The oldest OpenGL version that is supported."""
@@ -54,10 +54,10 @@ def limits_of(gl: Functions) -> Limits:
     extensions = _extensions(gl)
     several = version >= (4, 1) or "GL_ARB_viewport_array" in extensions
     bits = (c_int * 1)()
-    gl.glGetQueryiv(NUMBERS["TIMESTAMP"], NUMBERS["QUERY_COUNTER_BITS"], bits)
+    gl.glGetQueryiv(ENUMS["TIMESTAMP"], ENUMS["QUERY_COUNTER_BITS"], bits)
     return Limits(
         version=version,
-        renderer=_text(gl.glGetString(NUMBERS["RENDERER"])),
+        renderer=_text(gl.glGetString(ENUMS["RENDERER"])),
         layers=gl.number("MAX_ARRAY_TEXTURE_LAYERS"),
         bindings=gl.number("MAX_UNIFORM_BUFFER_BINDINGS"),
         side=gl.number("MAX_TEXTURE_SIZE"),
@@ -70,14 +70,14 @@ def limits_of(gl: Functions) -> Limits:
 
 def version_of(gl: Functions, /) -> tuple[tuple[int, int], bool]:
     """Return the version of the current context, and whether it is OpenGL ES; (0, 0) where no context is current."""
-    text = _text(gl.glGetString(NUMBERS["VERSION"]))
+    text = _text(gl.glGetString(ENUMS["VERSION"]))
     number = re.search(r"(\d+)\.(\d+)", text)
     return (int(number[1]), int(number[2])) if number else (0, 0), text.startswith("OpenGL ES")
 
 
 def _extensions(gl: Functions) -> frozenset[str]:
     numbers = range(gl.number("NUM_EXTENSIONS"))
-    return frozenset(_text(gl.glGetStringi(NUMBERS["EXTENSIONS"], number)) for number in numbers)
+    return frozenset(_text(gl.glGetStringi(ENUMS["EXTENSIONS"], number)) for number in numbers)
 
 
 def _text(text: bytes | None) -> str:

@@ -11,7 +11,7 @@ import moderngl
 import numpy as np
 
 from ...components.arrays import Bytes
-from .functions import NUMBERS, functions_of
+from .functions import ENUMS, functions_of
 from .limits import limits_of
 
 Made = TypeVar("Made")
@@ -72,13 +72,13 @@ def mipmapping(ctx: moderngl.Context, made: list[Bytes], /) -> Generator[None, N
         made = stacked(made[0], stack)
     layers, rows, columns, channels = (*made[0].shape, 1)[:4]
     texture = ctx.texture_array((columns, rows, layers), channels, alignment=1)
-    stored, given = (NUMBERS[name] for name in _FORMATS[channels])
-    gl, target = functions_of(ctx), NUMBERS["TEXTURE_2D_ARRAY"]
+    stored, given = (ENUMS[name] for name in _FORMATS[channels])
+    gl, target = functions_of(ctx), ENUMS["TEXTURE_2D_ARRAY"]
     gl.glBindTexture(target, texture.glo)
     for level, texels in enumerate(made[1:], 1):
         size = texels.shape[2], texels.shape[1], layers
-        gl.glTexImage3D(target, level, stored, *size, 0, given, NUMBERS["UNSIGNED_BYTE"], None)
-    gl.glTexParameteri(target, NUMBERS["TEXTURE_MAX_LEVEL"], len(made) - 1)
+        gl.glTexImage3D(target, level, stored, *size, 0, given, ENUMS["UNSIGNED_BYTE"], None)
+    gl.glTexParameteri(target, ENUMS["TEXTURE_MAX_LEVEL"], len(made) - 1)
     texture.filter = (moderngl.NEAREST_MIPMAP_NEAREST, moderngl.LINEAR)
     for level, texels in enumerate(made):
         each = max(PIECE // texels[0].nbytes, 1)
@@ -86,9 +86,9 @@ def mipmapping(ctx: moderngl.Context, made: list[Bytes], /) -> Generator[None, N
             part = texels[first : first + each]
             size = texels.shape[2], texels.shape[1], len(part)
             gl.glBindTexture(target, texture.glo)
-            gl.glPixelStorei(NUMBERS["UNPACK_ALIGNMENT"], 1)
+            gl.glPixelStorei(ENUMS["UNPACK_ALIGNMENT"], 1)
             data = part.ctypes.data
-            gl.glTexSubImage3D(target, level, 0, 0, first, *size, given, NUMBERS["UNSIGNED_BYTE"], data)
+            gl.glTexSubImage3D(target, level, 0, 0, first, *size, given, ENUMS["UNSIGNED_BYTE"], data)
             if level == 0 or first + each < layers:
                 yield
     return texture
@@ -101,13 +101,13 @@ def mipmapped_image(ctx: moderngl.Context, made: Sequence[Bytes], /) -> moderngl
     """
     rows, columns, channels = made[0].shape
     texture = ctx.texture((columns, rows), channels, made[0], alignment=1)
-    stored, given = (NUMBERS[name] for name in _FORMATS[channels])
-    gl, target = functions_of(ctx), NUMBERS["TEXTURE_2D"]
+    stored, given = (ENUMS[name] for name in _FORMATS[channels])
+    gl, target = functions_of(ctx), ENUMS["TEXTURE_2D"]
     gl.glBindTexture(target, texture.glo)
-    gl.glPixelStorei(NUMBERS["UNPACK_ALIGNMENT"], 1)
+    gl.glPixelStorei(ENUMS["UNPACK_ALIGNMENT"], 1)
     for level, texels in enumerate(made[1:], 1):
         rows, columns = texels.shape[:2]
-        gl.glTexImage2D(target, level, stored, columns, rows, 0, given, NUMBERS["UNSIGNED_BYTE"], texels.ctypes.data)
+        gl.glTexImage2D(target, level, stored, columns, rows, 0, given, ENUMS["UNSIGNED_BYTE"], texels.ctypes.data)
     texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
     return texture
 

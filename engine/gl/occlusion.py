@@ -6,7 +6,7 @@ from ctypes import c_int, c_uint
 
 import moderngl
 
-from .functions import NUMBERS, functions_of
+from .functions import ENUMS, functions_of
 from .rasteriser import draws_in_software
 
 
@@ -31,11 +31,11 @@ class OcclusionQuery:
             return
         if not self._query[0]:
             self._gl.glGenQueries(1, self._query)
-        self._gl.glBeginQuery(NUMBERS["ANY_SAMPLES_PASSED"], self._query[0])
+        self._gl.glBeginQuery(ENUMS["ANY_SAMPLES_PASSED"], self._query[0])
         try:
             yield
         finally:
-            self._gl.glEndQuery(NUMBERS["ANY_SAMPLES_PASSED"])
+            self._gl.glEndQuery(ENUMS["ANY_SAMPLES_PASSED"])
 
     @contextmanager
     def if_so(self) -> Iterator[None]:
@@ -44,7 +44,7 @@ class OcclusionQuery:
             yield
             return
         waits = "QUERY_NO_WAIT" if draws_in_software(self._ctx) else "QUERY_WAIT"
-        self._gl.glBeginConditionalRender(self._query[0], NUMBERS[waits])
+        self._gl.glBeginConditionalRender(self._query[0], ENUMS[waits])
         try:
             yield
         finally:
@@ -53,7 +53,7 @@ class OcclusionQuery:
     def _counts_for_host(self) -> bool:
         own = (c_int * 1)()
         for counted in ("ANY_SAMPLES_PASSED", "SAMPLES_PASSED"):
-            self._gl.glGetQueryiv(NUMBERS[counted], NUMBERS["CURRENT_QUERY"], own)
+            self._gl.glGetQueryiv(ENUMS[counted], ENUMS["CURRENT_QUERY"], own)
             if own[0]:
                 return True
         return False

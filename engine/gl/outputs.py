@@ -2,7 +2,7 @@
 
 from ctypes import addressof, c_int, c_ubyte, c_uint
 
-from .functions import NUMBERS, Functions
+from .functions import ENUMS, Functions
 
 COUNT = 8
 """Number of outputs that every OpenGL has."""
@@ -20,7 +20,7 @@ class Outputs:
 
     def __init__(self, gl: Functions, framebuffer: int, *, blends: bool) -> None:
         self._gl = gl
-        blend, self._blends = NUMBERS["BLEND"], blends
+        blend, self._blends = ENUMS["BLEND"], blends
         self._unlike = [output for output in OTHERS if bool(gl.glIsEnabledi(blend, output)) != blends]
         self._drawn = _drawn(gl) if framebuffer else None
         several = self._drawn is not None and (any(self._drawn[1:]) or _attached(gl, "COLOR_ATTACHMENT1"))
@@ -35,7 +35,7 @@ class Outputs:
         """Restore all outputs; call it after the first output's mask and blending are restored."""
         gl = self._gl
         for output in self._unlike:
-            (gl.glDisablei if self._blends else gl.glEnablei)(NUMBERS["BLEND"], output)
+            (gl.glDisablei if self._blends else gl.glEnablei)(ENUMS["BLEND"], output)
         for output, mask in self._masks.items():
             gl.glColorMaski(output, *mask)
         if self._drawn is not None:
@@ -49,14 +49,14 @@ def has_depth(gl: Functions, framebuffer: int, /) -> bool:
 
 def is_not_plain_2d(gl: Functions, /) -> bool:
     """Return whether the first colour attachment is a texture that moderngl has just failed to bind as a 2D texture."""
-    if _asked(gl, "COLOR_ATTACHMENT0", "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE") != NUMBERS["TEXTURE"]:
+    if _asked(gl, "COLOR_ATTACHMENT0", "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE") != ENUMS["TEXTURE"]:
         return False
     return gl.number("TEXTURE_BINDING_2D") != _asked(gl, "COLOR_ATTACHMENT0", "FRAMEBUFFER_ATTACHMENT_OBJECT_NAME")
 
 
 def _drawn(gl: Functions) -> list[int]:
     """Return the attachment (draw buffer) of each output."""
-    found, first = (c_int * COUNT)(), NUMBERS["DRAW_BUFFER0"]
+    found, first = (c_int * COUNT)(), ENUMS["DRAW_BUFFER0"]
     start = addressof(found)
     for output in range(COUNT):
         gl.glGetIntegerv(first + output, start + 4 * output)
@@ -64,16 +64,16 @@ def _drawn(gl: Functions) -> list[int]:
 
 
 def _attached(gl: Functions, name: str) -> bool:
-    return _asked(gl, name, "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE") != NUMBERS["NONE"]
+    return _asked(gl, name, "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE") != ENUMS["NONE"]
 
 
 def _asked(gl: Functions, name: str, question: str) -> int:
     found = (c_int * 1)()
-    gl.glGetFramebufferAttachmentParameteriv(NUMBERS["DRAW_FRAMEBUFFER"], NUMBERS[name], NUMBERS[question], found)
+    gl.glGetFramebufferAttachmentParameteriv(ENUMS["DRAW_FRAMEBUFFER"], ENUMS[name], ENUMS[question], found)
     return found[0]
 
 
 def _mask(gl: Functions, output: int) -> tuple[int, ...]:
     found = (c_ubyte * 4)()
-    gl.glGetBooleani_v(NUMBERS["COLOR_WRITEMASK"], output, found)
+    gl.glGetBooleani_v(ENUMS["COLOR_WRITEMASK"], output, found)
     return tuple(found)

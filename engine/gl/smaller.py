@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import moderngl
 
-from .functions import NUMBERS, functions_of
+from .functions import ENUMS, functions_of
 from .guest import aside, colourless, depth_ends, farthest_depth, set_depth_test
 from .occlusion import OcclusionQuery
 from .outputs import has_depth
@@ -116,8 +116,8 @@ class Smaller:
             self._find(host, buffers)
         with aside(self._ctx, host, alike=True):
             if not is_alone:  # the host's framebuffer is still bound for reading
-                self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + TEXTURE_UNITS["host_depth"])
-                self._gl.glCopyTexSubImage2D(NUMBERS["TEXTURE_2D"], 0, 0, 0, x, y, width, height)
+                self._gl.glActiveTexture(ENUMS["TEXTURE0"] + TEXTURE_UNITS["host_depth"])
+                self._gl.glCopyTexSubImage2D(ENUMS["TEXTURE_2D"], 0, 0, 0, x, y, width, height)
             buffers.target.depth_mask = True
             buffers.target.scissor = None  # type: ignore[assignment]
             buffers.target.use()
@@ -173,7 +173,7 @@ class Smaller:
     def _clear(self) -> None:
         """Clear the bound framebuffer by calls that do not change the host's clear values."""
         for what, values in (("COLOR", (0.0,) * 4), ("DEPTH", (farthest_depth(),))):
-            self._gl.glClearBufferfv(NUMBERS[what], 0, (c_float * len(values))(*values))
+            self._gl.glClearBufferfv(ENUMS[what], 0, (c_float * len(values))(*values))
 
     def _run(self, name: str, *, blending: tuple[int, int] | None = None, everywhere: bool = False) -> None:
         """Draw one of the passes, with its depth test unless `everywhere`."""
@@ -204,7 +204,7 @@ class Smaller:
     def _obstacle(self, host: moderngl.Framebuffer) -> str | None:
         if self._gl.number("SAMPLES"):
             return "several samples a pixel"
-        if host.glo and self._gl.number("DRAW_BUFFER0") == NUMBERS["NONE"]:
+        if host.glo and self._gl.number("DRAW_BUFFER0") == ENUMS["NONE"]:
             return "no colour"
         return None if has_depth(self._gl, host.glo) else "no depth"
 

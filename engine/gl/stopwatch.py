@@ -9,7 +9,7 @@ from time import perf_counter
 
 import moderngl
 
-from .functions import NUMBERS, functions_of
+from .functions import ENUMS, functions_of
 from .limits import limits_of
 from .rasteriser import draws_in_software
 
@@ -50,11 +50,11 @@ class Stopwatch:
         else:
             stamps = (c_uint * 2)()
             self._gl.glGenQueries(2, stamps)
-            self._gl.glQueryCounter(stamps[0], NUMBERS["TIMESTAMP"])
+            self._gl.glQueryCounter(stamps[0], ENUMS["TIMESTAMP"])
             try:
                 yield
             finally:
-                self._gl.glQueryCounter(stamps[1], NUMBERS["TIMESTAMP"])
+                self._gl.glQueryCounter(stamps[1], ENUMS["TIMESTAMP"])
                 self._underway.append((name, stamps))
 
     def read(self) -> list[tuple[Name, float]]:
@@ -73,7 +73,7 @@ class Stopwatch:
 
     def _is_over(self, stamps: Array[c_uint]) -> bool:
         found = (c_int * 1)()
-        self._gl.glGetQueryObjectiv(stamps[1], NUMBERS["QUERY_RESULT_AVAILABLE"], found)
+        self._gl.glGetQueryObjectiv(stamps[1], ENUMS["QUERY_RESULT_AVAILABLE"], found)
         return bool(found[0])
 
     def _took(self, stamps: Array[c_uint]) -> float:
@@ -81,7 +81,7 @@ class Stopwatch:
         times = []
         for stamp in stamps:
             found = (c_uint64 * 1)()
-            self._gl.glGetQueryObjectui64v(stamp, NUMBERS["QUERY_RESULT"], found)
+            self._gl.glGetQueryObjectui64v(stamp, ENUMS["QUERY_RESULT"], found)
             times.append(found[0])
         self._gl.glDeleteQueries(2, stamps)
         return 1e-9 * (times[1] - times[0])

@@ -2,7 +2,7 @@
 
 from ctypes import addressof, c_int
 
-from .functions import NUMBERS, Functions
+from .functions import ENUMS, Functions
 
 FIRST_UNIT = 32
 """First texture unit that a guest uses. OpenGL 3.3 has 48 units, and hosts use the first few."""
@@ -51,7 +51,7 @@ class Units:
         self._activate(unit)
         if unit not in self._borrowed:
             self._borrowed[unit] = self._gl.number("TEXTURE_BINDING_2D"), self._gl.number("SAMPLER_BINDING")
-        self._gl.glBindTexture(NUMBERS["TEXTURE_2D"], texture)
+        self._gl.glBindTexture(ENUMS["TEXTURE_2D"], texture)
 
     def clear(self) -> None:
         """Unbind the host's samplers, so that textures are read with their own parameters."""
@@ -64,19 +64,19 @@ class Units:
             self._gl.glBindSampler(unit, self._gl.living("Sampler", sampler))
         for unit, (texture, sampler) in self._borrowed.items():
             self._activate(unit)
-            self._gl.glBindTexture(NUMBERS["TEXTURE_2D"], self._gl.living("Texture", texture))
+            self._gl.glBindTexture(ENUMS["TEXTURE_2D"], self._gl.living("Texture", texture))
             self._gl.glBindSampler(unit, self._gl.living("Sampler", sampler))
         self._activate(self._scratch)
         for target, texture in self._textures.items():
-            self._gl.glBindTexture(NUMBERS[target], self._gl.living("Texture", texture))
+            self._gl.glBindTexture(ENUMS[target], self._gl.living("Texture", texture))
 
     def _bound(self) -> dict[int, int]:
         """Return the host's sampler objects by unit, those that are bound."""
-        gl, first, question = self._gl, NUMBERS["TEXTURE0"] + FIRST_UNIT, NUMBERS["SAMPLER_BINDING"]
+        gl, first, question = self._gl, ENUMS["TEXTURE0"] + FIRST_UNIT, ENUMS["SAMPLER_BINDING"]
         for place in range(len(UNITS)):
             gl.glActiveTexture(first + place)
             gl.glGetIntegerv(question, _FOUND_AT + 4 * place)
         return {unit: sampler for unit, sampler in zip(UNITS, _FOUND, strict=True) if sampler}
 
     def _activate(self, unit: int) -> None:
-        self._gl.glActiveTexture(NUMBERS["TEXTURE0"] + unit)
+        self._gl.glActiveTexture(ENUMS["TEXTURE0"] + unit)

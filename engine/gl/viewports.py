@@ -5,7 +5,7 @@ from ctypes import Array, addressof, c_float, c_int
 from functools import lru_cache
 from typing import TypeVar
 
-from .functions import NUMBERS, Functions
+from .functions import ENUMS, Functions
 
 Value = TypeVar("Value")
 
@@ -26,7 +26,7 @@ class Viewports:
 
     def _query(self, count: int) -> None:
         """Read all of them, fast: nothing tells whether a host uses any."""
-        gl, viewport, scissor, test = self._gl, NUMBERS["VIEWPORT"], NUMBERS["SCISSOR_BOX"], NUMBERS["SCISSOR_TEST"]
+        gl, viewport, scissor, test = self._gl, ENUMS["VIEWPORT"], ENUMS["SCISSOR_BOX"], ENUMS["SCISSOR_TEST"]
         viewports, scissors, viewport_at, scissor_at = _results(count)
         for index in range(count):
             gl.glGetFloati_v(viewport, index, viewport_at)
@@ -37,7 +37,7 @@ class Viewports:
 
     def restore(self) -> None:
         """Restore them; call it after the first ones are restored."""
-        gl, switch = self._gl, NUMBERS["SCISSOR_TEST"]
+        gl, switch = self._gl, ENUMS["SCISSOR_TEST"]
         for index, viewport in self._viewports.items():
             gl.glViewportIndexedf(index, *viewport)
         for index, scissor in self._scissors.items():

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ...components.shadow_map import held_number
 from ...engine.gl.functions import functions_of
-from ...engine.handed import NUMBERS
+from ...engine.handed import NUMBER_TYPES
 from ..frame.block import FrameBlock
 from ..frame.feature import Feature, Part
 from ..space.grown import Grown
@@ -41,7 +41,7 @@ class Earth(Feature):
         """
         if texture is not None:
             number_of(texture)
-        if side is not None and not (isinstance(side, NUMBERS) and 0.0 < side < inf):
+        if side is not None and not (isinstance(side, NUMBER_TYPES) and 0.0 < side < inf):
             raise ValueError(f"a ground's texture comes again every so many metres, above 0, not {shortened(side)}")
         self.texture, self.side, self.power = texture, side, LINEAR if linear else ENCODED
 

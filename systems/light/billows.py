@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Floats
-from ...engine.gl.functions import NUMBERS, functions_of
+from ...engine.gl.functions import ENUMS, functions_of
 from ...engine.kept import code_hash, keep, kept
 from .repeating import CLOUDS_SIDE
 
@@ -108,11 +108,11 @@ def billows_texture(ctx: moderngl.Context) -> moderngl.Texture3D:
     """Return `billow_levels` as a repeating texture, sampled from the nearest mip level."""
     levels = billow_levels()
     texture = ctx.texture3d((SIDE,) * 3, 4, levels[0])
-    gl, target = functions_of(ctx), NUMBERS["TEXTURE_3D"]
+    gl, target = functions_of(ctx), ENUMS["TEXTURE_3D"]
     gl.glBindTexture(target, texture.glo)
     for level, texels in enumerate(levels[1:], 1):
-        size, formats = (len(texels),) * 3, (NUMBERS["RGBA"], NUMBERS["UNSIGNED_BYTE"])
-        gl.glTexImage3D(target, level, NUMBERS["RGBA8"], *size, 0, *formats, texels.ctypes.data)
-    gl.glTexParameteri(target, NUMBERS["TEXTURE_MAX_LEVEL"], len(levels) - 1)
+        size, formats = (len(texels),) * 3, (ENUMS["RGBA"], ENUMS["UNSIGNED_BYTE"])
+        gl.glTexImage3D(target, level, ENUMS["RGBA8"], *size, 0, *formats, texels.ctypes.data)
+    gl.glTexParameteri(target, ENUMS["TEXTURE_MAX_LEVEL"], len(levels) - 1)
     texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
     return texture

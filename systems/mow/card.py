@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Bytes, Floats, Ints
-from ...engine.gl.functions import NUMBERS, functions_of
+from ...engine.gl.functions import ENUMS, functions_of
 from ...engine.gl.limits import limits_of
 from ...engine.terrain.part import Part as Cells
 from ...engine.terrain.plots import CELLS, Plots, Values
@@ -150,12 +150,12 @@ class PlotsPart(TexturePart):
         first = -(-(len(self._index) // WIDTH) // CELLS)
         self._rows = rows = min(max(rows, ROOM) + first, self._most_rows)
         self.texture = self.ctx.texture((WIDTH, CELLS * rows), 4, alignment=1)
-        gl, target = functions_of(self.ctx), NUMBERS["TEXTURE_2D"]
+        gl, target = functions_of(self.ctx), ENUMS["TEXTURE_2D"]
         gl.glBindTexture(target, self.texture.glo)
         for level in range(1, _LEVELS):
             size = WIDTH >> level, CELLS * rows >> level
-            gl.glTexImage2D(target, level, NUMBERS["RGBA8"], *size, 0, NUMBERS["RGBA"], NUMBERS["UNSIGNED_BYTE"], None)
-        gl.glTexParameteri(target, NUMBERS["TEXTURE_MAX_LEVEL"], _LEVELS - 1)
+            gl.glTexImage2D(target, level, ENUMS["RGBA8"], *size, 0, ENUMS["RGBA"], ENUMS["UNSIGNED_BYTE"], None)
+        gl.glTexParameteri(target, ENUMS["TEXTURE_MAX_LEVEL"], _LEVELS - 1)
         self.texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
         self.texture.write(self._index, viewport=(0, 0, WIDTH, len(self._index) // WIDTH), alignment=1)
         for sheets in self._sheets or ():
@@ -190,8 +190,8 @@ class PlotsPart(TexturePart):
         if level == 0:
             self.texture.write(texels, viewport=viewport, alignment=1)
             return  # which leaves it bound
-        gl, sort = functions_of(self.ctx), (NUMBERS["RGBA"], NUMBERS["UNSIGNED_BYTE"])
-        gl.glTexSubImage2D(NUMBERS["TEXTURE_2D"], level, *viewport, *sort, texels.ctypes.data)
+        gl, sort = functions_of(self.ctx), (ENUMS["RGBA"], ENUMS["UNSIGNED_BYTE"])
+        gl.glTexSubImage2D(ENUMS["TEXTURE_2D"], level, *viewport, *sort, texels.ctypes.data)
 
     def _upload_index(self, *both: _Sheets) -> None:
         """Write the plots' first sheets into the index and upload its changed rows."""

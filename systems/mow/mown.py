@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Floats
 from ...components.pose import Pose
-from ...engine.handed import NUMBERS
+from ...engine.handed import NUMBER_TYPES
 from ...engine.terrain.part import Part
 from ...engine.terrain.plots import CELL, CELLS, Plots, ends_of
 from ...engine.terrain.record import Terrain
@@ -127,7 +127,7 @@ def _limit_within(before: Floats, distances: Floats, *, limit: np.ufunc, height:
 def _must_be_valid(done: str, area: object, height: object, pose: object) -> None:
     """Raise the errors of `Mown.cut`; `done` is the verb's participle."""
     must_be_area(area, pose, done)
-    if isinstance(height, bool) or not isinstance(height, NUMBERS):
+    if isinstance(height, bool) or not isinstance(height, NUMBER_TYPES):
         raise TypeError(f"grass is {done} to a height in metres, not to {height!r}")
     if isnan(height) or height < 0.0:
         raise ValueError(f"grass is {done} to 0 m or more, not to {height}")

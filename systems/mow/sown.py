@@ -8,7 +8,7 @@ import numpy as np
 
 from ...components.arrays import Bytes, Floats, Ints, Mask
 from ...components.pose import Pose
-from ...engine.handed import NUMBERS
+from ...engine.handed import NUMBER_TYPES
 from ...engine.terrain.part import Part
 from ...engine.terrain.plots import CELL, CELLS, Values, middles
 from ...engine.terrain.record import Density
@@ -125,7 +125,7 @@ def _painted_densities(density: Density, part: Part) -> Values:
 
 def _must_be_number(thing: object, rule: str, highest: float, unit: str = "") -> None:
     """Raise TypeError or ValueError unless a value is a number from 0 to `highest`; `rule` begins the message."""
-    if isinstance(thing, bool) or not isinstance(thing, NUMBERS):
+    if isinstance(thing, bool) or not isinstance(thing, NUMBER_TYPES):
         raise TypeError(f"{rule} from 0 to {highest:g}{unit}, not {thing!r}")
     if not isfinite(thing) or not 0.0 <= thing <= highest:
         raise ValueError(f"{rule} from 0 to {highest:g}{unit}, not {thing}")

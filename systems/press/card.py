@@ -13,7 +13,7 @@ from ..grow.record import Growth
 from ..space.grown import Grown
 from .lie import recoveries
 from .marks import NOTHING, SIDE, UNTRODDEN, Marks, Trodden
-from .trail import NUMBERS
+from .trail import COLUMNS
 
 ROW = 1024
 """Texels in a row of the texture."""
@@ -26,7 +26,7 @@ HEAD_ROWS = 2 + SIDE * SIDE // ROW
 FRESH_ROOM, SETTLED_ROOM = 32, 224
 """Rows for fresh and for settled marks that `prepare` makes room for: 4 MiB in all."""
 
-MARK_TEXELS = NUMBERS // 4
+MARK_TEXELS = COLUMNS // 4
 """Number of texels of a mark."""
 
 

@@ -99,7 +99,7 @@ def _untouched(count: int) -> Lying:
 def _apply_mark(
     lying: Lying, rows: NDArray[np.intp], mark: Floats, place: Floats, grass: Grass, recovery: Floats
 ) -> None:
-    """Apply one mark (n, NUMBERS) to each of these rows that it reaches."""
+    """Apply one mark (n, COLUMNS) to each of these rows that it reaches."""
     offset, distance, begun, ended = _contact(mark, place)
     near = distance < mark[:, REACH]
     if not near.any():

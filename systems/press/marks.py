@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Floats, Ints
-from .trail import BEGUN, FIRST, LAST, LEFT, NUMBERS, REACH, SERIAL, Stretches, Trail
+from .trail import BEGUN, COLUMNS, FIRST, LAST, LEFT, REACH, SERIAL, Stretches, Trail
 
 SQUARE = 2.0
 """Side of a square [m]."""
@@ -35,7 +35,7 @@ class Marks:
     """Marks in the order in which they began, and a list of them for each square."""
 
     marks: Floats
-    """Marks, one a row, laid out as stretches, with times from `Trodden.since`; shape (n, NUMBERS)."""
+    """Marks, one a row, laid out as stretches, with times from `Trodden.since`; shape (n, COLUMNS)."""
 
     first: Ints
     """Start of each square's list in `listed`, shape (SIDE * SIDE,)."""
@@ -80,7 +80,7 @@ class Listing:
 
     @classmethod
     def of(cls, stretches: Stretches) -> "Listing":
-        """Sort stretches (n, NUMBERS) by the time at which they began, then by way, and list their squares."""
+        """Sort stretches (n, COLUMNS) by the time at which they began, then by way, and list their squares."""
         ordered = stretches[np.lexsort((stretches[:, SERIAL], np.round(stretches[:, BEGUN] / TIME_STEP)))]
         return cls(ordered, *touched_squares(ordered))
 
@@ -113,7 +113,7 @@ class Listing:
 
 
 def as_marks(stretches: Stretches, since: float) -> Floats:
-    """Return stretches (n, NUMBERS) as float32 rows of marks, with times from `since` [s]."""
+    """Return stretches (n, COLUMNS) as float32 rows of marks, with times from `since` [s]."""
     times = slice(BEGUN, LEFT + 1)
     marks = stretches.astype(np.float32)
     marks[:, times] = stretches[:, times] - since
@@ -156,10 +156,10 @@ def touched_squares(stretches: Stretches) -> tuple[Ints, NDArray[np.uint16]]:
     return stretch_of_pair, ((z & (SIDE - 1)) * SIDE + (x & (SIDE - 1))).astype(np.uint16)
 
 
-NO_STRETCHES = np.zeros((0, NUMBERS))
+NO_STRETCHES = np.zeros((0, COLUMNS))
 NO_LISTS = np.zeros(SIDE * SIDE, np.intp), np.zeros(0, np.int32)
 
-NOTHING = Listing.of(np.zeros((0, NUMBERS))).marks(since=0.0)
+NOTHING = Listing.of(np.zeros((0, COLUMNS))).marks(since=0.0)
 """No marks."""
 
 UNTRODDEN = Trodden(NOTHING, NOTHING, 0.0, 0.0)
@@ -200,7 +200,7 @@ class Conversion:
                 self._count, self._listed = concatenated(self.kept).lists()
 
     def settle(self, stretches: Stretches) -> Marks:
-        """Finish; return all stretches as marks, followed by new ones (n, NUMBERS), which are kept from now on."""
+        """Finish; return all stretches as marks, followed by new ones (n, COLUMNS), which are kept from now on."""
         self.convert_to(1.0)
         fresh = Listing.of(stretches)
         fresh = fresh.kept_after(self.since - self.lasts, np.ones(len(fresh.stretch_of_pair), np.bool_))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles
 
 Stretches = NDArray[np.float64]
-"""Stretches of the ways of discs, one a row, shape (n, NUMBERS)."""
+"""Stretches of the ways of discs, one a row, shape (n, COLUMNS)."""
 
 FIRST, LAST = slice(0, 2), slice(2, 4)
 """Columns of the disc's middle at the beginning and at the end of a stretch (x, z) [m]."""
@@ -27,7 +27,7 @@ SERIAL = 11
 FIRST_OF_SCENE = -(2**40)
 """Number of the first way of a scene's own pressers: low enough never to count up to 0."""
 
-NUMBERS = 12
+COLUMNS = 12
 """Number of columns of a stretch."""
 
 REACH_RADII = 1.5
@@ -68,7 +68,7 @@ class Discs:
 class Trail:
     """The open stretches of pressing discs, and the closed ones that have not been taken yet."""
 
-    open: Stretches = field(default_factory=lambda: np.zeros((0, NUMBERS)))
+    open: Stretches = field(default_factory=lambda: np.zeros((0, COLUMNS)))
     """Present stretch of each disc; it ends at the disc."""
 
     closed: list[Stretches] = field(default_factory=list)
@@ -100,7 +100,7 @@ class Trail:
     def over(self) -> Stretches:
         """Return the closed stretches as one array."""
         if len(self.closed) != 1:
-            self.closed = [np.concatenate([np.zeros((0, NUMBERS)), *self.closed])]
+            self.closed = [np.concatenate([np.zeros((0, COLUMNS)), *self.closed])]
         return self.closed[0]
 
     def tread(self, discs: Discs, time: float) -> None:
@@ -150,7 +150,7 @@ class Trail:
 
     def _new_stretches(self, discs: Discs, rows: NDArray[np.intp], time: float) -> Stretches:
         """Return new stretches of length 0 for some discs, each on a new way."""
-        stretches = np.zeros((len(rows), NUMBERS))
+        stretches = np.zeros((len(rows), COLUMNS))
         stretches[:, FIRST] = stretches[:, LAST] = discs.place[rows]
         stretches[:, BEGUN] = stretches[:, CAME] = stretches[:, LEFT] = time
         stretches[:, REACH], stretches[:, STRENGTH] = REACH_RADII * discs.radius[rows], discs.strength[rows]

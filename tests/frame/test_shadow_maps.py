@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from tallgrass import Lod, Shade, ShadowMap
 from tallgrass.components.shadow_map import texture_number
 from tallgrass.engine.camera import Camera, view_of
-from tallgrass.engine.gl.functions import NUMBERS, functions_of
+from tallgrass.engine.gl.functions import ENUMS, functions_of
 from tallgrass.engine.gl.units import BORROWED
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import EveryBlade, cells_in_picture, cells_within
@@ -243,9 +243,9 @@ def test_maps_are_bound_where_a_host_has_textures_of_its_own_and_these_are_there
         prairies["strips"].shadows([box, box])
         stage.shot(prairies["strips"], CAMERA)
         for unit in BORROWED:
-            gl.glActiveTexture(NUMBERS["TEXTURE0"] + unit)
+            gl.glActiveTexture(ENUMS["TEXTURE0"] + unit)
             for name, due in (("TEXTURE_BINDING_2D", own.glo), ("SAMPLER_BINDING", 0)):
-                gl.glGetIntegerv(NUMBERS[name], found)
+                gl.glGetIntegerv(ENUMS[name], found)
                 assert found[0] == due
     finally:
         prairies["strips"].shadows([])

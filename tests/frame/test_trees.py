@@ -2,7 +2,6 @@
 
 import gc
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import esper
@@ -13,9 +12,8 @@ from numpy.typing import NDArray
 
 from tallgrass import Lamp, Pose, Prairie, Shade, Tree
 from tallgrass.app.bench.steps import held
-from tallgrass.components.arrays import Floats
 from tallgrass.systems.reference import draw_truth
-from tallgrass.systems.trees import bake, fading, kind, standing, stream
+from tallgrass.systems.trees import fading, standing, stream
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.outline import CORNERS, Outline
 from tallgrass.systems.trees.shade import ShadeMap
@@ -110,31 +108,6 @@ def test_it_is_in_a_games_own_shadow_map(stage: Stage, prairie: Prairie, plant: 
     prairie.draw_depth(*stage.matrices(looking(0.0, 30.0, 0.1, pitch=-89.0, view=40.0)))
     over, beside = stage.depth()[40:80, 60:100], stage.depth()[:, :20]
     assert (over < beside.min()).mean() > 0.1  # its crown, whose leaves hardly cover a texel wholly
-
-
-def test_streams_that_are_rehearsed_have_wood_only_where_it_is_drawn(ctx: moderngl.Context, stage: Stage) -> None:
-    with private_world(), little_prairie(scene=SCENE, ctx=ctx) as own:
-        esper.create_entity(Tree("ash", height=9.0), Pose(0.0, 0.0))
-        stage.shot(own, AHEAD)
-        assert own.painter is not None
-        for _, model in vars(own.painter.part(TreePart))["_models"]:
-            model.rehearse()
-            assert set(model.wood) == set(model.wood_class) == set(stream.WOODS)
-
-
-@pytest.mark.slow
-def test_nothing_is_made_on_a_frame_once_a_game_has_prepared(ctx: moderngl.Context, stage: Stage) -> None:
-    with private_world(), little_prairie(scene=SCENE, ctx=ctx) as prepared:
-        stage.begin()
-        prepared.prepare()
-        assert prepared.painter is not None
-        programs = vars(prepared.painter.part(TreePart))["_programs"]
-        made = dict(vars(programs)["_programs"])
-        esper.create_entity(Tree("ash", height=9.0), Pose(0.0, 0.0))
-        esper.create_entity(Tree("ash", height=9.0), Pose(2.0, 10.0))
-        stage.shot(prepared, AHEAD)
-        assert vars(prepared.painter.part(TreePart))["_programs"] is programs
-        assert vars(programs)["_programs"] == made
 
 
 def test_a_tree_that_is_planted_leaves_nothing_behind_in_gl(
@@ -386,24 +359,3 @@ def test_its_shadow_sways_with_the_mean_wind_and_its_map_is_not_drawn_for_that(
     assert 0.0005 < changed(swayed, still) < 0.2
     monkeypatch.undo()
     assert np.array_equal(stage.shot(prairie, DOWN), swayed)
-
-
-def test_a_later_run_draws_no_pictures_and_looks_the_same_to_the_bit(
-    ctx: moderngl.Context, stage: Stage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("TALLGRASS_CACHE", str(tmp_path))
-    made, seen = [0], []
-    pictures = bake.pictures
-
-    def counted(*told: Any) -> Floats:
-        made[0] += 1
-        return pictures(*told)
-
-    monkeypatch.setattr(kind, "pictures", counted)
-    for _ in range(2):
-        with private_world(), little_prairie(scene=SCENE, ctx=ctx) as run:
-            esper.create_entity(Tree("ash", height=9.0), Pose(-3.0, 0.0))
-            esper.create_entity(Tree("ash", height=9.0), Pose(0.0, -90.0))
-            seen.append(stage.shot(run, AHEAD))
-    assert made == [5]  # of a twig with ever more leaves, and of two models
-    assert np.array_equal(seen[0], seen[1])

@@ -8,7 +8,7 @@ import numpy as np
 
 from ....components.arrays import Bytes, Floats
 from ....components.viewer import Viewer
-from ....engine.gl.functions import NUMBERS, functions_of
+from ....engine.gl.functions import ENUMS, functions_of
 from ....engine.gl.mipmaps import stack_for
 from ....engine.gl.rasteriser import anisotropy
 from ....engine.gl.remembered import Shelves
@@ -281,8 +281,8 @@ class GroundPainter:
         self.rims.use(self.units["rims"])
         if self._block.earth:
             gl = functions_of(self._ctx)
-            gl.glActiveTexture(NUMBERS["TEXTURE0"] + self.units["earth"])
-            gl.glBindTexture(NUMBERS["TEXTURE_2D"], self._block.earth)
+            gl.glActiveTexture(ENUMS["TEXTURE0"] + self.units["earth"])
+            gl.glBindTexture(ENUMS["TEXTURE_2D"], self._block.earth)
 
     def draw_bare(self, *, alone: bool) -> int:
         """Draw the bare ground, if `alone` also where carpet will lie; return the number of draw calls."""

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.gl import current
 from tallgrass.engine.gl.current import own_context
-from tallgrass.engine.gl.functions import NUMBERS, functions_of
+from tallgrass.engine.gl.functions import ENUMS, functions_of
 from tallgrass.engine.gl.guest import guest, saved_state
 from tallgrass.engine.gl.host import LAYOUTS
 from tallgrass.engine.gl.units import FIRST_UNIT
@@ -197,7 +197,7 @@ def test_d6_what_the_host_has_enabled_stays_enabled(
 @pytest.mark.parametrize("sets", ["glEnable", "glDisable"])
 def test_d6_a_guest_draws_its_first_frame_under_the_switches_of_all_others(ctx: moderngl.Context, sets: str) -> None:
     """Otherwise a software rasteriser compiles all programs again for the second frame."""
-    gl, switch = functions_of(ctx), NUMBERS["TEXTURE_CUBE_MAP_SEAMLESS"]
+    gl, switch = functions_of(ctx), ENUMS["TEXTURE_CUBE_MAP_SEAMLESS"]
     getattr(gl, sets)(switch)
     current._made.cache_clear()  # noqa: SLF001
     for _ in range(2):
@@ -265,13 +265,13 @@ def test_d6_buffers_of_the_host_stay_bound_while_a_guest_fills_and_copies_its_ow
     ctx: moderngl.Context, host: moderngl.Framebuffer, target: str
 ) -> None:
     hosts, gl, found = ctx.buffer(reserve=16), functions_of(ctx), c_int()
-    gl.glBindBuffer(NUMBERS[target], hosts.glo)
+    gl.glBindBuffer(ENUMS[target], hosts.glo)
     with guest(ctx) as drawn_into:
         assert drawn_into.glo == host.glo
         one, two = ctx.buffer(b"tall"), ctx.buffer(reserve=4)
         ctx.copy_buffer(two, one)
-    gl.glGetIntegerv(NUMBERS[f"{target}_BINDING"], addressof(found))
-    gl.glBindBuffer(NUMBERS[target], 0)
+    gl.glGetIntegerv(ENUMS[f"{target}_BINDING"], addressof(found))
+    gl.glBindBuffer(ENUMS[target], 0)
     assert found.value == hosts.glo
     for buffer in (hosts, one, two):
         buffer.release()
@@ -282,7 +282,7 @@ def test_d6_however_the_host_lays_texels_out_a_guest_loads_and_reads_its_own_as_
     ctx: moderngl.Context, host: moderngl.Framebuffer, store: str
 ) -> None:
     texels = np.random.default_rng(1).integers(0, 2**16, (3, 4, 5), np.uint16)
-    number, gl, found = NUMBERS[store], functions_of(ctx), c_int()
+    number, gl, found = ENUMS[store], functions_of(ctx), c_int()
     value = 1 if store.endswith(("SWAP_BYTES", "LSB_FIRST")) else 2
     read = [bytearray(4 * texels.nbytes) for _ in range(2)]
     gl.glPixelStorei(number, value)
@@ -309,12 +309,12 @@ def test_d6_the_hosts_primitive_restart_takes_no_vertex_from_a_guest(
     indices = ctx.buffer(np.arange(3, dtype=np.uint32))
     array, gl = ctx.vertex_array(program, [], index_buffer=indices), functions_of(ctx)
     program["color"] = (1.0, 1.0, 1.0, 1.0)
-    gl.glEnable(NUMBERS["PRIMITIVE_RESTART"])
+    gl.glEnable(ENUMS["PRIMITIVE_RESTART"])
     gl.glPrimitiveRestartIndex(2)
     try:
         with guest(ctx):
             array.render(moderngl.TRIANGLES)
-        assert gl.glIsEnabled(NUMBERS["PRIMITIVE_RESTART"])
+        assert gl.glIsEnabled(ENUMS["PRIMITIVE_RESTART"])
     finally:
         gl.glPrimitiveRestartIndex(-1)
     assert (picture(host) == 255).all()
@@ -329,7 +329,7 @@ def test_d6_where_the_host_captures_outputs_to_is_bound_again_after_a_guest_has_
     source = "#version 330\nout float seen; void main() { seen = float(gl_VertexID); }"
     program, gl = ctx.program(vertex_shader=source, varyings=("seen",)), functions_of(ctx)
     array, goal, bound, other = (ctx.vertex_array(program, []), *(ctx.buffer(reserve=256) for _ in range(3)))
-    target, place = NUMBERS["TRANSFORM_FEEDBACK_BUFFER"], NUMBERS["TRANSFORM_FEEDBACK_BUFFER_BINDING"]
+    target, place = ENUMS["TRANSFORM_FEEDBACK_BUFFER"], ENUMS["TRANSFORM_FEEDBACK_BUFFER_BINDING"]
     if span[1]:
         gl.glBindBufferRange(target, 0, bound.glo, *span)
     else:
@@ -341,8 +341,8 @@ def test_d6_where_the_host_captures_outputs_to_is_bound_again_after_a_guest_has_
     found, wide = (c_int * 2)(), (c_int64 * 2)()
     gl.glGetIntegeri_v(place, 0, addressof(found))
     gl.glGetIntegerv(place, addressof(found) + 4)
-    gl.glGetInteger64i_v(NUMBERS["TRANSFORM_FEEDBACK_BUFFER_START"], 0, addressof(wide))
-    gl.glGetInteger64i_v(NUMBERS["TRANSFORM_FEEDBACK_BUFFER_SIZE"], 0, addressof(wide) + 8)
+    gl.glGetInteger64i_v(ENUMS["TRANSFORM_FEEDBACK_BUFFER_START"], 0, addressof(wide))
+    gl.glGetInteger64i_v(ENUMS["TRANSFORM_FEEDBACK_BUFFER_SIZE"], 0, addressof(wide) + 8)
     assert found[:] == [bound.glo, other.glo]
     assert tuple(wide) == span
     assert goal.read(12) == np.arange(3, dtype=np.float32).tobytes()
