@@ -62,7 +62,7 @@ class Head(Declaration):
     broader ones. Without it, what suits the form."""
 
     open: float = Field(default=0.85, ge=0.0, le=1.0)
-    """Share of the heads that are open; of the others, some are in bud and some have set seed.
+    """Fraction of the heads that are open; of the others, some are in bud and some have set seed.
     Spikes open from below."""
 
     eye: Color | None = None
@@ -70,4 +70,4 @@ class Head(Declaration):
     nine petals or more a disc of florets, as in a daisy. Without it, the eye has the plant's own colours."""
 
     share: float = Field(default=1.0, gt=0.0, le=1.0)
-    """Share of the plants that bear a head."""
+    """Fraction of the plants that bear a head."""
