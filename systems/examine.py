@@ -22,7 +22,7 @@ from .pressers import Treading
 from .saved import Arrays, Saved, SavedTreading, SavedWalk, component_of, fields_of, from_planes, refuse
 
 WALKS = ("scenes", "games")
-"""Prefixes of the arrays of two walks: that of the scene's pressers, and that of a game's own."""
+"""Prefixes of the arrays of two walks: of the scene's pressers, and of a game's own."""
 
 FARTHEST, WIDEST, LONGEST = 2e6, 31.0, 40.0
 """Largest coordinates, reaches and lengths of stretches [m]."""

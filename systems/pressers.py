@@ -46,7 +46,7 @@ class Treading:
     """State of all pressers and their marks, to continue from."""
 
     walks: tuple[WalkState, WalkState]
-    """Walk of the scene's pressers, whose entities are -1, -2 and so on in its order; and that of a game's own."""
+    """Walk of the scene's pressers, whose entities are -1, -2 and so on in its order; and walk of a game's own."""
 
     kept: Stretches
     """Marks that have settled."""

@@ -66,7 +66,7 @@ class Batch:
     """Kinds that change together."""
 
     kinds: Mapping[str, GrassKind]
-    """What they change to, by name."""
+    """Kinds that they change to, by name."""
 
     since: float
     """Time at which they begin [s]."""

@@ -181,8 +181,8 @@ def ripened(
 ) -> Site:
     """Return a site on which the kinds `stands` have grown, and some are to change to those of `comes`.
 
-    `known` are the kinds that have grown on the present site, and those that they are to change to: what is grown of
-    them is reused. Growing takes a while, so it may be called on another thread.
+    `known` are the kinds that have grown on the present site, and those that they are to change to: their growths
+    are reused. Growing takes a while, so it may be called on another thread.
     """
     numbers = {name: number for number, name in enumerate(site.scene.grass)}
     grown = dict[str, Growth]()

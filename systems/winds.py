@@ -52,7 +52,7 @@ class _Record:
 
 
 class Winds(Feature):
-    """All winds in one world: those that a scene declares, those that a game adds, and a game's own entities."""
+    """All winds in one world: a scene's, those that a game adds, and a game's own entities."""
 
     pass_samplers = SAMPLERS
 

@@ -1,4 +1,4 @@
-"""What every benchmark reports of its machine, and of the machine's speed at the time."""
+"""Figures of every benchmark on its machine, and on the machine's speed at the time."""
 
 import json
 import os

@@ -1,1 +1,1 @@
-"""What commands draw with: a take, a studio to draw it in, files to put it into."""
+"""Drawing in commands: a take, a studio that draws it, and files for the pictures."""

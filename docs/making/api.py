@@ -13,7 +13,7 @@ import tallgrass.testing
 from tallgrass import WindPrimitive
 
 BESIDE_WINDS = ("Extent", "Grass", "Hover", "Pose", "Shape", "TwinValues", "wind")
-"""What a wind is written with, besides its base."""
+"""Names with which a wind is written, in addition to its base class."""
 
 LONGEST = 100
 """Characters of a signature on one line; longer ones have a line for each parameter."""
@@ -70,7 +70,7 @@ def _found(name: str, home: ModuleType) -> tuple[Part, str]:
 
 
 def _parts(body: list[ast.stmt]) -> Iterator[tuple[Part, str]]:
-    """Yield what a body defines that is public and says what it is, with what it says."""
+    """Yield the public definitions in a body that have docstrings, with these."""
     for node, after in zip(body, [*body[1:], ast.Pass()], strict=True):
         told = ""
         if isinstance(node, ast.ClassDef | ast.FunctionDef):

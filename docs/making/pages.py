@@ -28,7 +28,7 @@ def main() -> None:
 
 
 def write(*, check: bool = False) -> list[str]:
-    """Write what is generated into the pages; with `check`, only return the names of those that would change."""
+    """Write the generated parts of the pages; with `check`, only return the names of pages that would change."""
     stale = []
     for page in sorted(DOCS.glob("*.md")):
         before = page.read_text("utf-8")

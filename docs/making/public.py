@@ -1,4 +1,4 @@
-"""What is public, as names and what each is: `python -m docs.making.public` records it in docs/public.json."""
+"""Public names and their interfaces: `python -m docs.making.public` records them in docs/public.json."""
 
 import inspect
 import json
@@ -21,7 +21,7 @@ from .reference import public_keys
 ROOT = Path(__file__).parents[2]
 RECORD = ROOT / "docs" / "public.json"
 Public = dict[str, str]
-"""What each public name is, by its kind and its name, as `face: Prairie.draw(view)`."""
+"""Interface of each public name, by its kind and name, such as `face: Prairie.draw(view)`."""
 
 SOURCES = ("app", "components", "engine", "systems", "testing")
 GIVEN = {"Clock", "GrassAt", "Heard", "Lod", "Patch", "Prairie", "Receivers", "Stage", "Viewer"}
@@ -49,7 +49,7 @@ def recorded() -> Public:
 
 
 def record() -> None:
-    """Record what is public now, and say what is gone, changed and new."""
+    """Record the public names of this version, and print those that are gone, changed and new."""
     before, now = recorded() if RECORD.is_file() else {}, public()
     for line in [*broken(before, now), *(f"{name} is new" for name in now if name not in before)]:
         print(line)
@@ -57,7 +57,7 @@ def record() -> None:
 
 
 def broken(before: Public, now: Public, /) -> list[str]:
-    """Return what programs that were written before would stumble over, a sentence each."""
+    """Return the changes that break programs written before, a sentence each."""
     told = [f"{name} is gone" for name in before if name not in now]
     told += [f"{name} was {was}, and is {now[name]}" for name, was in before.items() if now.get(name, was) != was]
     asked = [name for name, what in now.items() if "(" in name and "required" in what and name not in before]

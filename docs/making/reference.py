@@ -17,7 +17,7 @@ Schema = dict[str, Any]
 HEAD = "| key | takes | unit | range | default | what it is |\n|---|---|---|---|---|---|"
 FACTS = ("Default:", "Range:")
 HELD = ("default", "exclusiveMaximum", "exclusiveMinimum", "maximum", "minimum", "type")
-"""What is recorded of a key as public; what it is may be said in other words."""
+"""Facts of a key that are recorded as public; its description may change."""
 EVERYWHERE = 1e6
 """Numbers of lists have this bound at least; the page says it once."""
 UNIT = re.compile(r"\s*\[([A-Za-z/²%]+)\]")

@@ -132,7 +132,7 @@ def _ran(*command: str | Path) -> str:
 
 
 CHECKS = (must_be_clean, must_keep_its_word, must_pass)
-"""What has to hold before anything is built."""
+"""Checks before anything is built."""
 
 if __name__ == "__main__":
     sys.exit(main(sys.argv[1:]))

@@ -12,7 +12,7 @@ from .receivers import Receiving
 
 
 class Kept:
-    """What a representation keeps for one viewer; `receiving` has the receivers of each of its pools."""
+    """A representation's pools for one viewer; `receiving` has the receivers of each."""
 
     def __init__(self, receiving: Sequence[Receiving] = ()) -> None:
         self.receiving = list(receiving)

@@ -1,4 +1,4 @@
-"""What is grown from a grass kind: postures, response, and patch models."""
+"""Growths of grass kinds: postures, response, and patch models."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -113,10 +113,10 @@ class Growth:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Form:
-    """What one kind of grass is now, or is to become."""
+    """A present or future form of a kind of grass."""
 
     number: int
-    """Index of the form: k for what kind k is now, k plus the number of kinds for what it is to become."""
+    """Index of the form: k for the present form of kind k, k plus the number of kinds for its future form."""
 
     kind: int
     growth: Growth

@@ -1,4 +1,4 @@
-"""How pressed grass lies and stands up again; `press.glsl` is the twin."""
+"""Pressed grass, which lies down and stands up again; `press.glsl` is the twin."""
 
 from dataclasses import dataclass
 

@@ -20,5 +20,5 @@ def _three() -> Three:
 
 
 THREE = _three()
-"""Numbers of the representations whose transitions are more than a cross-fade: one whose blades morph, the one that
-they morph into, and the one that this grows out of."""
+"""Numbers of the representations whose transitions are more than a cross-fade: blades, which morph into strips, and the
+carpet, out of which strips grow."""

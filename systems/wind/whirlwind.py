@@ -37,7 +37,7 @@ class Whirlwind(PlacedWind):
     """Posture index near its middle."""
 
     spin: Literal["left", "right"] = "left"
-    """Which way it turns, seen from above."""
+    """Direction in which it turns, seen from above."""
 
     turning: float = Field(default=0.35, ge=0.0, le=10.0)
     """Speed at which its stronger sides turn [turns/s]."""

@@ -110,7 +110,7 @@ class BladesKept(Kept):
         super().__init__([Receiving(pool, name)])
         self.pool = pool
         self.ahead: tuple[object, BladePool, NDArray[np.int64]] | None = None
-        """What `carry_ahead` prepared: the representation it is for, its pool, and the `slot_states` at that time."""
+        """Result of `carry_ahead`: the next representation, its pool, and the `slot_states` at that time."""
 
     def hold(self, pool: BladePool, /) -> None:
         """Take over the blades of another pool with as many slots; the entities of the slots stay."""

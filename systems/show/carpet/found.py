@@ -1,4 +1,4 @@
-"""What takes long to compute from a terrain's heights; for streamed ground it is computed ahead, on another thread."""
+"""Rims and holes, which take long to compute; for streamed ground they are computed ahead, on another thread."""
 
 from dataclasses import dataclass
 from typing import Self

@@ -30,7 +30,7 @@ Touches = Callable[[Rectangles], Mask]
 
 
 class PieceEdges(NamedTuple):
-    """Which pieces of tiles have edges."""
+    """Masks of pieces of tiles, by their edges."""
 
     edged: Mask
     """Pieces with an edge, (n, PIECES)."""

@@ -62,7 +62,7 @@ class StripShelf:
         self.placements = Records(ctx, PLACEMENT, PLACEMENTS_ROW, rows=rows)
         self.strips = Records(ctx, NUMBER, STRIPS_ROW, rows=rows)
         self.sent: object = None
-        """What was uploaded last."""
+        """Gathered frame that was uploaded last."""
         self.numbers: object = None
         """Numbers of polygon strips uploaded last."""
 

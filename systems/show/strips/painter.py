@@ -36,7 +36,7 @@ Order = tuple[NDArray[np.uint32], NDArray[np.int64]]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Gathered:
-    """What a frame uploads and draws."""
+    """Uploads and drawing of a frame."""
 
     placements: NDArray[np.void]
     strips: NDArray[np.uint32]
@@ -69,7 +69,7 @@ class StripsPainter(RepresentationPainter):
         self._drawn = 0
         """Number of polygon strips that this frame has drawn."""
         self._now: _Gathered | None = None
-        """What was gathered for the frame that is drawn."""
+        """Uploads and drawing of the current frame."""
         self._gathered, self._ordered = Remembered[_Gathered](), Remembered[Order]()
 
     def texts(self) -> Iterator[Texts]:
