@@ -20,7 +20,7 @@ from .repeating import CLOUDS_SIDE
 SIDE = 64
 """Texels along a side of the block."""
 
-OCTAVES, GAIN = (2, 4, 8, 16), 0.55
+OCTAVES, GAIN = (2, 4, 8, 16), 0.65
 """Heaps along a side in each octave; amplitude of an octave, relative to the octave before."""
 
 STEEPEST = 8.0

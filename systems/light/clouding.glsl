@@ -27,20 +27,21 @@ Way way_toward(vec3 direction) {
 }
 
 struct CloudPoint {
-    float along;          // position on the way, 0 to 1
-    float excess;         // excess density, negative outside clouds
-    float side_strength;  // strength of the billows, lower at bases
-    float billow_height;  // height of the billow above the mean, times that strength
-    vec3 map;             // texel of the cloud map
-    vec4 billow;          // texel of the billows
+    float along;    // position on the way, 0 to 1
+    float excess;   // excess density, negative outside clouds
+    float above;    // excess density without billows: what the cloud's depth above the point is proportional to
+    float relief;   // strength of the billows' light and shade, 0 at bases
+    vec3 map;       // texel of the cloud map
+    vec4 billow;    // texel of the billows
 };
 
 CloudPoint cloud_at(Way way, float along) {
     vec2 uv = way.start + way.span * along;
     vec3 map = textureLod(heaps, uv, 0.0).rgb;
     vec4 billow = textureLod(billows, BLOCK * vec3(uv.x, along * (CLOUD_TALLEST / CLOUDS_SIDE), uv.y), way.mip_level);
-    float side_strength = min(CLOUD_BASE_BILLOWS + CLOUD_SIDE_BILLOWS * along, 1.0), billow_height = side_strength * (billow.x - 0.5);
-    float excess = map.x - cloud_edge - CLOUD_DOME * along * along + CLOUD_BILLOWED * billow_height;
+    float column = map.x - cloud_edge, above = column - CLOUD_DOME * along * along, relief = min(CLOUD_RELIEF * along, 1.0);
+    float strength = mix(CLOUD_BASE_BILLOWS, min(CLOUD_SUPPORT * max(column, 0.0), 1.0), relief);
+    float excess = above + CLOUD_BILLOWED * strength * (billow.x - 0.5);
     excess *= excess > 0.0 ? min(CLOUD_BASE_DEPTH + CLOUD_BASE_DEPTH_RISE * along, 1.0) : 1.0;
-    return CloudPoint(along, excess, side_strength, billow_height, map, billow);
+    return CloudPoint(along, excess, above, relief, map, billow);
 }

@@ -5,6 +5,7 @@ at the edge. Billows stand out from its sides. `cloudscape.frag` marches through
 and sunlight: bases are flat and grey, tops are heaped and bright towards the sun, edges are soft.
 """
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -22,10 +23,10 @@ BEND = 0.12
 FADE = (-0.02, 0.14)
 """Sines of elevation between which clouds fade in from the haze at the horizon."""
 
-TALLEST = 150.0
+TALLEST = 240.0
 """Height of the highest tops above the bases [m]: a third of a heap's width, as in fair-weather cumulus."""
 
-FARTHEST_ASIDE = 450.0
+FARTHEST_ASIDE = 600.0
 """Largest horizontal distance of a line of sight between bases and highest tops [m]; near the horizon it flattens tops.
 With more, samples at successive heights would belong to different heaps."""
 
@@ -47,16 +48,17 @@ MAP_ASIDE, BILLOWS_ASIDE = 40.0, 55.0
 """Distances towards the sun at which the self-shadowing of a cloud is taken from the slope of the map, and from the
 slope of the billows [m]."""
 
-SHADING, MULTIPLE = 9.0, 0.06
-"""Decrease in the log-odds of sunlight at a place, per unit of map density towards the sun; and the fraction of
-sunlight that multiple scattering brings to every place."""
+SHADING = 9.0
+"""Decrease in the log-odds of sunlight at a place, per unit of map density towards the sun."""
 
-BASE_SHADING, BASE_BILLOWS, SIDE_BILLOWS = 0.08, 0.35, 4.5
+BASE_SHADING, BASE_BILLOWS, RELIEF = 0.2, 0.8, 4.5
 """Extra density towards the sun at a base; strength of billows at a base; its increase over the whole height."""
 
-CREASE_SHADING, BILLOW_LIGHT = 0.6, 1.0
-"""Difference in shading density between the deepest creases and the highest billows; and the extra light in full shade
-that the highest billows send, relative to a base's."""
+CREASE_SHADING = 0.6
+"""Difference in shading density between the deepest creases and the highest billows."""
+
+SUPPORT = 10.0
+"""Strength of billows per unit of excess density at the base below them."""
 
 SUNLIT, SILVER = 1.25, 1.0
 """Radiance of a sunlit cloud relative to a leaf in the sun: a cloud reflects all light, a leaf gets 0.8 of it. And
@@ -69,15 +71,19 @@ unscattered.
 The fraction scattered so is the square of the droplets' asymmetry of 0.85 (Joseph, Wiscombe and Weinman, The
 Delta-Eddington Approximation for Radiative Flux Transfer, 1976)."""
 
-SHADED_BASE = 0.27, 0.3
-"""Radiance of a base in full shade, relative to sunlight on level ground above it, and to skylight."""
+ASYMMETRY = 0.85
+"""Asymmetry of scattering by cloud droplets: mean cosine of the angle."""
 
-SHADED_TOP = 0.8
-"""Extra radiance in full shade of the highest tops, relative to a base's."""
+EXTINCTION = 0.1
 
-SHADED_EDGE, DARKENING = 0.72, 0.22
-"""Factor on the radiance in full shade at a cloud's edge; and its decrease per unit of map density: thick clouds are
-darker beneath."""
+DIFFUSION = 0.5 * (1.0 - ASYMMETRY) * EXTINCTION * TALLEST
+"""Decrease of scattered light through a cloud, 1 / (1 + `DIFFUSION` * x), with the excess density x.
+
+Light that is scattered many times and never absorbed comes through by this part, and the rest is reflected (two
+streams: Bohren, Multiple Scattering of Light and Some of Its Observable Consequences, 1987)."""
+
+ASPECT = 1.0 / 3.0
+"""Height of a lone heap, relative to its width."""
 
 AIR_VEIL = 0.12
 """Fraction of a clear sky's radiance that comes from air below the clouds: it veils them where the sun shines in.
@@ -104,17 +110,15 @@ GLSL = {
     "CLOUD_MAP_ASIDE": MAP_ASIDE,
     "CLOUD_BILLOWS_ASIDE": BILLOWS_ASIDE,
     "CLOUD_SHADING": SHADING,
-    "CLOUD_MULTIPLE": MULTIPLE,
     "CLOUD_BASE_SHADING": BASE_SHADING,
     "CLOUD_BASE_BILLOWS": BASE_BILLOWS,
-    "CLOUD_SIDE_BILLOWS": SIDE_BILLOWS,
+    "CLOUD_RELIEF": RELIEF,
     "CLOUD_CREASE_SHADING": CREASE_SHADING,
-    "CLOUD_BILLOW_LIGHT": BILLOW_LIGHT,
     "CLOUD_SUNLIT": SUNLIT,
     "CLOUD_SILVER": SILVER,
-    "CLOUD_SHADED_TOP": SHADED_TOP,
-    "CLOUD_SHADED_EDGE": SHADED_EDGE,
-    "CLOUD_DARKENING": DARKENING,
+    "CLOUD_DIFFUSION": DIFFUSION,
+    "CLOUD_SUPPORT": SUPPORT,
+    "CLOUD_ASPECT": ASPECT,
     "CLOUD_LONE": LONE_CLOUD,
     "CLOUD_SILVER_DEPTH": SILVER_DEPTH,
     "CLOUD_AIR_VEIL": AIR_VEIL,
@@ -144,13 +148,16 @@ class Clouds:
     """Fraction of sunlight that passes the clouds, averaged over the land."""
 
 
-def in_shade(sun: Doubles, high: float, sky: Doubles, /) -> Doubles:
-    """Return a base's radiance in full shade, (3,).
+def in_shade(sun: Doubles, high: float, sky: Doubles, clouds: Clouds, /) -> Doubles:
+    """Return the light that a cloud scatters through itself, as radiance of a thin cloud in full shade, (3,).
 
     `sun` is the radiance of a white leaf in full sun, `high` the sine of the sun's elevation, `sky` the clear sky's
-    irradiance as radiance.
+    irradiance as radiance. A heap of `ASPECT` takes in sunlight with its top and its side, and lets it out of its base
+    and of the sides in shade, with half of its circumference; an overcast has no sides.
     """
-    return SHADED_BASE[0] * max(high, 0.0) * sun + SHADED_BASE[1] * sky
+    aspect = ASPECT * min(max(clouds.edge, 0.0), 1.0)
+    taken = max(high, 0.0) + aspect * math.sqrt(max(1.0 - high * high, 0.0))
+    return SUNLIT * taken / (1.0 + 2.0 * aspect) * sun + sky
 
 
 @lru_cache(maxsize=64)
@@ -163,8 +170,8 @@ def clouds_of(cover: float, /) -> Clouds:
     excess = np.maximum(_RANKS - edge, 0.0)
     transmittance = np.exp(-DEPTH * excess)
     hidden = 1.0 - transmittance
-    odds = np.exp(SHADING * (excess + BASE_SHADING * (1.0 - BASE_BILLOWS)))
-    sunlit = hidden * SUNLIT * (MULTIPLE + (1.0 - MULTIPLE) / (1.0 + odds))
-    shaded = hidden * (SHADED_EDGE - DARKENING * excess)
+    lit = 1.0 / (1.0 + np.exp(SHADING * (excess + BASE_SHADING)))
+    sunlit = hidden * SUNLIT * lit
+    shaded = hidden * (1.0 - lit) / (1.0 + DIFFUSION * np.sqrt(excess / DOME))
     part, sun, sky = (float(each.mean()) for each in (hidden, sunlit, shaded))
     return Clouds(edge, part, sun, sky, lone + (1.0 - lone) * float(transmittance.mean()))

@@ -5,6 +5,7 @@
 in vec3 ray;
 flat in vec4 map_toward_sun;
 flat in vec4 billows_toward_sun;
+flat in float sun_scattered;
 out vec4 pixel;
 
 const float SILVER_POWER = 12.0;  // narrowness of the silver lining around the sun
@@ -16,11 +17,18 @@ struct March {
     float shaded;
 };
 
-// Fraction of sunlight that reaches a point in a cloud; `base_excess` is the excess density at the base below it.
-float sunlight_at(CloudPoint point, float base_excess) {
-    float shading = base_excess + CLOUD_BASE_SHADING * (1.0 - point.side_strength) + dot(vec4(point.map.yz, point.along, 1.0), map_toward_sun);
-    shading += point.side_strength * dot(vec4(point.billow.yzw, 1.0), billows_toward_sun) - CLOUD_CREASE_SHADING * point.billow_height;
-    return CLOUD_MULTIPLE + (1.0 - CLOUD_MULTIPLE) / (1.0 + exp(CLOUD_SHADING * shading));
+// Odds of shade against sunlight at a point in a cloud, by the density towards the sun.
+float shade_odds(CloudPoint point) {
+    float shading = max(point.above, 0.0) + CLOUD_BASE_SHADING * (1.0 - point.relief) + dot(vec4(point.map.yz, point.along, 1.0), map_toward_sun);
+    shading += point.relief * (dot(vec4(point.billow.yzw, 1.0), billows_toward_sun) - CLOUD_CREASE_SHADING * (point.billow.x - 0.5));
+    return exp(CLOUD_SHADING * shading);
+}
+
+// Light on a cloud, relative to what is scattered through it to a point in its shade. Billows hang from bases; higher up, their
+// creases lie deep between them.
+float weakening(CloudPoint point) {
+    float column = point.map.x - cloud_edge + CLOUD_BILLOWED * (CLOUD_BASE_BILLOWS - point.relief) * (point.billow.x - 0.5);
+    return 1.0 + CLOUD_DIFFUSION * max(sqrt(max(column, 0.0) * (1.0 / CLOUD_DOME)) - point.along, 0.0);
 }
 
 // Add a step of the march up to a point: `way` is its length relative to the whole way straight up; the excess density changes linearly
@@ -30,11 +38,10 @@ void accumulate(CloudPoint point, float before, float way, inout March march) {
     if (sum <= 0.0)
         return;
     float mean = 0.5 * sum * sum / (abs(before) + abs(point.excess));  // of the part inside: less than half the sum across an edge
-    float base_excess = max(point.map.x - cloud_edge - CLOUD_DOME * point.along * point.along, 0.0);
     float transmitted = march.transmitted * transmittance(CLOUD_MARCH_DEPTH * way * mean), stopped = march.transmitted - transmitted;
-    march.sunlit += stopped * sunlight_at(point, base_excess);
-    float height_light = CLOUD_SHADED_EDGE + CLOUD_SHADED_TOP * point.along;
-    march.shaded += stopped * (height_light - CLOUD_DARKENING * base_excess + CLOUD_BILLOW_LIGHT * point.billow_height);
+    float odds = shade_odds(point), weak = weakening(point), part = stopped / (weak + weak * odds);
+    march.sunlit += part * (weak - sun_scattered);
+    march.shaded += part + part * odds;
     march.transmitted = transmitted;
 }
 

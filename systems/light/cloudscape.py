@@ -36,7 +36,7 @@ MARCH_DEPTH = 500.0
 """Optical depth of the whole way, straight up, per unit of excess density: domes then hide as much overhead as the
 columns that shadows use. Seen with their sides, clouds hide 0.03 more of the sky."""
 
-BASE_DEPTH, BASE_DEPTH_RISE = 0.25, 8.0
+BASE_DEPTH, BASE_DEPTH_RISE = 0.5, 8.0
 """Factor on the optical depth at a base, and its increase over the whole height, up to 1: it makes bases soft."""
 
 OPAQUE = 0.02

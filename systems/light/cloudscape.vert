@@ -8,6 +8,8 @@ out vec3 ray;
 flat out vec4 map_toward_sun;
 flat out vec4 billows_toward_sun;
 
+flat out float sun_scattered; // sunlight that a thin cloud sends from its shade, relative to that from its lit side
+
 const float OVER = 4.0;  // legs of a triangle that covers the viewport of 2 by 2
 
 void main() {
@@ -19,5 +21,7 @@ void main() {
     map_toward_sun.w -= slope.x + slope.y;
     vec3 gradient = CLOUD_BILLOWED * BILLOWS_STEEPEST * CLOUD_BILLOWS_ASIDE / CLOUDS_SIDE * (BLOCK * sun);
     billows_toward_sun = vec4(2.0 * gradient, -(gradient.x + gradient.y + gradient.z));
+    float aspect = CLOUD_ASPECT * clamp(cloud_edge, 0.0, 1.0);
+    sun_scattered = (max(sun.y, 0.0) + aspect * length(sun.xz)) / (1.0 + 2.0 * aspect);
     gl_Position = vec4(corner, 0.0, 1.0);
 }

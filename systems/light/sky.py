@@ -93,7 +93,7 @@ def sky_of(light: Light, clear: Doubles, sun: Doubles, /) -> Sky:
     map_ = _with_own_colours(clear * (SUN * SKY_BRIGHTENED * min(light.strength, 1.0)) + NIGHT, light)
     clouds = clouds_of(light.clouds)
     up, clear_down = radians(sun_at(light)[1]), _irradiance(map_)
-    shaded = in_shade(sun, sin(up), clear_down)
+    shaded = in_shade(sun, sin(up), clear_down, clouds)
     grey = sun * clouds.sunlit + shaded * clouds.shaded
     map_ = _clouded(map_, grey, clouds)
     basis = scattered(np.cos(_AZIMUTH) * cos(up))
