@@ -1,7 +1,7 @@
 #include "lib/clouds.glsl"
 #include "lib/light.glsl"
 
-in vec3 ray;
+in vec4 ray;
 in vec3 light;
 in vec2 uv;
 in float mean_opacity;
@@ -15,15 +15,15 @@ const vec2 AUREOLE = vec2(0.35, 900.0);  // radiance of the aureole, in the same
 const float GREYS = 255.0;  // steps of the picture from black to white
 const vec3 GRIT = vec3(0.06711056, 0.00583715, 52.9829189);  // interleaved gradient noise (Jimenez, Next Generation Post Processing, 2014)
 
-// Radiance of disc and aureole, relative to sunlight, by the cosine of the angle to the sun.
-float glow(float cosine) {
-    float aside = cosine > 0.0 ? 1.0 - cosine * cosine : 1.0, aureole = 1.0 / (1.0 + AUREOLE.y * aside);
+// Radiance of disc and aureole, relative to sunlight, by a line of sight's parts across the direction to the sun and along it.
+float glow(vec3 ray) {
+    float across = dot(ray.xy, ray.xy), aside = ray.z > 0.0 ? across / (across + ray.z * ray.z) : 1.0, aureole = 1.0 / (1.0 + AUREOLE.y * aside);
     return DISC - DISC * smoothstep(LIMB.x * LIMB.x, LIMB.y * LIMB.y, aside) + AUREOLE.x * aureole * aureole;
 }
 
 void main() {
-    vec3 toward = ray * inversesqrt(dot(ray, ray)), seen = light;
-    float sunny = toward.y > 0.0 ? glow(dot(toward, sun)) : 0.0;
+    vec3 seen = light;
+    float sunny = ray.w > 0.0 ? glow(ray.xyz) : 0.0;
     if (cloud_edge <= 1.0) {
         vec4 cloud = textureLod(clouds, uv, 0.0);
         seen = seen - cloud.x * seen + cloudlight * cloud.z;

@@ -4,7 +4,7 @@
 
 uniform sampler2D sky;  // sky map: by azimuth from the sun, 0 to pi, and by the root of the elevation's sine
 
-out vec3 ray;
+out vec4 ray;  // line of sight: two parts across the direction to the sun, one along it, and the part upwards
 out vec3 light;
 out vec2 uv;  // from 0 to 1 across and up the picture
 
@@ -23,8 +23,10 @@ float angle_of(float cosine) {
 void main() {
     vec2 cell = vec2(float(gl_VertexID / 2), float(gl_InstanceID + (gl_VertexID & 1)));
     vec2 corner = cell * vec2(2.0 / float(ACROSS), 2.0 / float(UP)) - 1.0;
-    ray = ray_ahead + corner.x * ray_across + corner.y * ray_up;
-    vec3 toward = normalize(ray);
+    vec3 sight = ray_ahead + corner.x * ray_across + corner.y * ray_up, toward = normalize(sight);
+    vec2 leaning = sun.xz / (1.0 + max(sun.y, 0.0));  // (Frisvad, Building an Orthonormal Basis Without Normalization, 2012)
+    vec2 across = sight.xz - sun.xz * (sight.y + dot(leaning, sight.xz));
+    ray = vec4(across, dot(sight, sun), sight.y);
     float c = dot(toward.xz, toward_sun) * inversesqrt(dot(toward.xz, toward.xz) + LEAST_LENGTH);
     vec2 size = vec2(textureSize(sky, 0)), place = vec2(angle_of(clamp(c, -1.0, 1.0)) / PI, sqrt(max(toward.y, 0.0)));
     light = textureLod(sky, (place * (size - 1.0) + 0.5) / size, 0.0).rgb;
