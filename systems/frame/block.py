@@ -61,7 +61,7 @@ FRAME = np.dtype(
         ("eye", "3f4"), ("writes_raw", "f4"),  # [m]; 1 if raw radiance is written, without the tone curve
         # Direction to the sun; factor from the scene's radiance, with `SUN` above the air, to the picture's.
         ("sun", "3f4"), ("exposure", "f4"),
-        # Radiance of a cloud's underside in full shade; threshold of clouds in their map, above 1 for none.
+        # Radiance of a thin cloud in full shade; threshold of clouds in their map, above 1 for none.
         ("cloudlight", "3f4"), ("cloud_edge", "f4"),
         ("sunlight", "3f4"), ("haze_density", "f4"),  # radiance of a white leaf in full sun; 1 / haze distance [1/m]
         ("skylight", "3f4"), ("tallest_grass", "f4"),  # under the whole sky; bound of blades' height [m]

@@ -27,21 +27,22 @@ Way way_toward(vec3 direction) {
 }
 
 struct CloudPoint {
-    float along;    // position on the way, 0 to 1
-    float excess;   // excess density, negative outside clouds
-    float above;    // excess density without billows: what the cloud's depth above the point is proportional to
-    float relief;   // strength of the billows' light and shade, 0 at bases
-    vec3 map;       // texel of the cloud map
-    vec4 billow;    // texel of the billows
+    float along;   // position on the way, 0 to 1
+    float excess;  // excess density, negative outside clouds
+    float dome;    // excess density without billows
+    float column;  // excess density at the base below
+    float relief;  // how far the billows are lit and shaded one by one, 0 at bases to 1
+    vec3 map;      // texel of the cloud map
+    vec4 billow;   // texel of the billows
 };
 
 CloudPoint cloud_at(Way way, float along) {
     vec2 uv = way.start + way.span * along;
     vec3 map = textureLod(heaps, uv, 0.0).rgb;
     vec4 billow = textureLod(billows, BLOCK * vec3(uv.x, along * (CLOUD_TALLEST / CLOUDS_SIDE), uv.y), way.mip_level);
-    float column = map.x - cloud_edge, above = column - CLOUD_DOME * along * along, relief = min(CLOUD_RELIEF * along, 1.0);
+    float column = map.x - cloud_edge, dome = column - CLOUD_DOME * along * along, relief = min(CLOUD_RELIEF * along, 1.0);
     float strength = mix(CLOUD_BASE_BILLOWS, min(CLOUD_SUPPORT * max(column, 0.0), 1.0), relief);
-    float excess = above + CLOUD_BILLOWED * strength * (billow.x - 0.5);
+    float excess = dome + CLOUD_BILLOWED * strength * (billow.x - 0.5);
     excess *= excess > 0.0 ? min(CLOUD_BASE_DEPTH + CLOUD_BASE_DEPTH_RISE * along, 1.0) : 1.0;
-    return CloudPoint(along, excess, above, relief, map, billow);
+    return CloudPoint(along, excess, dome, column, relief, map, billow);
 }

@@ -2,7 +2,8 @@
 
 A cloud stands on a level base. Its height is the root of its excess density: how much the cloud map exceeds its value
 at the edge. Billows stand out from its sides. `cloudscape.frag` marches through the layer and accumulates optical depth
-and sunlight: bases are flat and grey, tops are heaped and bright towards the sun, edges are soft.
+and two sorts of light: sunlight from lit sides, and from sides in shade what is scattered through the cloud many times.
+So bases are flat and grey, tops are heaped and bright towards the sun, edges are soft.
 """
 
 import math
@@ -23,10 +24,13 @@ BEND = 0.12
 FADE = (-0.02, 0.14)
 """Sines of elevation between which clouds fade in from the haze at the horizon."""
 
-TALLEST = 240.0
-"""Height of the highest tops above the bases [m]: a third of a heap's width, as in fair-weather cumulus."""
+TALLEST = 200.0
+"""Height of the highest tops above the bases [m]: half of a heap's width, as in fair-weather cumulus."""
 
-FARTHEST_ASIDE = 600.0
+ASPECT = 0.5
+"""Height of a lone cloud, relative to its width."""
+
+FARTHEST_ASIDE = 540.0
 """Largest horizontal distance of a line of sight between bases and highest tops [m]; near the horizon it flattens tops.
 With more, samples at successive heights would belong to different heaps."""
 
@@ -52,13 +56,14 @@ SHADING = 9.0
 """Decrease in the log-odds of sunlight at a place, per unit of map density towards the sun."""
 
 BASE_SHADING, BASE_BILLOWS, RELIEF = 0.2, 0.8, 4.5
-"""Extra density towards the sun at a base; strength of billows at a base; its increase over the whole height."""
+"""Extra density towards the sun at a base; strength of billows there; and by how much more over the whole height they
+are lit and shaded one by one: bases show none in relief, as light comes to them through the whole cloud."""
 
 CREASE_SHADING = 0.6
 """Difference in shading density between the deepest creases and the highest billows."""
 
 SUPPORT = 10.0
-"""Strength of billows per unit of excess density at the base below them."""
+"""Strength of billows above a base per unit of excess density there, up to 1: so no puffs float where there is none."""
 
 SUNLIT, SILVER = 1.25, 1.0
 """Radiance of a sunlit cloud relative to a leaf in the sun: a cloud reflects all light, a leaf gets 0.8 of it. And
@@ -68,22 +73,24 @@ SILVER_DEPTH = 0.28
 """Optical depth for the silver lining, relative to the cloud's: light scattered almost straight on counts as
 unscattered.
 
-The fraction scattered so is the square of the droplets' asymmetry of 0.85 (Joseph, Wiscombe and Weinman, The
-Delta-Eddington Approximation for Radiative Flux Transfer, 1976)."""
+The fraction scattered so is the square of `ASYMMETRY` (Joseph, Wiscombe and Weinman, The Delta-Eddington Approximation
+for Radiative Flux Transfer, 1976)."""
 
 ASYMMETRY = 0.85
-"""Asymmetry of scattering by cloud droplets: mean cosine of the angle."""
+"""Mean cosine of the angle by which cloud droplets scatter light."""
 
-EXTINCTION = 0.1
+WATER, DROPLET = 0.5, 8.0
+"""Liquid water in clouds [g/m^3], and effective radius of their droplets [micrometres], as in small cumulus."""
+
+EXTINCTION = 1.5 * WATER / DROPLET
+"""Optical depth of a cloud per metre of depth [1/m] (Stephens, Radiation Profiles in Extended Water Clouds, 1978)."""
 
 DIFFUSION = 0.5 * (1.0 - ASYMMETRY) * EXTINCTION * TALLEST
-"""Decrease of scattered light through a cloud, 1 / (1 + `DIFFUSION` * x), with the excess density x.
+"""Weakening of light that is scattered through a cloud, per height of the highest tops: 1 / (1 + `DIFFUSION`) comes
+through that much cloud.
 
-Light that is scattered many times and never absorbed comes through by this part, and the rest is reflected (two
-streams: Bohren, Multiple Scattering of Light and Some of Its Observable Consequences, 1987)."""
-
-ASPECT = 1.0 / 3.0
-"""Height of a lone heap, relative to its width."""
+The rest is reflected, as droplets absorb nothing. This is scattering to all orders in two streams (Bohren, Multiple
+Scattering of Light and Some of Its Observable Consequences, 1987)."""
 
 AIR_VEIL = 0.12
 """Fraction of a clear sky's radiance that comes from air below the clouds: it veils them where the sun shines in.
@@ -138,40 +145,55 @@ class Clouds:
     hidden: float
     """Fraction of the sky that clouds hide, from 0 to 1."""
 
-    sunlit: float
-    """Radiance that clouds send down in sunlight, relative to a white leaf in full sun."""
+    lit: float
+    """Radiance that the lit sides of clouds send down, relative to a cloud in full sun."""
 
-    shaded: float
-    """Radiance that clouds send down in shade, relative to a base in full shade."""
+    scattered: float
+    """Radiance that clouds send down of the light scattered through them, relative to a thin cloud's."""
+
+    both: float
+    """Part of `scattered` on lit sides."""
 
     past: float
     """Fraction of sunlight that passes the clouds, averaged over the land."""
 
 
+def sun_scattered(high: float, edge: float, /) -> float:
+    """Return the sunlight that a thin cloud sends from its shade, relative to a cloud in full sun.
+
+    `high` is the sine of the sun's elevation, `edge` as in `Clouds`. A lone cloud takes sunlight in with its top and a
+    side, and lets it out of its base and the half of its sides that is in shade. An overcast has no sides.
+    """
+    aspect, sine = ASPECT * min(max(edge, 0.0), 1.0), max(high, 0.0)
+    return (sine + aspect * math.sqrt(max(1.0 - high * high, 0.0))) / (1.0 + 2.0 * aspect)
+
+
 def in_shade(sun: Doubles, high: float, sky: Doubles, clouds: Clouds, /) -> Doubles:
-    """Return the light that a cloud scatters through itself, as radiance of a thin cloud in full shade, (3,).
+    """Return the radiance of a thin cloud in full shade, (3,); of thicker ones less is left.
 
     `sun` is the radiance of a white leaf in full sun, `high` the sine of the sun's elevation, `sky` the clear sky's
-    irradiance as radiance. A heap of `ASPECT` takes in sunlight with its top and its side, and lets it out of its base
-    and of the sides in shade, with half of its circumference; an overcast has no sides.
+    irradiance as radiance.
     """
-    aspect = ASPECT * min(max(clouds.edge, 0.0), 1.0)
-    taken = max(high, 0.0) + aspect * math.sqrt(max(1.0 - high * high, 0.0))
-    return SUNLIT * taken / (1.0 + 2.0 * aspect) * sun + sky
+    return SUNLIT * sun_scattered(high, clouds.edge) * sun + sky
+
+
+def sent_down(sun: Doubles, high: float, shaded: Doubles, clouds: Clouds, /) -> Doubles:
+    """Return the mean radiance of clouds times their cover, (3,): `shaded` is that of `in_shade`."""
+    lit = clouds.lit - sun_scattered(high, clouds.edge) * clouds.both
+    return SUNLIT * lit * sun + clouds.scattered * shaded
 
 
 @lru_cache(maxsize=64)
 def clouds_of(cover: float, /) -> Clouds:
     """Return the means of clouds that cover a fraction of the sky, seen from below; the map's values are uniform."""
     if cover <= 0.0:
-        return Clouds(2.0, 0.0, 0.0, 0.0, 1.0)
+        return Clouds(2.0, 0.0, 0.0, 0.0, 0.0, 1.0)
     edge = 1.0 - cover - min(SOFT, cover) - OVERCAST * cover**OVERCAST_POWER
     lone = LONE_CLOUD * max(edge, 0.0)
     excess = np.maximum(_RANKS - edge, 0.0)
     transmittance = np.exp(-DEPTH * excess)
     hidden = 1.0 - transmittance
     lit = 1.0 / (1.0 + np.exp(SHADING * (excess + BASE_SHADING)))
-    sunlit = hidden * SUNLIT * lit
-    shaded = hidden * (1.0 - lit) / (1.0 + DIFFUSION * np.sqrt(excess / DOME))
-    part, sun, sky = (float(each.mean()) for each in (hidden, sunlit, shaded))
-    return Clouds(edge, part, sun, sky, lone + (1.0 - lone) * float(transmittance.mean()))
+    scattered = hidden / (1.0 + DIFFUSION * np.sqrt(excess / DOME))
+    part, bright, sent, both = (float(each.mean()) for each in (hidden, hidden * lit, scattered, scattered * lit))
+    return Clouds(edge, part, bright, sent, both, lone + (1.0 - lone) * float(transmittance.mean()))

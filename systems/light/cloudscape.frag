@@ -1,4 +1,4 @@
-// Clouds in the picture: their opacity; the sunlight and the light in full shade that they send, both times opacity; and their opacity
+// Clouds in the picture: their opacity; the sunlight of lit sides and the scattered light that they send, times opacity; and their opacity
 // before the sun, which the air's veil does not lower.
 #include "systems/light/clouding.glsl"
 
@@ -10,24 +10,25 @@ out vec4 pixel;
 
 const float SILVER_POWER = 12.0;  // narrowness of the silver lining around the sun
 
-// What a line of sight has accumulated: transmittance; and of the opaque rest, the parts lit by the sun and in full shade.
+// What a line of sight has accumulated: transmittance; and from the opaque rest, sunlight of lit sides beyond what is scattered there,
+// and scattered light, each relative to a thin cloud's.
 struct March {
     float transmitted;
     float sunlit;
-    float shaded;
+    float scattered;
 };
 
 // Odds of shade against sunlight at a point in a cloud, by the density towards the sun.
 float shade_odds(CloudPoint point) {
-    float shading = max(point.above, 0.0) + CLOUD_BASE_SHADING * (1.0 - point.relief) + dot(vec4(point.map.yz, point.along, 1.0), map_toward_sun);
+    float shading = max(point.dome, 0.0) + CLOUD_BASE_SHADING * (1.0 - point.relief) + dot(vec4(point.map.yz, point.along, 1.0), map_toward_sun);
     shading += point.relief * (dot(vec4(point.billow.yzw, 1.0), billows_toward_sun) - CLOUD_CREASE_SHADING * (point.billow.x - 0.5));
     return exp(CLOUD_SHADING * shading);
 }
 
-// Light on a cloud, relative to what is scattered through it to a point in its shade. Billows hang from bases; higher up, their
+// Factor by which light is weakened that is scattered to a point through the cloud above. Billows hang from bases; higher up, their
 // creases lie deep between them.
 float weakening(CloudPoint point) {
-    float column = point.map.x - cloud_edge + CLOUD_BILLOWED * (CLOUD_BASE_BILLOWS - point.relief) * (point.billow.x - 0.5);
+    float column = point.column + CLOUD_BILLOWED * (CLOUD_BASE_BILLOWS - point.relief) * (point.billow.x - 0.5);
     return 1.0 + CLOUD_DIFFUSION * max(sqrt(max(column, 0.0) * (1.0 / CLOUD_DOME)) - point.along, 0.0);
 }
 
@@ -39,9 +40,9 @@ void accumulate(CloudPoint point, float before, float way, inout March march) {
         return;
     float mean = 0.5 * sum * sum / (abs(before) + abs(point.excess));  // of the part inside: less than half the sum across an edge
     float transmitted = march.transmitted * transmittance(CLOUD_MARCH_DEPTH * way * mean), stopped = march.transmitted - transmitted;
-    float odds = shade_odds(point), weak = weakening(point), part = stopped / (weak + weak * odds);
-    march.sunlit += part * (weak - sun_scattered);
-    march.shaded += part + part * odds;
+    float odds = shade_odds(point), weakened = weakening(point), part = stopped / (weakened + weakened * odds);
+    march.sunlit += part * (weakened - sun_scattered);
+    march.scattered += part + part * odds;
     march.transmitted = transmitted;
 }
 
@@ -71,7 +72,7 @@ void main() {
     if (march.transmitted >= 1.0)
         return;
     float transmitted = max(march.transmitted - CLOUD_OPAQUE, 0.0) / (1.0 - CLOUD_OPAQUE), opacity = 1.0 - transmitted;
-    vec3 seen = opacity * vec3(1.0, vec2(CLOUD_SUNLIT * march.sunlit, march.shaded) / (1.0 - march.transmitted));
+    vec3 seen = opacity * vec3(1.0, vec2(CLOUD_SUNLIT * march.sunlit, march.scattered) / (1.0 - march.transmitted));
     seen.y += CLOUD_SILVER * pow(max(0.5 + 0.5 * dot(toward, sun), 0.0), SILVER_POWER) * pow(transmitted, CLOUD_SILVER_DEPTH) * opacity;
     float gaps = clamp(1.0 + cloud_edge / CLOUD_OVERCAST, 0.0, 1.0);  // 0 for an overcast, which the air does not veil
     pixel = smoothstep(CLOUD_FADE.x, CLOUD_FADE.y, toward.y) * vec4((1.0 - CLOUD_AIR_VEIL * gaps) * seen, opacity);

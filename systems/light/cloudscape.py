@@ -26,15 +26,15 @@ LEAST_RISE = 1e-6
 MOST_STEPS = 32
 """Largest number of steps along a line of sight."""
 
-STEP_LENGTHS, STEP_OUTSIDE, STEP_INSIDE = (0.015, 0.2, 0.02), 0.27, 0.2
+STEP_LENGTHS, STEP_OUTSIDE, STEP_INSIDE = (0.015, 0.165, 0.02), 0.27, 0.2
 """Shortest step, and what may be added to it at most outside clouds and inside, relative to the way from the bases to
 the highest tops. Outside, a step grows by `STEP_OUTSIDE` per unit of missing density, as the map hardly rises faster;
 inside, by `STEP_INSIDE` per unit of excess density. So step lengths change gradually, and no edges show. The shortest
-step is some 2 m; the longest is shorter than heaps are wide."""
+step is some 3 m; the longest is shorter than heaps are wide."""
 
 MARCH_DEPTH = 500.0
 """Optical depth of the whole way, straight up, per unit of excess density: domes then hide as much overhead as the
-columns that shadows use. Seen with their sides, clouds hide 0.03 more of the sky."""
+columns that shadows use. Seen with their sides, clouds hide up to 0.07 more of the sky."""
 
 BASE_DEPTH, BASE_DEPTH_RISE = 0.5, 8.0
 """Factor on the optical depth at a base, and its increase over the whole height, up to 1: it makes bases soft."""

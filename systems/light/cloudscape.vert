@@ -8,7 +8,8 @@ out vec3 ray;
 flat out vec4 map_toward_sun;
 flat out vec4 billows_toward_sun;
 
-flat out float sun_scattered; // sunlight that a thin cloud sends from its shade, relative to that from its lit side
+// Sunlight that a thin cloud sends from its shade, relative to a cloud in full sun: the twin of `sun_scattered` of `clouds.py`.
+flat out float sun_scattered;
 
 const float OVER = 4.0;  // legs of a triangle that covers the viewport of 2 by 2
 

@@ -53,7 +53,7 @@ class Daylight:
     """Radiance of a white leaf under the whole sky."""
 
     clouds: Doubles
-    """Radiance of a cloud's underside in full shade."""
+    """Radiance of a thin cloud in full shade."""
 
     sky: Sky
     """Map, horizon and irradiance of the sky."""

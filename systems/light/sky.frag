@@ -7,7 +7,7 @@ in vec2 uv;
 in float mean_opacity;
 out vec4 pixel;
 
-uniform sampler2D clouds;  // picture of clouds: opacity; sunlight and light in full shade that they send; opacity before the sun
+uniform sampler2D clouds;  // picture of clouds: opacity; sunlight of lit sides and scattered light that they send; opacity before the sun
 
 const vec2 LIMB = vec2(0.00443, 0.00483);  // sines of the radii of the disc's soft edge; its diameter is 0.53 degrees
 const float DISC = 12.0;     // radiance of the disc, relative to a white leaf in full sun: far above white

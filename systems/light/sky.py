@@ -10,7 +10,7 @@ import numpy as np
 from ...components.arrays import Doubles
 from ...engine.declared.light import Light
 from .air import FORWARD, HEIGHTS, multiple_scattering, sky_radiance
-from .clouds import Clouds, clouds_of, in_shade
+from .clouds import Clouds, clouds_of, in_shade, sent_down
 from .color import luminance, shown_as, srgb
 from .sun import sun_at
 
@@ -82,7 +82,7 @@ class Sky:
     """Radiance of a uniform sky with the same irradiance on level ground, shape (3,)."""
 
     clouds: Doubles
-    """Radiance of a cloud's underside in full shade, shape (3,)."""
+    """Radiance of a thin cloud in full shade, shape (3,)."""
 
 
 def sky_of(light: Light, clear: Doubles, sun: Doubles, /) -> Sky:
@@ -94,7 +94,7 @@ def sky_of(light: Light, clear: Doubles, sun: Doubles, /) -> Sky:
     clouds = clouds_of(light.clouds)
     up, clear_down = radians(sun_at(light)[1]), _irradiance(map_)
     shaded = in_shade(sun, sin(up), clear_down, clouds)
-    grey = sun * clouds.sunlit + shaded * clouds.shaded
+    grey = sent_down(sun, sin(up), shaded, clouds)
     map_ = _clouded(map_, grey, clouds)
     basis = scattered(np.cos(_AZIMUTH) * cos(up))
     horizon = _horizon(map_[0], basis)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from tallgrass import Shade
 from tallgrass.engine.camera import Camera
-from tallgrass.systems.light.color import display
+from tallgrass.systems.light.color import display, shown_as
 from tallgrass.systems.light.repeating import CLOUDS_SIDE
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import Stage
@@ -221,6 +221,23 @@ def test_f5_clouds_have_soft_edges_and_dark_undersides(room: Stage, load: Load) 
     clouds, edges = bright(sky[None])[0][blue < 0.1], (blue > 0.15) & (blue < 0.85)
     assert np.percentile(clouds, 10) < 0.8 * np.percentile(clouds, 90)
     assert edges.mean() > 0.15
+
+
+@pytest.mark.parametrize("cover", [0.3, 0.5])
+def test_f5_bases_of_clouds_are_about_a_third_as_bright_as_their_sunlit_sides(
+    room: Stage, load: Load, cover: float
+) -> None:
+    prairie = load(f"{SCENE}light: {{ azimuth: 180, elevation: 45, clouds: {cover} }}")
+    sky = shown_as(room.shot(prairie, Camera((0.0, 2.0, 0.0), 0.0, 0.6, np.radians(50.0))) / 255.0).reshape(-1, 3)
+    clouds = bright(sky[None])[0][np.ptp(sky, axis=1) < 0.15 * sky.max(axis=1)]
+    assert 0.25 < np.percentile(clouds, 5) / np.percentile(clouds, 95) < 0.4
+
+
+def test_f5_by_night_no_side_of_a_cloud_is_as_if_the_sun_lit_it(room: Stage, load: Load) -> None:
+    skies = [load(f"{SCENE}light: {{ hour: 1, clouds: {part} }}") for part in (1.0, 0.4)]
+    up = Camera((0.0, 2.0, 0.0), 0.0, 0.5, np.radians(50.0))
+    overcast, cloudy = (bright(room.shot(sky, up)) for sky in skies)
+    assert cloudy.min() > 0.8 * overcast.min()
 
 
 @pytest.mark.parametrize(("cover", "off"), [(0.2, 0.05), (0.5, 0.08)])

@@ -14,7 +14,16 @@ from tallgrass.systems.light.air import EYE, GROUND, multiple_scattering, sky_ra
 from tallgrass.systems.light.billows import SIDE as BLOCK_SIDE
 from tallgrass.systems.light.billows import STEEPEST as STEEPEST_BILLOW
 from tallgrass.systems.light.billows import billow_levels
-from tallgrass.systems.light.clouds import FADE, FARTHEST_ASIDE, clouds_of
+from tallgrass.systems.light.clouds import (
+    DIFFUSION,
+    FADE,
+    FARTHEST_ASIDE,
+    SUNLIT,
+    clouds_of,
+    in_shade,
+    sent_down,
+    sun_scattered,
+)
 from tallgrass.systems.light.cloudscape import STEP_LENGTHS, cloud_pixel, rows_of_sky
 from tallgrass.systems.light.color import display, luminance
 from tallgrass.systems.light.daylight import daylight
@@ -211,3 +220,22 @@ def test_clouds_have_no_more_pixels_than_can_be_seen_of_them() -> None:
 @pytest.mark.parametrize("cover", [0.05, 0.2, 0.4, 0.6])
 def test_clouds_hide_as_much_of_the_sky_as_a_scene_says(cover: float) -> None:
     assert clouds_of(cover).hidden == pytest.approx(cover, abs=0.01)
+
+
+@pytest.mark.parametrize("cover", [0.1, 0.4, 0.7])
+def test_bases_of_the_highest_clouds_are_about_a_third_as_bright_as_their_sides_in_the_sun(cover: float) -> None:
+    """Below a high sun, and a sky that sends a fifth as much light."""
+    for elevation in (30.0, 45.0, 60.0):
+        sun, high = np.ones(3), np.sin(np.radians(elevation))
+        base = in_shade(sun, high, 0.2 * sun, clouds_of(cover)) / (1.0 + DIFFUSION)
+        assert 0.25 < base[0] / SUNLIT < 0.4
+
+
+@settings(max_examples=40)
+@given(st.floats(0.01, 1.0), st.floats(0.0, 1.0))
+def test_clouds_send_no_more_sunlight_than_they_get(cover: float, high: float) -> None:
+    sun, clouds = np.ones(3), clouds_of(cover)
+    assert sun_scattered(high, clouds.edge) <= 1.0
+    sent = sent_down(sun, high, in_shade(sun, high, np.zeros(3), clouds), clouds)
+    assert (sent > 0.0).all() or high < 0.01
+    assert (sent <= SUNLIT * clouds.hidden).all()
