@@ -125,17 +125,8 @@ def must_be_known(what: str, name: str | None, known: Iterable[str], /) -> None:
         raise ValueError(f"unknown {what} '{name}'; there are {', '.join(there)}")
 
 
-def must_be_step(thing: object, /) -> None:
-    """Raise TypeError for a step of time that is no number, ValueError for one out of range."""
-    _must_be_seconds(thing, "a prairie advances", "by")
-
-
-def must_be_time(thing: object, what: str = "a wind is asked for", at: str = "at", /) -> None:
-    """Raise TypeError for a time that is no number, ValueError for one out of range."""
-    _must_be_seconds(thing, what, at)
-
-
-def _must_be_seconds(thing: object, what: str, at: str) -> None:
+def must_be_seconds(thing: object, what: str, at: str, /) -> None:
+    """Raise TypeError for a time that is no number, ValueError for one out of range; `what` begins the message."""
     if not isinstance(thing, NUMBER_TYPES):
         raise TypeError(f"{what} {at} a number of seconds, not {at} {shortened(thing)}")
     if not 0.0 <= thing <= LONGEST:

@@ -13,7 +13,7 @@ from ..components.grass_at import GrassAt
 from ..components.sun import Sun
 from ..engine.declared.light import Light
 from ..engine.declared.scene import Scene
-from ..engine.handed import as_rays, must_be_step, must_be_time, must_be_viewer
+from ..engine.handed import as_rays, must_be_seconds, must_be_viewer
 from ..engine.terrain.pick import pick
 from ..engine.terrain.sample import density_at, height_at, natural_at, normal_at
 from ..engine.underflow import Underflowing
@@ -84,7 +84,7 @@ class Answering(Underflowing):
     @time.setter
     def time(self, time: float) -> None:
         self._must_be_there("set its time")
-        must_be_time(time, "a prairie's time is set", "to")
+        must_be_seconds(time, "a prairie's time is set", "to")
         if time < self._clock:
             self.pressers.go_back()
         self._clock = float(time)
@@ -97,9 +97,9 @@ class Answering(Underflowing):
         Raises ValueError for a `dt` below 0 and a time beyond 1e9 s, TypeError for anything but a number.
         """
         self._must_be_there("move its time on")
-        must_be_step(dt)
+        must_be_seconds(dt, "a prairie advances", "by")
         later = self._clock + float(dt)  # float32 would soon round short steps to nothing
-        must_be_time(later, "a prairie advances", "to")
+        must_be_seconds(later, "a prairie advances", "to")
         self._clock = later
         self.winds.set_clock(self.time)
 
@@ -156,7 +156,7 @@ class Answering(Underflowing):
         """
         self._must_be_there("ask about it")
         number, then = self.scene.number_of(kind), self.time if time is None else time
-        must_be_time(then)
+        must_be_seconds(then, "a wind is asked for", "at")
         return self.winds.messages_at(as_places(xz), time=float(then), kind=number)
 
     def bent_at(self, xz: ArrayLike, *, kind: str | None = None) -> Floats:

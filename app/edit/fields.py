@@ -222,5 +222,5 @@ def tooltip(key: Key, /) -> str:
     elif key.unit:
         facts.append(f"in {key.unit}")
     if key.default not in (NOTHING, None, []) and not isinstance(key.default, BaseModel):
-        facts.append(f"without it: {yaml_text(key.default)}")
+        facts.append(f"default: {yaml_text(key.default)}")
     return "\n".join(facts)

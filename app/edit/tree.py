@@ -70,7 +70,7 @@ class Tree:
         """Show the switch of an optional key, and return whether the key has a value."""
         changed, on = imgui.checkbox("##there", value is not None)
         self._remember((*way, "there"))
-        imgui.set_item_tooltip("whether the scene says it at all")
+        imgui.set_item_tooltip("whether the scene sets this key")
         if changed and on:
             self.editor.set(way, first_value(key))
         elif changed:
@@ -86,7 +86,7 @@ class Tree:
         if new is not NOTHING:
             self._set(key, new, way)
         if way == ("quality",) and self.editor.is_preset:
-            imgui.text_colored(UNSAID, "drawn at --preset, which comes first")
+            imgui.text_colored(UNSAID, "--preset replaces it while you walk")
         if key.model is not None and isinstance(value, BaseModel):
             self._branch(key, value, way)
 
@@ -125,7 +125,7 @@ class Tree:
         if opened:
             if isinstance(part, GrassKind) and imgui.small_button("paint where it grows"):
                 self.editor.brush = Brush(name)
-            if (most > 1 or key.form == "parts") and imgui.small_button("take it away"):
+            if (most > 1 or key.form == "parts") and imgui.small_button("remove"):
                 self.editor.remove(way)
             self._keys(part, way)
             imgui.tree_pop()

@@ -57,7 +57,7 @@ def test_a_strangers_keys_have_fields_by_themselves() -> None:
     assert (sides.low, sides.high, sides.optional, sides.default) == (3, 12, True, None)
     assert (at.count, at.default) == (2, NOTHING)
     assert key(Rocks, "form").choices == ("round", "sharp")
-    assert tooltip(size) == "How large they are.\n0.5 to 8 m\nwithout it: 2"
+    assert tooltip(size) == "How large they are.\n0.5 to 8 m\ndefault: 2"
 
 
 def models() -> list[type[BaseModel]]:
