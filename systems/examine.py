@@ -61,7 +61,7 @@ def treading_of(saved: SavedTreading, arrays: Arrays, /) -> Treading:
         walks.append(WalkState(pressers, pose, walk.time, opened, way, closed, walk.begun))
     declared = [None if fields is None else _presser(fields) for fields in saved.declared]
     if not all(-len(declared) <= number < 0 for number, _ in walks[0].pressers):
-        refuse("pressers walk in it that its scene does not declare")
+        refuse("it has pressers that its scene does not declare")
     kept = _stretches(arrays, "kept")
     return Treading((walks[0], walks[1]), kept, saved.since, saved.trodden, saved.anew, declared)
 
@@ -71,7 +71,7 @@ def _doubles(arrays: Arrays, name: str, shape: tuple[int, ...]) -> Doubles:
     array = arrays.get(name, np.zeros(()))
     fits = array.ndim == len(shape) and all(due in (-1, n) for due, n in zip(shape, array.shape, strict=True))
     if array.dtype != np.float64 or not fits or not np.isfinite(array).all():
-        refuse(f"there is something wrong with its {name}")
+        refuse(f"its array {name} is invalid")
     return array
 
 
@@ -81,7 +81,7 @@ def _stretches(arrays: Arrays, name: str, count: int = -1) -> Stretches:
     in_range = (np.abs(found[:, : LAST.stop]) <= FARTHEST).all() and (length <= LONGEST).all()
     in_range = in_range and ((found[:, REACH] > 0.0) & (found[:, REACH] <= WIDEST)).all()
     if not in_range or (np.abs(found[:, BEGUN : LEFT + 1]) > LATEST).any():
-        refuse(f"there is something wrong with its {name}")
+        refuse(f"its array {name} is invalid")
     return found
 
 
@@ -89,10 +89,10 @@ def mown_of(arrays: Arrays, plots: Plots, /) -> tuple[Ints, Floats]:
     """Return the cut plots, (n, 3), and the heights on their pages [m]; raises ValueError for what cannot be."""
     found = arrays.get("mown_heights", np.zeros(0))
     if found.dtype != np.uint8 or found.shape[:-1] != (4,) or found.shape[-1] % CELLS**2:
-        refuse("there is something wrong with what is cut")
+        refuse("its cut heights have a wrong type or shape")
     heights = from_planes(found, (found.shape[-1] // CELLS**2, CELLS, CELLS))
     if not (heights >= 0.0).all():
-        refuse("something is cut to no height")
+        refuse("a cut height is negative or not a number")
     return _plots(arrays, "mown", plots, len(heights)), heights
 
 
@@ -104,12 +104,12 @@ def sown_of(saved: Saved, density: Density, loaded: LoadedScene, /) -> tuple[Int
     """
     found, plots, kinds = saved.arrays.get("sown_densities", np.zeros(0)), density.sown, loaded.scene.grass
     if found.dtype != np.uint8 or found.ndim != plots.pages.ndim:
-        refuse("there is something wrong with its densities")
+        refuse("its sown densities have a wrong type or shape")
     if not len(found):
         return _plots(saved.arrays, "sown", plots, 0), plots.pages[:0]
     then = kinds_of(saved.state, list(kinds))
     if found.shape[1:] != (CELLS, CELLS, len(then)):
-        refuse("its densities are not those of its scene's kinds")
+        refuse("its sown densities are not those of its scene's kinds")
     where = _plots(saved.arrays, "sown", plots, len(found))
     if then == list(kinds):
         return where, found
@@ -126,10 +126,10 @@ def _plots(arrays: Arrays, name: str, plots: Plots, pages: int) -> Ints:
         or where.shape != (len(where), 3)
         or len({*map(tuple, where[:, :2].tolist())}) != len(where)
     ):
-        refuse(f"there is something wrong with what is {name}")
+        refuse(f"its {name} plots have a wrong type or shape, or one comes twice")
     across, along = plots.half
     if not ((where >= (-along, -across, 0)) & (where < (along, across, pages))).all():
-        refuse(f"something is {name} that is not there")
+        refuse(f"one of its {name} plots is off the terrain or on no page")
     return where
 
 
@@ -137,10 +137,10 @@ def ground_of(arrays: Arrays, terrain: Terrain, /) -> Squares:
     """Return the changed squares of the ground; raises ValueError for what cannot be."""
     where, found = (arrays.get(name, np.zeros(0)) for name in ("ground_squares", "ground_heights"))
     if where.dtype != np.int32 or where.shape != (len(where), 2) or found.dtype != np.uint8 or found.shape[:-1] != (4,):
-        refuse("there is something wrong with its ground")
+        refuse("its changed ground has a wrong type or shape")
     holes = arrays.get("ground_holes", np.zeros(found.shape[-1], np.bool_))
     if holes.dtype != np.bool_ or holes.ndim != 1:
-        refuse("there is something wrong with its holes")
+        refuse("its holes have a wrong type or shape")
     squares = where, from_planes(found, (found.shape[-1],)), holes
     try:
         must_be_squares(terrain, squares)
@@ -153,5 +153,5 @@ def cells_of(arrays: Arrays, /) -> list[Cell]:
     """Return the cleared cells; raises ValueError for anything but cells."""
     found = arrays.get("cleared", np.zeros(0))
     if found.dtype != np.int32 or found.ndim != 2 or found.shape[1] != 2:
-        refuse("there is something wrong with what is cleared")
+        refuse("its cleared cells have a wrong type or shape")
     return [(i, j) for i, j in found.tolist()]

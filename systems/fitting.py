@@ -48,7 +48,7 @@ def must_fit(saved: Saved, site: Site, lie: Floats, /) -> None:
         _must_be_alike(state.scene, scene_of(site), cleared=len(saved.arrays.get("cleared", ())))
         saved_lie = saved.arrays.get("lie", np.zeros(0))
         if saved_lie.dtype != lie.dtype or saved_lie.shape != lie.shape:
-            refuse("there is something wrong with the lie of its ground")
+            refuse("the samples of its ground have a wrong type or shape")
         if not np.allclose(saved_lie, lie, rtol=0.0, atol=SAME, equal_nan=True):
             unfit("its ground has other heights or holes")
     if len(state.declared) != len(scene.wind):

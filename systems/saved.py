@@ -250,7 +250,7 @@ def unpacked(state: object, /) -> Saved:
         unpacking = decompressobj()
         plain = unpacking.decompress(body[2:], _MOST)
         if unpacking.unconsumed_tail or not unpacking.eof:
-            refuse("it does not end where it should")
+            refuse("its compressed data do not end where they should")
         with np.load(BytesIO(plain), allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
         return Saved(State.model_validate_json(arrays.pop("head").tobytes()), arrays)
@@ -261,8 +261,8 @@ def unpacked(state: object, /) -> Saved:
 
 
 def refuse(why: str, /) -> NoReturn:
-    """Raise ValueError for a state that cannot be right, though its checksum matches."""
-    raise ValueError(f"this state cannot be right: {' '.join(why.split())[:200]}")
+    """Raise ValueError for an invalid state, whose checksum matches nevertheless."""
+    raise ValueError(f"this state is invalid: {' '.join(why.split())[:200]}")
 
 
 def unfit(why: str, /) -> NoReturn:

@@ -324,7 +324,7 @@ def _wind_on_course(wind: SavedWind, saved: SavedCourse, reading: Reading) -> Wi
     rates, offsets = (tuple(map(tuple, part)) for part in (saved.rates, saved.offsets))
     widths = {len(each) for each in (*rates, *offsets)}
     if not len(rates) == len(offsets) == len(saved.times) + 1 or widths != {due}:
-        refuse("there is something wrong with the phases of a wind")
+        refuse("the phases of a wind have a wrong number of rates or offsets")
     return with_course(made, Course(tuple(saved.times), rates, offsets), _wind_of(wind.kind, saved.first, reading))
 
 
