@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from ..components.arrays import Ints
 from ..engine.random import hash3
-from ..engine.terrain.part import Part
 from ..engine.terrain.plots import CELL
 from ..engine.terrain.record import Terrain
+from ..engine.terrain.rectangle import Rectangle
 from ..engine.terrain.sample import height_at, slope_at
 from .around.outlook import Outlook
 from .around.patches import PatchTable
@@ -32,7 +32,7 @@ def cells_on(terrain: Terrain, cell: Ints, /, *, patch: float) -> NDArray[np.boo
     return inside
 
 
-def cells_over(terrain: Terrain, part: Part, /, *, patch: float) -> tuple[Ints, Ints]:
+def cells_over(terrain: Terrain, part: Rectangle, /, *, patch: float) -> tuple[Ints, Ints]:
     """Return the first and the last cell (i, j) of the patches on a part of a terrain, each (2,)."""
     ends = np.array([(part.column - 1, part.row - 1), (part.column + part.columns, part.row + part.rows)])
     first, last = np.floor((ends * terrain.cell + terrain.origin) / patch).astype(np.int32)
@@ -143,7 +143,7 @@ class Tile:
     def _update_heights(self, outlook: Outlook) -> None:
         terrain, patches, patch = self.ground.terrain, outlook.patches, self.ground.patch
         rows, columns = terrain.heights.shape
-        for part in terrain.changes.since(outlook.heights) or [Part(0, 0, rows, columns)]:
+        for part in terrain.changes.since(outlook.heights) or [Rectangle(0, 0, rows, columns)]:
             first, last = cells_over(terrain, part, patch=patch)
             on = np.flatnonzero(between(patches.cell, first, last))
             middle = patches.middle[on].astype(np.float32)

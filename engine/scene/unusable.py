@@ -22,7 +22,7 @@ from .problem import Problem, SceneError
 from .validate import upgraded
 
 Pictures = Mapping[str, NDArray[np.uint8]]
-Part = TypeVar("Part", bound=Declaration)
+Model = TypeVar("Model", bound=Declaration)
 
 NOWHERE = Terrain(np.zeros((2, 2), np.float32), 100.0)
 """Terrain on which density maps are tried where the scene's terrain is unusable."""
@@ -86,13 +86,13 @@ def unusable(document: Document, folder: Path, /) -> Iterator[Problem]:
     yield from bad_densities(document, kinds, terrain, folder, {})
 
 
-def _parts(model: type[Part], values: Any) -> dict[str, Part]:
+def _parts(model: type[Model], values: Any) -> dict[str, Model]:
     """Return the valid parts of a mapping, by name."""
     parts = {name: _part(model, value) for name, value in values.items()} if isinstance(values, dict) else {}
     return {name: part for name, part in parts.items() if part is not None}
 
 
-def _part(model: type[Part], values: Any) -> Part | None:
+def _part(model: type[Model], values: Any) -> Model | None:
     """Return a part of the scene, or None where it is invalid."""
     try:
         return model.model_validate(values)

@@ -20,7 +20,7 @@ from .problem import MOST_PROBLEMS, Problem, SceneError
 from .values import values_document
 from .version import FIRST, upgrade
 
-Part = TypeVar("Part", bound=BaseModel)
+Model = TypeVar("Model", bound=BaseModel)
 
 
 def validate(document: Document, /, *, folder: Path | None = None, also: Iterable[Problem] = ()) -> Scene:
@@ -107,7 +107,7 @@ def _kind(node: Node) -> type[WindPrimitive]:
         return WindPrimitive
 
 
-def changed(part: Part, values: Mapping[str, object], /, *, name: str) -> Part:
+def changed(part: Model, values: Mapping[str, object], /, *, name: str) -> Model:
     """Return a part of a scene, called `name`, with some values replaced.
 
     Raises ValueError with a sentence for each invalid value.

@@ -10,8 +10,8 @@ from ...components.arrays import Floats, Ints, Mask
 from ..handed import as_floats
 from .blocks import SQUARE, Blocks
 from .load import HIGHEST
-from .part import Part
 from .record import Terrain
+from .rectangle import Rectangle
 from .stream import paste
 
 _ON = 0.01
@@ -37,7 +37,7 @@ def set_heights(terrain: Terrain, corner: ArrayLike, heights: ArrayLike, /) -> N
     terrain.put(part, np.where(holes, terrain.heights[part.slices], new), holes)
 
 
-def _put(blocks: Blocks, terrain: Terrain, part: Part, new: Floats) -> None:
+def _put(blocks: Blocks, terrain: Terrain, part: Rectangle, new: Floats) -> None:
     """Replace heights of a ground that streams; samples of `part` are counted from the origin."""
     for square in _squares_of(part):
         (top, left), (heights, holes) = (SQUARE * at for at in square), blocks.square(square)
@@ -50,7 +50,7 @@ def _put(blocks: Blocks, terrain: Terrain, part: Part, new: Floats) -> None:
         paste(blocks, terrain, square)
 
 
-def _squares_of(part: Part) -> list[tuple[int, int]]:
+def _squares_of(part: Rectangle) -> list[tuple[int, int]]:
     rows, columns = (range(some.start // SQUARE, (some.stop - 1) // SQUARE + 1) for some in part.slices)
     return [(row, column) for row in rows for column in columns]
 
@@ -66,7 +66,7 @@ def _checked(heights: ArrayLike) -> Floats:
     return new
 
 
-def _part(terrain: Terrain, corner: ArrayLike, shape: tuple[int, ...]) -> Part:
+def _part(terrain: Terrain, corner: ArrayLike, shape: tuple[int, ...]) -> Rectangle:
     """Return the part of a terrain that begins at `corner` (x, z) [m] and has this shape; raises ValueError."""
     place = as_floats(corner, "the corner of heights is a place (x, z)").astype(np.float64)
     if place.shape != (2,):
@@ -91,10 +91,10 @@ def _part(terrain: Terrain, corner: ArrayLike, shape: tuple[int, ...]) -> Part:
             f"heights begin at a sample of the terrain, and ({place[0]:g}, {place[1]:g}) is none: samples stand every "
             f"{terrain.cell:g} m, the nearest at ({x:.9g}, {z:.9g})"
         )
-    return Part(row, column, *shape)
+    return Rectangle(row, column, *shape)
 
 
-def _keep(terrain: Terrain, part: Part) -> None:
+def _keep(terrain: Terrain, part: Rectangle) -> None:
     """Store the loaded heights and holes of all squares that overlap a part, unless they are stored already."""
     for square in _squares_of(part):
         if square not in terrain.changes.loaded:
@@ -102,11 +102,11 @@ def _keep(terrain: Terrain, part: Part) -> None:
             terrain.changes.loaded[square] = terrain.heights[within.slices].copy(), terrain.holes_in(within)
 
 
-def _within(terrain: Terrain, square: tuple[int, int]) -> Part:
+def _within(terrain: Terrain, square: tuple[int, int]) -> Rectangle:
     """Return the part of a terrain that a square covers; squares at the edge are cut off."""
     row, column = (SQUARE * number for number in square)
     rows, columns = (min(SQUARE, count - at) for at, count in zip((row, column), terrain.heights.shape, strict=True))
-    return Part(row, column, rows, columns)
+    return Rectangle(row, column, rows, columns)
 
 
 def as_loaded(terrain: Terrain, /) -> Iterator[tuple[Floats, Mask]]:
@@ -120,7 +120,7 @@ def as_loaded(terrain: Terrain, /) -> Iterator[tuple[Floats, Mask]]:
         touched.setdefault(number, []).append((column * SQUARE, before))
     for number, row in enumerate(range(0, len(terrain.heights), SQUARE)):
         heights = terrain.heights[row : row + SQUARE]
-        holes = terrain.holes_in(Part(row, 0, *heights.shape))
+        holes = terrain.holes_in(Rectangle(row, 0, *heights.shape))
         if number in touched:
             heights = heights.copy()
             for column, before in touched[number]:
@@ -148,13 +148,13 @@ def must_be_squares(terrain: Terrain, squares: Squares, /) -> None:
     streams = terrain.blocks is not None
     counts = np.ceil(np.divide(terrain.heights.shape if terrain.blocks is None else terrain.blocks.most, SQUARE))
     if ((where < -counts * streams) | (where >= counts)).any() or len({*map(tuple, where.tolist())}) != len(where):
-        raise ValueError("ground has changed that is not there")
+        raise ValueError("a changed square of ground is off the terrain or comes twice")
     parts = [_within(terrain, (row, column)) for row, column in where.tolist()]
     if streams:
-        parts = [Part(0, 0, SQUARE, SQUARE)] * len(where)
+        parts = [Rectangle(0, 0, SQUARE, SQUARE)] * len(where)
     due = sum(part.rows * part.columns for part in parts)
     if due != len(heights) or due != len(holes) or not (np.abs(heights) <= HIGHEST).all():
-        raise ValueError("ground has come to no height")
+        raise ValueError("changed heights of the ground are too few, too many or too far from 0")
 
 
 def _restore_blocks(blocks: Blocks, terrain: Terrain, squares: Squares) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles, Floats, Ints
-from .part import MOST, Part
+from .rectangle import MOST, Rectangle
 
 CELL = 0.2
 """Side of a cell of the ground [m]."""
@@ -26,7 +26,7 @@ GLSL = {"PLOT_CELLS": CELLS, "PLOT_SIDE": SIDE}
 Values = NDArray[Any]
 """Values of a map's cells, shape (rows, columns, ...)."""
 
-Untouched = Callable[[Part], Values]
+Untouched = Callable[[Rectangle], Values]
 """Returns the values of cells of a part that have never been changed."""
 
 
@@ -63,7 +63,7 @@ class Plots:
         self._free: list[int] = []
         self._alike: dict[bytes, int] = {}
         """Page of all plots whose cells all have one value, by that value's bytes."""
-        self._last: deque[Part] = deque(maxlen=MOST)
+        self._last: deque[Rectangle] = deque(maxlen=MOST)
         self._ends = self._no_ends
 
     @property
@@ -88,7 +88,7 @@ class Plots:
         """Whether any plot is stored."""
         return self._index is not None
 
-    def since(self, count: int, /) -> list[Part] | None:
+    def since(self, count: int, /) -> list[Rectangle] | None:
         """Return the parts changed since change number `count`, each within a plot; None if any may have changed."""
         missed = self.count - count
         return None if missed > len(self._last) else list(self._last)[len(self._last) - missed :]
@@ -142,7 +142,7 @@ class Plots:
         far, near = a + right * (b - a), c + right * (d - c)
         return np.asarray(far + down * (near - far), np.float32)
 
-    def parts(self, low: Floats, high: Floats, /) -> list[Part]:
+    def parts(self, low: Floats, high: Floats, /) -> list[Rectangle]:
         """Return the map's cells between two corners (x, z) [m], a part for each plot."""
         first = np.maximum(np.floor(np.asarray(low, np.float64) / CELL), np.multiply(self.half, -CELLS))
         last = np.minimum(np.ceil(np.asarray(high, np.float64) / CELL), np.multiply(self.half, CELLS))
@@ -150,25 +150,25 @@ class Plots:
             return []
         (left, far), (right, near) = first.astype(int).tolist(), last.astype(int).tolist()
         columns, rows = _cut(left, right), _cut(far, near)
-        return [Part(row, column, down - row, over - column) for row, down in rows for column, over in columns]
+        return [Rectangle(row, column, down - row, over - column) for row, down in rows for column, over in columns]
 
     def within(self, low: Floats, high: Floats, /) -> list[Values | None]:
         """Return the values of cells between two corners (x, z) [m], plot by plot; None for plots not stored."""
         return [self.held(part) for part in self.parts(low, high)]
 
-    def held(self, part: Part, /) -> Values | None:
+    def held(self, part: Rectangle, /) -> Values | None:
         """Return the values of a part that lies on one plot; None where that plot is not stored."""
         page = int(self.index[part.row // CELLS + self.half[1], part.column // CELLS + self.half[0]])
-        inner = Part(part.row % CELLS, part.column % CELLS, part.rows, part.columns)
+        inner = Rectangle(part.row % CELLS, part.column % CELLS, part.rows, part.columns)
         return self.pages[page][inner.slices] if page >= 0 else None
 
-    def put(self, part: Part, change: Callable[[Values], Values], untouched: Untouched, /) -> None:
+    def put(self, part: Rectangle, change: Callable[[Values], Values], untouched: Untouched, /) -> None:
         """Change the cells of a part that lies on one plot; `change` maps their values to the new ones."""
         row, column = part.row // CELLS, part.column // CELLS
-        inner = Part(part.row % CELLS, part.column % CELLS, part.rows, part.columns)
+        inner = Rectangle(part.row % CELLS, part.column % CELLS, part.rows, part.columns)
         plot = row + self.half[1], column + self.half[0]
         page = int(self.index[plot])
-        whole = untouched(Part(row * CELLS, column * CELLS, CELLS, CELLS)) if page < 0 else self.pages[page]
+        whole = untouched(Rectangle(row * CELLS, column * CELLS, CELLS, CELLS)) if page < 0 else self.pages[page]
         before = whole[inner.slices]
         after = change(before)
         if (before == after).all():
@@ -186,7 +186,7 @@ class Plots:
         self.pages[own][inner.slices] = after
         self.written[own] = self.count
 
-    def put_alike(self, part: Part, values: Values, /) -> None:
+    def put_alike(self, part: Rectangle, values: Values, /) -> None:
         """Set all cells of a plot to one value, of shape (1, 1, ...); `part` covers the plot."""
         plot = part.row // CELLS + self.half[1], part.column // CELLS + self.half[0]
         if int(self.index[plot]) == self._alike.get(values.tobytes(), -2):
@@ -285,7 +285,7 @@ def half_of(size: tuple[float, float], /) -> tuple[int, int]:
     return across, along
 
 
-def middles(part: Part, /) -> Floats:
+def middles(part: Rectangle, /) -> Floats:
     """Return the middles of a part's cells (x, z) [m], shape (rows, columns, 2)."""
     place = np.empty((part.rows, part.columns, 2), np.float32)
     place[..., 0] = (part.column + 0.5 + np.arange(part.columns)) * CELL
@@ -293,7 +293,7 @@ def middles(part: Part, /) -> Floats:
     return place
 
 
-def ends_of(part: Part, /) -> tuple[Floats, Floats]:
+def ends_of(part: Rectangle, /) -> tuple[Floats, Floats]:
     """Return the lower and the upper corner (x, z) of a part [m]."""
     low = np.array([part.column, part.row], np.float32) * np.float32(CELL)
     return low, low + np.array([part.columns, part.rows], np.float32) * np.float32(CELL)

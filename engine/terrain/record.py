@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from ...components.arrays import Floats, Mask
 from .blocks import REACH, Blocks
 from .crowns import Crowns
-from .part import MOST, Part
 from .plots import Plots
+from .rectangle import MOST, Rectangle
 
 BEYOND = 600.0
 """Distance of level ground beyond the terrain's edge [m]: its end is two pixels below a walker's horizon."""
@@ -37,9 +37,9 @@ class Changes:
     loaded: dict[tuple[int, int], tuple[Floats, Mask]] = field(default_factory=dict)
     """Heights and holes as loaded of each square of samples that was changed since, by row and column."""
 
-    _last: deque[Part] = field(default_factory=lambda: deque(maxlen=MOST))
+    _last: deque[Rectangle] = field(default_factory=lambda: deque(maxlen=MOST))
 
-    def note(self, part: Part, /) -> None:
+    def note(self, part: Rectangle, /) -> None:
         """Log the change of a part."""
         self.count += 1
         self._last.append(part)
@@ -52,7 +52,7 @@ class Changes:
         self._last.clear()
         self._last.extend(moved)
 
-    def since(self, count: int, /) -> list[Part] | None:
+    def since(self, count: int, /) -> list[Rectangle] | None:
         """Return the parts changed since the change number `count`; None where too many are, so that any may be.
 
         On a ground that streams, parts may lie outside of the present window.
@@ -142,11 +142,11 @@ class Terrain:
             object.__setattr__(self, name, getattr(other, name))
         self.changes.move(down, right, leaps=leaps)
 
-    def holes_in(self, part: Part, /) -> Mask:
+    def holes_in(self, part: Rectangle, /) -> Mask:
         """Return the mask of holes in a part, shape (rows, columns)."""
         return np.zeros((part.rows, part.columns), np.bool_) if self.holes is None else self.holes[part.slices].copy()
 
-    def put(self, part: Part, heights: Floats, holes: Mask, /) -> None:
+    def put(self, part: Rectangle, heights: Floats, holes: Mask, /) -> None:
         """Replace heights [m] and holes of a part, both (rows, columns)."""
         self.heights[part.slices] = heights
         if self.holes is None and holes.any():

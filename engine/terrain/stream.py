@@ -3,8 +3,8 @@
 import numpy as np
 
 from .blocks import BLOCK, SPARE, SQUARE, Blocks, Numbers
-from .part import Part
 from .record import Terrain
+from .rectangle import Rectangle
 
 
 def window_of(blocks: Blocks, first: Numbers, /) -> Terrain:
@@ -49,7 +49,7 @@ def paste(blocks: Blocks, onto: Terrain, square: Numbers, /) -> None:
     """Copy a square's present heights and holes into a terrain, where they overlap."""
     assert onto.first is not None
     row, column = (SQUARE * at - low for at, low in zip(square, onto.first, strict=True))
-    part = Part(row, column, SQUARE, SQUARE).within(*onto.heights.shape)
+    part = Rectangle(row, column, SQUARE, SQUARE).within(*onto.heights.shape)
     if part is not None:
         own = part.moved(-row, -column).slices
         heights, holes = blocks.square(square)

@@ -251,12 +251,6 @@ class Receiving:
     def release(self, world: World, /) -> None:
         """Delete the entities of all receivers."""
         for slot in np.flatnonzero(self._entity).tolist():
-            self._delete(world, slot)
-        self._owner[:] = 0
-        self._owned = 0
-        self._listed = None
-
-    def _delete(self, world: World, slot: int) -> None:
-        world.delete(int(self._entity[slot]))
-        self._entity[slot] = 0
-        self.messages.forget(slot)
+            world.delete(int(self._entity[slot]))
+            self.messages.forget(slot)
+        self.lose()

@@ -5,8 +5,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.gl.stream import release_all
-from ...engine.terrain.part import Part
 from ...engine.terrain.record import Terrain
+from ...engine.terrain.rectangle import Rectangle
 
 HOLE = 1
 """Lowest bit of a float32 height: set where there is a hole. It changes a height by about a ten-millionth of it."""
@@ -37,8 +37,8 @@ class Heights:
         return texture
 
     @property
-    def _whole(self) -> Part:
-        return Part(0, 0, *self.terrain.heights.shape)
+    def _whole(self) -> Rectangle:
+        return Rectangle(0, 0, *self.terrain.heights.shape)
 
     @property
     def origin(self) -> tuple[float, float]:
@@ -79,7 +79,7 @@ class Heights:
             self._next_texture = self._new_texture(None)
         rows, columns = terrain.heights.shape
         count = rows if whole else max(UPLOAD_BYTES // (4 * columns), 1)
-        part = Part(self._rows_sent, 0, min(count, rows - self._rows_sent), columns)
+        part = Rectangle(self._rows_sent, 0, min(count, rows - self._rows_sent), columns)
         self._next_texture.write(_heights_of(terrain, part), viewport=_box(part))
         self._rows_sent += part.rows
         if self._rows_sent == rows:
@@ -96,11 +96,11 @@ def _offset_between(after: tuple[int, int] | None, before: tuple[int, int] | Non
     return (0, 0) if after is None or before is None else (after[0] - before[0], after[1] - before[1])
 
 
-def _box(part: Part) -> tuple[int, int, int, int]:
+def _box(part: Rectangle) -> tuple[int, int, int, int]:
     return part.column, part.row, part.columns, part.rows
 
 
-def _heights_of(terrain: Terrain, part: Part) -> NDArray[np.uint32]:
+def _heights_of(terrain: Terrain, part: Rectangle) -> NDArray[np.uint32]:
     """Return the bits of a part's heights, shape (rows, columns), with `HOLE` set where there are holes."""
     bits = np.ascontiguousarray(terrain.heights[part.slices]).view(np.uint32) & ~np.uint32(HOLE)
     if terrain.holes is not None:

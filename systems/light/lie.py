@@ -12,8 +12,8 @@ from ...components.arrays import Bytes, Doubles, Floats
 from ...engine.gl.shaders import program, set_uniform
 from ...engine.gl.stream import release_all
 from ...engine.noise import noise_grid, noise_table
-from ...engine.terrain.part import Part
 from ...engine.terrain.record import Terrain
+from ...engine.terrain.rectangle import Rectangle
 from ..frame.block import FrameBlock, wired
 
 SAMPLES_A_FRAME = 1 << 15
@@ -234,7 +234,7 @@ class LieMap:
         self.use()
         return calls + sum(self._draw(map_, 1, box) for box in horizons)
 
-    def _box(self, map_: _Map, part: Part, around: float, away: Doubles | None = None) -> Box:
+    def _box(self, map_: _Map, part: Rectangle, around: float, away: Doubles | None = None) -> Box:
         """Return the box of the map within `around` cells of a part of the terrain.
 
         With `away`, a vector in cells, the box extends to the part moved by minus `away`.

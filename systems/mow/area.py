@@ -10,8 +10,8 @@ from ...components.arrays import Floats
 from ...components.footprint import Footprint, Road
 from ...components.pose import Pose
 from ...engine.handed import SOMEWHERE, is_somewhere
-from ...engine.terrain.part import Part
 from ...engine.terrain.plots import CELL, CELLS, SIDE, Plots, Untouched, Values, ends_of, middles
+from ...engine.terrain.rectangle import Rectangle
 from ..space.polygon import in_polygon
 
 Area = Footprint | Road
@@ -94,14 +94,15 @@ def stroke(
 
 
 def _stroke_few_plots(
-    plots: Plots, area: Footprint, pose: Pose, change: Change, untouched: Untouched, parts: list[Part],
+    plots: Plots, area: Footprint, pose: Pose, change: Change, untouched: Untouched, parts: list[Rectangle],
     beyond: float, least: float,
 ) -> None:  # fmt: skip
     """Do what `stroke` does on parts of few plots: changing all their cells together is faster."""
     first, last = parts[0], parts[-1]
-    whole = Part(first.row, first.column, last.row + last.rows - first.row, last.column + last.columns - first.column)
+    rows, columns = last.row + last.rows - first.row, last.column + last.columns - first.column
+    whole = Rectangle(first.row, first.column, rows, columns)
     distances = _cell_distances(area, pose, whole, beyond=beyond, least=least)
-    inner = [Part(part.row - first.row, part.column - first.column, part.rows, part.columns).slices for part in parts]
+    inner = [part.moved(-first.row, -first.column).slices for part in parts]
     pairs = zip(parts, inner, strict=True)
     reached = [(part, slices) for part, slices in pairs if distances[slices].min() <= beyond]
     before = np.zeros((whole.rows, whole.columns, *plots.pages.shape[3:]), plots.pages.dtype)
@@ -119,7 +120,7 @@ def _replaced(values: Values, before: Values) -> Values:
     return values
 
 
-def _cell_distances(area: Footprint, pose: Pose, part: Part, *, beyond: float, least: float) -> Floats:
+def _cell_distances(area: Footprint, pose: Pose, part: Rectangle, *, beyond: float, least: float) -> Floats:
     """Return signed distances of a part's cells from a footprint, (rows, columns); lower bounds above `beyond`.
 
     Inside a convex polygon, the nearest edge is the one with the nearest line.
@@ -158,7 +159,7 @@ def _convex_edges(area: Footprint) -> tuple[Floats, Floats] | None:
     return corner, sign * normal
 
 
-def _middle_distances(area: Area, pose: Pose, reached: list[tuple[Part, Segments]], least: float) -> list[float]:
+def _middle_distances(area: Area, pose: Pose, reached: list[tuple[Rectangle, Segments]], least: float) -> list[float]:
     """Return signed distances of the middles of parts from an area [m]."""
     middle = np.array([np.add(*ends_of(part)) / 2.0 for part, _ in reached], np.float32).reshape(-1, 2)
     if isinstance(area, Footprint):
@@ -174,7 +175,7 @@ def _changed(change: Change, distances: Floats, before: Values) -> Values:
     return change(before, distances)
 
 
-def _reached_parts(plots: Plots, area: Area, pose: Pose, beyond: float) -> list[tuple[Part, Segments]]:
+def _reached_parts(plots: Plots, area: Area, pose: Pose, beyond: float) -> list[tuple[Rectangle, Segments]]:
     """Return the parts of plots that an area may reach, each with the segments of a road that reach it."""
     position = np.array([pose.x, pose.z], np.float32)
     if isinstance(area, Footprint):
@@ -183,13 +184,13 @@ def _reached_parts(plots: Plots, area: Area, pose: Pose, beyond: float) -> list[
         corners = area.corners or tuple((reach * x, reach * z) for x, z in round_one)
         places = pose.outside(np.array(corners, np.float32)) + position
         return [(part, None) for part in plots.parts(places.min(axis=0) - beyond, places.max(axis=0) + beyond)]
-    numbers_by_part, reach = dict[Part, set[int]](), area.width / 2.0 + beyond
+    numbers_by_part, reach = dict[Rectangle, set[int]](), area.width / 2.0 + beyond
     places = pose.outside(np.array(area.line, np.float32)) + position
     for number, (first, last) in enumerate(pairwise(places)):
         for part in plots.parts(np.minimum(first, last) - reach, np.maximum(first, last) + reach):
             row, column = part.row // CELLS * CELLS, part.column // CELLS * CELLS
-            numbers_by_part.setdefault(Part(row, column, CELLS, CELLS), set()).add(number)
-    kept = list[tuple[Part, Segments]]()
+            numbers_by_part.setdefault(Rectangle(row, column, CELLS, CELLS), set()).add(number)
+    kept = list[tuple[Rectangle, Segments]]()
     for part, numbers in numbers_by_part.items():
         middle, half = np.add(ends_of(part)[0], SIDE / 2.0)[None], SIDE / np.sqrt(2.0)
         near = [n for n in sorted(numbers) if _line_distances(places[n : n + 2], middle)[0] <= reach + half]

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from ...components.arrays import Bytes, Floats, Ints
 from ...engine.gl.functions import ENUMS, functions_of
 from ...engine.gl.limits import limits_of
-from ...engine.terrain.part import Part as Cells
 from ...engine.terrain.plots import CELLS, Plots, Values
+from ...engine.terrain.rectangle import Rectangle
 from ..frame.feature import TexturePart
 from ..space.grown import Grown
 from .mown import Mown
@@ -76,7 +76,7 @@ class _Sheets:
         stale[1:-1] |= stale[:-2] & stale[2:]
         return np.flatnonzero(stale & (self.first_sheet > 0))
 
-    def changed(self) -> list[Cells] | None:
+    def changed(self) -> list[Rectangle] | None:
         """Return the cells whose plots may have another page; None for all."""
         return None if self.seen < 0 else self.plots.since(self.seen)
 
@@ -221,8 +221,8 @@ class PlotsPart(TexturePart):
 
     def _encoded_heights(self, pages: Floats) -> list[Bytes]:
         """Encode heights relative to the tallest grass as two bytes, clipped at 1: means of uncut cells are 1."""
-        part = np.minimum(pages / np.float32(self._tallest), np.float32(1.0))
-        whole = np.rint(part * 65535.0).astype(np.uint32)[:, None]
+        fraction = np.minimum(pages / np.float32(self._tallest), np.float32(1.0))
+        whole = np.rint(fraction * 65535.0).astype(np.uint32)[:, None]
         levels = []
         for level in range(_LEVELS):
             texels = np.zeros((*whole.shape, 4), np.uint8)

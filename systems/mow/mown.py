@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from ...components.arrays import Floats
 from ...components.pose import Pose
 from ...engine.handed import NUMBER_TYPES
-from ...engine.terrain.part import Part
 from ...engine.terrain.plots import CELL, CELLS, Plots, ends_of
 from ...engine.terrain.record import Terrain
+from ...engine.terrain.rectangle import Rectangle
 from .area import LEAST_RADIUS, Area, Change, must_be_area, stroke
 
 _MOST_CACHED = 100_000
@@ -115,7 +115,7 @@ class Mown:
                     self._cached_tops.pop((i, j), None)
 
 
-def _uncut(part: Part) -> Floats:
+def _uncut(part: Rectangle) -> Floats:
     return np.full((part.rows, part.columns), np.inf, np.float32)
 
 

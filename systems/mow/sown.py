@@ -9,9 +9,9 @@ import numpy as np
 from ...components.arrays import Bytes, Floats, Ints, Mask
 from ...components.pose import Pose
 from ...engine.handed import NUMBER_TYPES
-from ...engine.terrain.part import Part
 from ...engine.terrain.plots import CELL, CELLS, Values, middles
 from ...engine.terrain.record import Density
+from ...engine.terrain.rectangle import Rectangle
 from ...engine.terrain.sample import painted_at
 from .area import Area, must_be_area, stroke
 
@@ -44,9 +44,9 @@ def clear(density: Density, area: Area, pose: Pose, /, *, soft: float) -> None:
     _stroke(density, area, pose, np.zeros_like, soft, np.zeros((1, 1, len(density.maps)), np.uint8))
 
 
-def wear(density: Density, area: Area, pose: Pose, part: float, /) -> None:
-    """Lower all densities in an area by a part of themselves, at least by 1/255."""
-    _stroke(density, area, pose, partial(_with_wear, part=np.float32(part)), 0.0, None)
+def wear(density: Density, area: Area, pose: Pose, fraction: float, /) -> None:
+    """Lower all densities in an area by a fraction of themselves, at least by 1/255."""
+    _stroke(density, area, pose, partial(_with_wear, fraction=np.float32(fraction)), 0.0, None)
 
 
 def carry_over(before: Density, after: Density, old_kinds: Sequence[int | None], /) -> None:
@@ -71,7 +71,7 @@ def carried(
     known = [number for number, old in enumerate(old_kinds) if old is not None]
     olds = [old for old in old_kinds if old is not None]
     for number, (row, column, page) in enumerate(where.tolist()):
-        plot = Part(row * CELLS, column * CELLS, CELLS, CELLS)
+        plot = Rectangle(row * CELLS, column * CELLS, CELLS, CELLS)
         as_painted = (pages[page] == _painted_densities(before, plot)).all(axis=2, keepdims=True)
         values = np.where(as_painted, _painted_densities(after, plot), np.uint8(0))
         values[..., known] = np.where(as_painted, values[..., known], pages[page][..., olds])
@@ -112,12 +112,12 @@ def _with_sown(before: Floats, *, kind: int, dense: float, displaced: Mask) -> F
     return densities
 
 
-def _with_wear(before: Floats, *, part: np.float32) -> Floats:
-    """Return densities [1/255] lowered by a part of themselves, at least by 1."""
-    return np.asarray(np.maximum(np.minimum(before - before * part, before - 1.0), 0.0), np.float32)
+def _with_wear(before: Floats, *, fraction: np.float32) -> Floats:
+    """Return densities [1/255] lowered by a fraction of themselves, at least by 1."""
+    return np.asarray(np.maximum(np.minimum(before - before * fraction, before - 1.0), 0.0), np.float32)
 
 
-def _painted_densities(density: Density, part: Part) -> Values:
+def _painted_densities(density: Density, part: Rectangle) -> Values:
     """Return the painted densities of some cells as bytes, shape (rows, columns, kinds)."""
     painted = painted_at(density, middles(part).reshape(-1, 2)).T
     return np.asarray(np.rint(painted * 255.0), np.uint8).reshape(part.rows, part.columns, -1)

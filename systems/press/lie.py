@@ -118,11 +118,11 @@ def _apply_mark(
         lying.index[touched], lying.trodden[touched] = np.maximum(index, np.float32(0.0)), trodden
         lying.direction[touched] = towards
         lying.depth[touched], lying.until[touched] = 0.0, _LONG_AGO
-    part = distance / mark[:, REACH]
-    depth = mark[:, STRENGTH] * (np.float32(1.0) - part * part * part * part)
+    fraction = distance / mark[:, REACH]
+    depth = mark[:, STRENGTH] * (np.float32(1.0) - fraction * fraction * fraction * fraction)
     deeper = np.flatnonzero(depth > lying.depth[rows])
     lying.depth[rows[deeper]] = depth[deeper]
-    lying.push[rows[deeper]] = _push_direction(offset[deeper], part[deeper], mark[deeper])
+    lying.push[rows[deeper]] = _push_direction(offset[deeper], fraction[deeper], mark[deeper])
     lying.until[rows] = np.maximum(lying.until[rows], ended)
 
 
@@ -149,11 +149,10 @@ def _contact(mark: Floats, place: Floats) -> tuple[Floats, Floats, Floats, Float
     return offset, distance, begun, ended
 
 
-def _push_direction(offset: Floats, part: Floats, mark: Floats) -> Floats:
+def _push_direction(offset: Floats, fraction: Floats, mark: Floats) -> Floats:
     """Return the direction of the push, unit vectors (n, 2): aside at the disc's edge, along the way in its middle."""
-    towards = (
-        offset / mark[:, REACH, None] + (np.float32(PUSH_ALONG) * (np.float32(1.0) - part))[:, None] * mark[:, HEADING]
-    )
+    along = np.float32(PUSH_ALONG) * (np.float32(1.0) - fraction)
+    towards = offset / mark[:, REACH, None] + along[:, None] * mark[:, HEADING]
     return _normalised(np.asarray(towards, np.float32))
 
 

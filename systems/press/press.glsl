@@ -69,10 +69,10 @@ void apply_mark(inout Lying lying, int mark, vec2 place, int kind) {
         vec2 towards, found = state_at(lying, begun, kind, towards);
         lying = Lying(towards, lying.push, max(found.x, 0.0), found.y, 0.0, LONG_AGO);
     }
-    float part = far / reach, deep = how.x * (1.0 - part * part * part * part);
+    float fraction = far / reach, deep = how.x * (1.0 - fraction * fraction * fraction * fraction);
     if (deep > lying.depth) {
         lying.depth = deep;
-        lying.push = normalised(off / reach + PUSH_ALONG * (1.0 - part) * how.yz);
+        lying.push = normalised(off / reach + PUSH_ALONG * (1.0 - fraction) * how.yz);
     }
     lying.until = max(lying.until, ended);
 }

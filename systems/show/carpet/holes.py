@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Doubles, Floats, Mask
-from ....engine.terrain.part import Part
 from ....engine.terrain.record import Terrain
+from ....engine.terrain.rectangle import Rectangle
 
 MOST_BLOCKS = 1024
 """Largest number of blocks along a side of a map."""
@@ -71,11 +71,11 @@ class Holes:
         self._changes = terrain.changes.count
         return np.zeros((), np.bool_) if self._blocks is None else self._blocks.touch(rectangles)
 
-    def _update(self, terrain: Terrain, holes: Mask, changed: list[Part] | None) -> None:
+    def _update(self, terrain: Terrain, holes: Mask, changed: list[Rectangle] | None) -> None:
         rows, columns = holes.shape
         samples = -(-max(rows, columns) // MOST_BLOCKS)
         if changed is None or not self._open.size:
-            changed = [Part(0, 0, rows, columns)]
+            changed = [Rectangle(0, 0, rows, columns)]
             self._open = np.zeros((-(-rows // samples), -(-columns // samples)), np.bool_)
         for part in changed:
             first, last = part.row // samples, (part.row + part.rows - 1) // samples + 1

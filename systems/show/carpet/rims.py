@@ -4,8 +4,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Doubles, Floats, Mask
-from ....engine.terrain.part import Part
 from ....engine.terrain.record import Terrain
+from ....engine.terrain.rectangle import Rectangle
 
 SHARP = 0.4
 """Smallest decrease of the slope at a rim, from one cell of the terrain to the next [m/m]."""
@@ -42,7 +42,7 @@ class Rims:
         """Whether the terrain has rims."""
         self.version = 0
         """Number of changes of `distance`."""
-        self._update(Part(0, 0, rows, columns))
+        self._update(Rectangle(0, 0, rows, columns))
 
     def attach(self, terrain: Terrain, /) -> None:
         """Follow the changes of a terrain that has just taken over the heights these were computed from."""
@@ -58,13 +58,13 @@ class Rims:
         if self._changes == changes.count or self._first != self.terrain.first:
             return
         parts = changes.since(self._changes)
-        whole = Part(0, 0, *self.terrain.heights.shape)
+        whole = Rectangle(0, 0, *self.terrain.heights.shape)
         for part in [whole] if parts is None else parts:
             if within := part.within(whole.rows, whole.columns):
                 self._update(within)
         self._changes = changes.count
 
-    def _update(self, part: Part) -> None:
+    def _update(self, part: Rectangle) -> None:
         """Search the squares whose rims the heights of a part may have changed."""
         step = self._step
         rows, columns = (slice(max(span.start - 1, 0) // step, span.stop // step + 1) for span in part.slices)

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.gl.shaders import program, set_uniform
 from tallgrass.engine.gl.stream import release_all
-from tallgrass.engine.terrain.part import Part
 from tallgrass.engine.terrain.record import Terrain
+from tallgrass.engine.terrain.rectangle import Rectangle
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.systems.frame.block import FrameBlock
 from tallgrass.systems.land.heights import Heights
@@ -269,7 +269,7 @@ def test_rims_are_found_where_the_ground_breaks_off_and_nowhere_else() -> None:
     assert away[2] > away[1] > away[0]
     terrain = Terrain(np.zeros((101, 101), np.float32), 1.0)
     flat = Rims(terrain)
-    terrain.put(Part(40, 40, 10, 10), np.full((10, 10), 5.0, np.float32), np.zeros((10, 10), np.bool_))
+    terrain.put(Rectangle(40, 40, 10, 10), np.full((10, 10), 5.0, np.float32), np.zeros((10, 10), np.bool_))
     flat.follow()
     assert flat.any
 
@@ -280,7 +280,7 @@ def test_rims_that_a_game_makes_and_takes_away_are_those_of_the_ground_as_it_is(
     followed = Rims(terrain)
     for height in (3.0, 0.0, 5.0, 0.0, 0.0):
         row, column = random.integers(0, 280, 2).tolist()
-        part = Part(row, column, 10, 10) if height else Part(0, 0, 300, 145)
+        part = Rectangle(row, column, 10, 10) if height else Rectangle(0, 0, 300, 145)
         shape = part.rows, part.columns
         terrain.put(part, np.full(shape, height, np.float32), np.zeros(shape, np.bool_))
         followed.follow()

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from tallgrass.components.arrays import Floats
 from tallgrass.components.footprint import Footprint, Road
 from tallgrass.components.pose import HERE, Pose
-from tallgrass.engine.terrain.part import Part
 from tallgrass.engine.terrain.plots import CELL, CELLS, SIDE, Plots, middles
 from tallgrass.engine.terrain.record import Density
+from tallgrass.engine.terrain.rectangle import Rectangle
 from tallgrass.engine.terrain.sample import density_at, density_on_lines, own_density_at, painted_at
 from tallgrass.systems.frame.block import FRAME
 from tallgrass.systems.mow.area import Area, signed_distances, stroke
@@ -49,7 +49,7 @@ PLACES = np.random.default_rng(2).uniform(-40.0, 40.0, (4000, 2)).astype(np.floa
 STEP = 1.0 / 255.0
 
 
-def nothing(part: Part) -> Floats:
+def nothing(part: Rectangle) -> Floats:
     return np.full((part.rows, part.columns), inf, np.float32)
 
 

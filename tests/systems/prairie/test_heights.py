@@ -8,7 +8,7 @@ import pytest
 
 from tallgrass.components.arrays import Floats
 from tallgrass.components.pose import Pose
-from tallgrass.engine.terrain import part
+from tallgrass.engine.terrain import rectangle
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.whirlwind import Whirlwind
@@ -130,7 +130,7 @@ def test_a_state_brings_changed_ground_back_to_the_bit(load: Load) -> None:
 def test_who_has_missed_too_many_changes_takes_over_all(load: Load) -> None:
     changed, loaded = load(hills()), load(dug())
     watch(changed)
-    for _ in range(part.MOST + 1):
+    for _ in range(rectangle.MOST + 1):
         changed.set_heights((30.0, 30.0), [[hills()[35, 40]]])
     changed.set_heights(CORNER, PIT)
     assert changed.site.ground.terrain.changes.since(0) is None

@@ -6,7 +6,7 @@ MOST = 4096
 """Number of changes that are logged; a reader that has missed more reads the whole map again."""
 
 
-class Part(NamedTuple):
+class Rectangle(NamedTuple):
     """A rectangle of samples of a map."""
 
     row: int
@@ -18,15 +18,15 @@ class Part(NamedTuple):
     rows: int
     columns: int
 
-    def moved(self, down: int, right: int) -> "Part":
+    def moved(self, down: int, right: int) -> "Rectangle":
         """Return the rectangle moved by a number of samples down and to the right."""
-        return Part(self.row + down, self.column + right, self.rows, self.columns)
+        return Rectangle(self.row + down, self.column + right, self.rows, self.columns)
 
-    def within(self, rows: int, columns: int) -> "Part | None":
+    def within(self, rows: int, columns: int) -> "Rectangle | None":
         """Return the rectangle clipped to a map of `rows` by `columns`; None if nothing is left."""
         top, left = max(self.row, 0), max(self.column, 0)
         bottom, right = min(self.row + self.rows, rows), min(self.column + self.columns, columns)
-        return Part(top, left, bottom - top, right - left) if top < bottom and left < right else None
+        return Rectangle(top, left, bottom - top, right - left) if top < bottom and left < right else None
 
     @property
     def slices(self) -> tuple[slice, slice]:
