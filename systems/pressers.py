@@ -319,10 +319,12 @@ def _instants(paths: Sequence[Sequence[Waypoint]], since: float, until: float) -
 def _pose_at(declared: PresserOnPath, time: float) -> Pose:
     """Return the pose of a presser at `time` [s], interpolated between the two instants around it."""
     before, after = (declared.pose(time=at / RATE) for at in (floor(time * RATE), ceil(time * RATE)))
-    part = time * RATE - floor(time * RATE)
+    fraction = time * RATE - floor(time * RATE)
     turned = (after.yaw - before.yaw + pi) % (2.0 * pi) - pi
     return Pose(
-        before.x + part * (after.x - before.x), before.z + part * (after.z - before.z), before.yaw + part * turned
+        before.x + fraction * (after.x - before.x),
+        before.z + fraction * (after.z - before.z),
+        before.yaw + fraction * turned,
     )
 
 

@@ -90,7 +90,7 @@ FRAME = np.dtype(
         ("leaf", f"({GROUPS},4)f4"),  # leaf area projected sideways, over the ground's area
         ("lying", f"({GROUPS},4)f4"),  # leaf area projected from above, over that projected sideways
         ("understorey", f"({GROUPS},4)f4"),  # coverage of the ground by low leaves, relative to their most
-        ("undertone", f"({GROUPS},4)f4"),  # tone of low leaves: part of the tips' colour
+        ("undertone", f"({GROUPS},4)f4"),  # tone of low leaves: 0 for the root, 1 for the tip
         ("steepest", f"({GROUPS},4)f4"),  # slope of the ground at which a kind ends
         ("came", f"({GROUPS},4)f4"),  # fraction of plants replaced, where a kind is becoming another
         ("thins", f"({GROUPS},4)f4"),  # loss of density per slope before that

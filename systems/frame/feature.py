@@ -37,7 +37,7 @@ class WindTextures(Protocol):
 
 
 class Part:
-    """A feature's share of one GL context: it holds buffers and textures, and draws them.
+    """A feature's buffers, textures and programs in one GL context, and their drawing.
 
     A frame calls the methods in this order.
     """

@@ -139,10 +139,10 @@ def _widths(height: Doubles, random: np.random.Generator, /) -> Doubles:
     return np.asarray(_WIDTH * width * (height.sum() / (width @ height)))
 
 
-def wither(blades: Blades, part: float, /, *, seed: int) -> Blades:
-    """Return the blades with a random `part`, 0 to 1, dead: shorter, more bent at rest, and `WITHERED`."""
+def wither(blades: Blades, fraction: float, /, *, seed: int) -> Blades:
+    """Return the blades with a random `fraction`, 0 to 1, dead: shorter, more bent at rest, and `WITHERED`."""
     random = np.random.default_rng([seed, 0x77697468])
-    dead = random.random(len(blades.height)) < part
+    dead = random.random(len(blades.height)) < fraction
     length = np.maximum(np.linalg.norm(blades.rest, axis=1), 1e-6)
     bent = np.minimum(_DROOP + length, _MOST_DROOP) / length
     return replace(

@@ -86,18 +86,18 @@ def layout_of(kind: GrassKind, quality: Quality, /) -> Layout:
     At a coarser quality grass has fewer blades. Other plants are as many, but have fewer petals and leaves.
     """
     habit = HABITS[kind.plant]
-    part = min(max(sqrt(quality.blades / FULL), FEWEST), 1.0)
+    fraction = min(max(sqrt(quality.blades / FULL), FEWEST), 1.0)
     plants = max(round(habit.plants * quality.patch**2), 1) if kind.plants is None else kind.plants
     if kind.plant == "grass":
         plants = quality.blades if kind.blades is None else kind.blades
     leaves = habit.leaves if kind.leaves is None else kind.leaves
-    layout = Layout(plants, 0, habit.branches, round(leaves * part), 0, 0)
+    layout = Layout(plants, 0, habit.branches, round(leaves * fraction), 0, 0)
     if kind.head is None:
         return layout
-    petals = max(round((kind.head.petals or max(PETALS[kind.head.form] // habit.heads, 3)) * part), 3)
+    petals = max(round((kind.head.petals or max(PETALS[kind.head.form] // habit.heads, 3)) * fraction), 3)
     return Layout(
         plants, max(int(plants * kind.head.share), 1), habit.branches, layout.leaves, petals,
-        _middles(kind.head, petals, part),
+        _middles(kind.head, petals, fraction),
     )  # fmt: skip
 
 
@@ -106,9 +106,9 @@ def has_few_petals(form: HeadForm, petals: int, /) -> bool:
     return form == "bell" or petals < MANY
 
 
-def _middles(head: Head, petals: int, part: float) -> int:
+def _middles(head: Head, petals: int, fraction: float) -> int:
     """Return the number of organs of a head beside its petals."""
     if head.eye is None:
         return MIDDLES[head.form]
     most, least = _STAMENS if has_few_petals(head.form, petals) else _DISC
-    return max(round(most * part), least)
+    return max(round(most * fraction), least)

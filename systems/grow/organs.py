@@ -100,8 +100,8 @@ def width_along(organ: NDArray[np.int32], place: Doubles, /) -> Doubles:
     """Return the relative width of organs other than blades (n,) at places (points,) along them, shape (n, points)."""
     knot = place * (KNOTS - 1)
     low = np.clip(knot.astype(np.int64), 0, KNOTS - 2)
-    part = knot - low
-    return np.asarray(WIDTHS[organ][:, low] * (1.0 - part) + WIDTHS[organ][:, low + 1] * part)
+    fraction = knot - low
+    return np.asarray(WIDTHS[organ][:, low] * (1.0 - fraction) + WIDTHS[organ][:, low + 1] * fraction)
 
 
 def eyed_along(organ: NDArray[np.int32], place: Doubles, /) -> Doubles:

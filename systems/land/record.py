@@ -41,15 +41,18 @@ class Figures:
     give: Floats
     """Posture index by length of a message, as a table."""
 
-    def toward(self, other: Self, part: float, /) -> Self:
+    def toward(self, other: Self, fraction: float, /) -> Self:
         """Return the interpolation of these figures and others."""
         before, after = self.leaves, other.leaves
         return type(self)(
-            self.crown + part * (other.crown - self.crown),
-            Leaves(before.side + part * (after.side - before.side), before.above + part * (after.above - before.above)),
-            self.bloom + part * (other.bloom - self.bloom),
+            self.crown + fraction * (other.crown - self.crown),
+            Leaves(
+                before.side + fraction * (after.side - before.side),
+                before.above + fraction * (after.above - before.above),
+            ),
+            self.bloom + fraction * (other.bloom - self.bloom),
             self.head or other.head,
-            self.give + np.float32(part) * (other.give - self.give),
+            self.give + np.float32(fraction) * (other.give - self.give),
         )
 
 

@@ -86,13 +86,13 @@ def chart(outlook: Outlook, site: Site, masks: Sequence[Masked], sheet: Sheet, /
 def _patches(outlook: Outlook, site: Site, sheet: Sheet) -> Marks:
     """Return the squares of patches, clipped to the sheet; colours of patches in a transition are mixed by weight."""
     patches = outlook.patches
-    corners, low, high = squares(patches.cell, patch=site.ground.patch, part=WHOLE), *sheet.limits
+    corners, low, high = squares(patches.cell, patch=site.ground.patch, scale=WHOLE), *sheet.limits
     rows = np.flatnonzero(patches.alive & (corners[:, 2] > low).all(axis=1) & (corners[:, 0] < high).all(axis=1))
     shades = np.concatenate([ring_shades(each.color) for each in site.representations])
-    share = patch_weights(outlook, site)[:, rows]
-    changing = share.max(axis=0) < SETTLED
+    weight = patch_weights(outlook, site)[:, rows]
+    changing = weight.max(axis=0) < SETTLED
     color = np.ones((len(rows), 4), np.float32)
-    color[:, :3] = np.where(changing[:, None], share.T @ shades, patch_colors(outlook, site)[rows])
+    color[:, :3] = np.where(changing[:, None], weight.T @ shades, patch_colors(outlook, site)[rows])
     color[:, 3] = np.where(patches.visible[rows], 0.9, CULLED)
     return filled(split(sheet.place(np.clip(corners[rows], low, high))), np.repeat(color, 2, axis=0)[:, None, :])
 

@@ -30,9 +30,9 @@ SETTLED = 0.995
 
 def shown_level(outlook: Outlook, site: Site, /) -> NDArray[np.int8]:
     """Return the representation that each patch is shown in, during a transition its own or next one, (rows,)."""
-    share = patch_weights(outlook, site)
-    alone = share.max(axis=0) >= SETTLED
-    return np.where(alone, share.argmax(axis=0), outlook.patches.representation).astype(np.int8)
+    weight = patch_weights(outlook, site)
+    alone = weight.max(axis=0) >= SETTLED
+    return np.where(alone, weight.argmax(axis=0), outlook.patches.representation).astype(np.int8)
 
 
 def patch_colors(outlook: Outlook, site: Site, /) -> Floats:
@@ -61,21 +61,21 @@ def patch_weights(outlook: Outlook, site: Site, /) -> Floats:
 
     They include the border where strips give way to the carpet.
     """
-    share, (_, strips, carpet) = weights(outlook.patches), THREE
+    weight, (_, strips, carpet) = weights(outlook.patches), THREE
     rows = np.arange(len(outlook.patches.progress))
     kept = strips_kept(outlook, rows, reach=site.reach, patch=site.ground.patch, choosy=site.choosy)
-    handed_over = share[strips] * (1.0 - kept)
-    share[strips] -= handed_over
-    share[carpet] += handed_over
-    return share
+    handed_over = weight[strips] * (1.0 - kept)
+    weight[strips] -= handed_over
+    weight[carpet] += handed_over
+    return weight
 
 
-def squares(cell: NDArray[np.int32], /, *, patch: float, part: Floats | float = 1.0) -> Floats:
+def squares(cell: NDArray[np.int32], /, *, patch: float, scale: Floats | float = 1.0) -> Floats:
     """Return the corners (x, z) [m] of squares in the middle of cells (n, 2), in order around, shape (n, 4, 2).
 
-    `part` is their side relative to the patch's without its gap: one number, or (n,).
+    `scale` is their side relative to the patch's without its gap: one number, or (n,).
     """
-    half = np.broadcast_to(np.asarray(part, np.float32) * np.float32(0.5 - GAP), (len(cell),))
+    half = np.broadcast_to(np.asarray(scale, np.float32) * np.float32(0.5 - GAP), (len(cell),))
     corner = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], np.float32)
     middle = cell.astype(np.float32)[:, None] + np.float32(0.5)
     return np.asarray((middle + corner * half[:, None, None]) * np.float32(patch), np.float32)
@@ -83,8 +83,8 @@ def squares(cell: NDArray[np.int32], /, *, patch: float, part: Floats | float = 
 
 def is_mixed(outlook: Outlook, site: Site, /) -> NDArray[np.bool_]:
     """Return whether each patch has two representations at once, shape (rows,)."""
-    share = patch_weights(outlook, site)
-    return np.asarray((share.max(axis=0) < SETTLED) & (share.sum(axis=0) > 0.0))
+    weight = patch_weights(outlook, site)
+    return np.asarray((weight.max(axis=0) < SETTLED) & (weight.sum(axis=0) > 0.0))
 
 
 def level_marks(outlook: Outlook, site: Site, /, *, settled: bool = False) -> Marks:
@@ -100,14 +100,14 @@ def level_marks(outlook: Outlook, site: Site, /, *, settled: bool = False) -> Ma
 def weight_marks(outlook: Outlook, site: Site, /) -> Marks:
     """Return squares on the patches in view with two representations, in the coarser one's colour.
 
-    The area of an inner square is the finer one's share. Changing patches are outlined; the others lie where strips
+    The area of an inner square is the finer one's weight. Changing patches are outlined; the others lie where strips
     give way to the carpet.
     """
-    patches, share = outlook.patches, patch_weights(outlook, site)
+    patches, weight = outlook.patches, patch_weights(outlook, site)
     rows = np.flatnonzero(patches.shown & is_mixed(outlook, site))
-    is_present = share[:, rows] > 1.0 - SETTLED
+    is_present = weight[:, rows] > 1.0 - SETTLED
     finer, coarser = is_present.argmax(axis=0), len(is_present) - 1 - is_present[::-1].argmax(axis=0)
-    part = np.sqrt(share[finer, rows] / share[:, rows].sum(axis=0))
+    scale = np.sqrt(weight[finer, rows] / weight[:, rows].sum(axis=0))
     shades = np.concatenate([ring_shades(each.color) for each in site.representations])
     changing = rows[patches.progress[rows] < 1.0]
     outlines = on_ground(site.ground.terrain, squares(patches.cell[changing], patch=site.ground.patch))
@@ -117,15 +117,15 @@ def weight_marks(outlook: Outlook, site: Site, /) -> Marks:
     starts, ends = outlines.reshape(-1, 3), np.roll(outlines, -1, axis=1).reshape(-1, 3)
     return together(
         _filled_squares(outlook, site, rows, shades[coarser], FILL),
-        _filled_squares(outlook, site, rows, shades[finer], INNER, part=part),
+        _filled_squares(outlook, site, rows, shades[finer], INNER, scale=scale),
         stroked(starts, ends, np.repeat(bright, 4, axis=0), width=1.5),
     )
 
 
 def _filled_squares(
-    outlook: Outlook, site: Site, rows: Rows, color: Floats, opacity: float, *, part: Floats | float = 1.0
+    outlook: Outlook, site: Site, rows: Rows, color: Floats, opacity: float, *, scale: Floats | float = 1.0
 ) -> Marks:
     """Return filled squares on patches."""
-    flat = squares(outlook.patches.cell[rows], patch=site.ground.patch, part=part)
+    flat = squares(outlook.patches.cell[rows], patch=site.ground.patch, scale=scale)
     shown = np.column_stack([color, np.full(len(rows), opacity, np.float32)])
     return filled(split(on_ground(site.ground.terrain, flat)), np.repeat(shown, 2, axis=0)[:, None, :])

@@ -188,9 +188,9 @@ class Conversion:
         self._converted: list[Floats] = []
         self._count, self._listed = NO_LISTS
 
-    def convert_to(self, part: float) -> None:
-        """Convert until this part, 0 to 1, of all pieces is done."""
-        while self._steps_done < min(part, 1.0) * self._steps:
+    def convert_to(self, fraction: float) -> None:
+        """Convert until this fraction, 0 to 1, of all pieces is done."""
+        while self._steps_done < min(fraction, 1.0) * self._steps:
             self._steps_done += 1
             for piece in islice(self._pieces_left, PIECES_AT_A_TIME):
                 counts = self._stretches_seen + piece.stretch_of_pair >= self._first_counting[piece.square_of_pair]

@@ -240,8 +240,8 @@ def _envelope(wind: WindPrimitive, stop: float | None, time: float) -> float:
     """Return the factor by which a wind sets in over `ease` after its start and dies down before `stop` [s]."""
     begun = (time - wind.start) / wind.ease if wind.ease and wind.start else 1.0
     to_go = (stop - time) / wind.ease if wind.ease and stop is not None else 1.0
-    part = min(begun, to_go)
-    return 1.0 if part >= 1.0 else float(smooth(np.array([part], np.float32))[0])
+    fraction = min(begun, to_go)
+    return 1.0 if fraction >= 1.0 else float(smooth(np.array([fraction], np.float32))[0])
 
 
 def claim(wind: WindPrimitive, /) -> tuple[int, float, str]:
@@ -268,7 +268,7 @@ def send(
 ) -> Sent | None:
     """Return a wind's messages to the receivers that it reaches and others have not claimed; None where there are none.
 
-    `unclaimed` (n,) is the part of each receiver that no wind has claimed yet. A wind that fails sends nothing.
+    `unclaimed` (n,) is the fraction of each receiver that no wind has claimed yet. A wind that fails sends nothing.
     """
     rows, place = _within(wind, receivers, unclaimed)
     source, primitive = wind.source, wind.primitive

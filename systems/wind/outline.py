@@ -111,8 +111,8 @@ def _to_edges(place: Doubles, points: Doubles) -> tuple[Doubles, Mask]:
     away = np.full(place.shape[:-1], np.inf)
     for a, b in zip(points, np.roll(points, -1, axis=0), strict=True):
         edge, to = b - a, place - a
-        part = np.clip(to @ edge / max(float(edge @ edge), 1e-12), 0.0, 1.0)
-        away = np.minimum(away, np.linalg.norm(to - part[..., None] * edge, axis=-1))
+        fraction = np.clip(to @ edge / max(float(edge @ edge), 1e-12), 0.0, 1.0)
+        away = np.minimum(away, np.linalg.norm(to - fraction[..., None] * edge, axis=-1))
     return away, in_polygon(place, points)
 
 

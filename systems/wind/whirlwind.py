@@ -62,8 +62,8 @@ class Whirlwind(PlacedWind):
         """Return its messages: tangent to circles, with an index that falls from the middle to the edge."""
         x, z = place[:, 0], place[:, 1]
         away = np.asarray(np.maximum(np.sqrt(x * x + z * z), np.float32(1e-6)), np.float32)
-        part = np.minimum(away / np.float32(self.radius), np.float32(1.0))
-        fall = np.float32(1.0) - part * part * np.float32(FALLS)
+        fraction = np.minimum(away / np.float32(self.radius), np.float32(1.0))
+        fall = np.float32(1.0) - fraction * fraction * np.float32(FALLS)
         sign = np.float32(-1.0 if self.spin == "left" else 1.0)
         phase = np.arctan2(z, x) * np.float32(LOBES) - np.float32(self._phase(time))
         uneven = np.float32(1.0 - UNEVEN) + np.float32(UNEVEN) * np.cos(phase)

@@ -77,15 +77,15 @@ class CarpetStock:
         """The growth of each form."""
         return [form.growth for form in self.forms]
 
-    def uniforms(self, came: Sequence[float], part: float, /) -> dict[str, object]:
-        """Return uniforms by name, for a carpet at a fraction `part` of the grass's height.
+    def uniforms(self, came: Sequence[float], fraction: float, /) -> dict[str, object]:
+        """Return uniforms by name, for a carpet at a `fraction` of the grass's height.
 
         `came` (kinds,) is the fraction of each kind's plants that have become what the kind is to become.
         """
         height = self._blended("height", came)
         uniforms: dict[str, object] = {
             "tops": by_kind((height / self._blended("crown", came)).tolist()),
-            "raised": by_kind((part * height).tolist()),
+            "raised": by_kind((fraction * height).tolist()),
         }
         if self.heads:
             uniforms["profile"] = self._blended("profile", came).reshape(-1, 2).tolist()
@@ -120,5 +120,5 @@ class CarpetStock:
         before, after = getattr(self.before, name), getattr(self.after, name)
         if not came:
             return np.asarray(before)
-        part = np.array(came, np.float32).reshape(-1, *[1] * (before.ndim - 1))
-        return np.asarray(before + part * (after - before), np.float32)
+        fraction = np.array(came, np.float32).reshape(-1, *[1] * (before.ndim - 1))
+        return np.asarray(before + fraction * (after - before), np.float32)

@@ -36,7 +36,7 @@ def outlook(site: Site, look: Look) -> Outlook:
 
 def test_n8_squares_stand_in_the_middle_of_their_cells() -> None:
     cells = np.array([[0, 0], [-3, 7]], np.int32)
-    corners = squares(cells, patch=2.5, part=np.array([1.0, 0.5], np.float32))
+    corners = squares(cells, patch=2.5, scale=np.array([1.0, 0.5], np.float32))
     np.testing.assert_allclose(corners.mean(axis=1), (cells + 0.5) * 2.5, atol=1e-5)
     sides = np.ptp(corners, axis=1)
     assert 2.2 < sides[0, 0] < 2.5
