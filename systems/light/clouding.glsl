@@ -41,7 +41,7 @@ CloudPoint cloud_at(Way way, float along) {
     vec3 map = textureLod(heaps, uv, 0.0).rgb;
     vec4 billow = textureLod(billows, BLOCK * vec3(uv.x, along * (CLOUD_TALLEST / CLOUDS_SIDE), uv.y), way.mip_level);
     float column = map.x - cloud_edge, dome = column - CLOUD_DOME * along * along, relief = min(CLOUD_RELIEF * along, 1.0);
-    float strength = mix(CLOUD_BASE_BILLOWS, min(CLOUD_SUPPORT * max(column, 0.0), 1.0), relief);
+    float strength = mix(1.0, min(CLOUD_SUPPORT * max(column, 0.0), 1.0), relief);
     float excess = dome + CLOUD_BILLOWED * strength * (billow.x - 0.5);
     excess *= excess > 0.0 ? min(CLOUD_BASE_DEPTH + CLOUD_BASE_DEPTH_RISE * along, 1.0) : 1.0;
     return CloudPoint(along, excess, dome, column, relief, map, billow);

@@ -55,15 +55,16 @@ slope of the billows [m]."""
 SHADING = 9.0
 """Decrease in the log-odds of sunlight at a place, per unit of map density towards the sun."""
 
-BASE_SHADING, BASE_BILLOWS, RELIEF = 0.2, 0.8, 4.5
-"""Extra density towards the sun at a base; strength of billows there; and by how much more over the whole height they
-are lit and shaded one by one: bases show none in relief, as light comes to them through the whole cloud."""
+BASE_SHADING, RELIEF = 0.2, 4.5
+"""Extra density towards the sun at a base; and the increase over the whole height, up to 1, of the part to which billows
+are lit and shaded one by one: at bases they are not, as light comes to them through the whole cloud."""
 
 CREASE_SHADING = 0.6
 """Difference in shading density between the deepest creases and the highest billows."""
 
 SUPPORT = 10.0
-"""Strength of billows above a base per unit of excess density there, up to 1: so no puffs float where there is none."""
+"""Strength of billows high above a base per unit of excess density there, up to 1: so no puffs float where there is
+none."""
 
 SUNLIT, SILVER = 1.25, 1.0
 """Radiance of a sunlit cloud relative to a leaf in the sun: a cloud reflects all light, a leaf gets 0.8 of it. And
@@ -118,7 +119,6 @@ GLSL = {
     "CLOUD_BILLOWS_ASIDE": BILLOWS_ASIDE,
     "CLOUD_SHADING": SHADING,
     "CLOUD_BASE_SHADING": BASE_SHADING,
-    "CLOUD_BASE_BILLOWS": BASE_BILLOWS,
     "CLOUD_RELIEF": RELIEF,
     "CLOUD_CREASE_SHADING": CREASE_SHADING,
     "CLOUD_SUNLIT": SUNLIT,

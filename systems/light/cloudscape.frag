@@ -25,10 +25,9 @@ float shade_odds(CloudPoint point) {
     return exp(CLOUD_SHADING * shading);
 }
 
-// Factor by which light is weakened that is scattered to a point through the cloud above. Billows hang from bases; higher up, their
-// creases lie deep between them.
+// Factor by which light is weakened that is scattered to a point through the cloud above, with the billows that hang from its base.
 float weakening(CloudPoint point) {
-    float column = point.column + CLOUD_BILLOWED * (CLOUD_BASE_BILLOWS - point.relief) * (point.billow.x - 0.5);
+    float column = point.column + CLOUD_BILLOWED * (1.0 - point.relief) * (point.billow.x - 0.5);
     return 1.0 + CLOUD_DIFFUSION * max(sqrt(max(column, 0.0) * (1.0 / CLOUD_DOME)) - point.along, 0.0);
 }
 
