@@ -56,8 +56,8 @@ SHADING = 9.0
 """Decrease in the log-odds of sunlight at a place, per unit of map density towards the sun."""
 
 BASE_SHADING, RELIEF = 0.2, 4.5
-"""Extra density towards the sun at a base; and the increase over the whole height, up to 1, of the part to which billows
-are lit and shaded one by one: at bases they are not, as light comes to them through the whole cloud."""
+"""Extra density towards the sun at a base; and the increase over the whole height, up to 1, of the fraction to which
+billows are lit and shaded one by one: at bases they are not, as light comes to them through the whole cloud."""
 
 CREASE_SHADING = 0.6
 """Difference in shading density between the deepest creases and the highest billows."""

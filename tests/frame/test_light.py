@@ -233,6 +233,25 @@ def test_f5_bases_of_clouds_are_about_a_third_as_bright_as_their_sunlit_sides(
     assert 0.25 < np.percentile(clouds, 5) / np.percentile(clouds, 95) < 0.4
 
 
+def grown(mask: NDArray[np.bool_], pixels: int) -> NDArray[np.bool_]:
+    """Return a mask that reaches so many pixels farther along rows and columns."""
+    for axis in (0, 1):
+        mask = np.logical_or.reduce([np.roll(mask, by, axis) for by in range(-pixels, pixels + 1)])
+    return mask
+
+
+def test_f5_hardly_any_puffs_float_beside_clouds(room: Stage, load: Load) -> None:
+    """What is narrower than 7 pixels, and farther than 3 from what is broader, is a puff."""
+    skies, puffs = [load(f"{SCENE}light: {{ elevation: 60, clouds: {part} }}") for part in (0.1, 0.0)], []
+    for x in np.arange(4) * CLOUDS_SIDE / 4.0:
+        up = Camera((float(x), 2.0, 0.0), 0.0, UP, np.radians(40.0))
+        cloudy, clear = (np.ptp(room.shot(sky, up), axis=2) for sky in skies)
+        clouds = cloudy < 0.6 * clear
+        broad = grown(~grown(~clouds, 3), 6)
+        puffs.append((clouds & ~broad).sum() / clouds.sum())
+    assert np.mean(puffs) < 0.04
+
+
 def test_f5_by_night_no_side_of_a_cloud_is_as_if_the_sun_lit_it(room: Stage, load: Load) -> None:
     skies = [load(f"{SCENE}light: {{ hour: 1, clouds: {part} }}") for part in (1.0, 0.4)]
     up = Camera((0.0, 2.0, 0.0), 0.0, 0.5, np.radians(50.0))
