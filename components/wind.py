@@ -304,4 +304,4 @@ def must_be_wind(thing: object, due: str, /) -> None:
 def must_be_name(thing: object, /) -> None:
     """Raise TypeError for a wind's name that is no text."""
     if not isinstance(thing, str):
-        raise TypeError(f"a wind is called by a text such as 'north', not by {shortened(thing)}")
+        raise TypeError(f"a wind's name is a text such as 'north', not {shortened(thing)}")

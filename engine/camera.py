@@ -290,7 +290,7 @@ def _must_be_usable(seen: View) -> None:
             raise ValueError(f"the {name} matrix has no inverse")
     if np.abs(np.linalg.inv(seen.view.astype(np.float64))[:3, 3]).max() > OUTERMOST:
         raise ValueError(f"the view matrix has its eye beyond {OUTERMOST:.0e} m")
-    raise ValueError("the view and the projection matrix come to more together than single precision holds")
+    raise ValueError("the product of the view and projection matrices overflows or underflows single precision")
 
 
 def _matrix(matrix: object, name: str) -> NDArray[np.float32]:

@@ -73,7 +73,7 @@ def as_rays(origin: object, direction: object, /) -> tuple[Doubles, Doubles]:
     if len(each[0]) != len(each[1]) and 1 not in (len(each[0]), len(each[1])):
         raise ValueError(f"{due}, not {len(each[0])} and {len(each[1])} of them")
     if not np.abs(each[1]).max(axis=1, initial=0.0).all():
-        raise ValueError(f"{due}, and a direction of nothing but 0 leads nowhere")
+        raise ValueError(f"{due}, and a direction has a length above 0")
     start, way = np.broadcast_arrays(*each)
     return start, way
 
@@ -109,7 +109,7 @@ def must_be_flags(**flags: object) -> None:
 def must_be_viewer(thing: object, /) -> None:
     """Raise TypeError for a viewer's name that is no text."""
     if not isinstance(thing, str):
-        raise TypeError(f"a viewer is called by a text such as 'main', not by {shortened(thing)}")
+        raise TypeError(f"a viewer's name is a text such as 'main', not {shortened(thing)}")
 
 
 def must_be_seed(thing: object, /) -> None:

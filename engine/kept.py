@@ -40,7 +40,7 @@ def cache_folder() -> Path | None:
 def tell_nothing_is_kept(folder: str, reason: str, /) -> None:
     """Log that nothing can be cached, once for each folder and reason."""
     log.warning(
-        "what has been grown cannot be kept in %s (%s), so it is grown each time: TALLGRASS_CACHE may name a folder",
+        "nothing can be cached in %s (%s), so plants and clouds are computed each time; TALLGRASS_CACHE names another",
         folder, reason,
     )  # fmt: skip
 
@@ -93,7 +93,7 @@ def keep(name: str, key: str, data: bytes, /, *, most: int) -> None:
     """Cache bytes for `kept`, and remove the oldest files of this suffix beyond `most`; a failure is logged once."""
     folder = cache_folder()
     if folder is None:
-        tell_nothing_is_kept("a cache folder", "there is no home folder")
+        tell_nothing_is_kept("the home folder", "there is none")
         return
     try:
         write_whole(folder / name, checksum(data, key) + data)

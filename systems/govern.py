@@ -172,7 +172,7 @@ class Governor:
     @hold.setter
     def hold(self, seconds: float | None) -> None:
         if seconds is not None and not (isinstance(seconds, NUMBER_TYPES) and 0.0 < seconds < inf):
-            raise ValueError(f"a frame is held to a time above 0 s, or to None for no limit, not to {seconds!r}")
+            raise ValueError(f"hold is a time above 0 s, or None for no limit, not {seconds!r}")
         self._hold = seconds
 
     def begin(self, outlook: Outlook, /, *, goes_on: bool = False) -> None:

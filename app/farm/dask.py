@@ -32,7 +32,7 @@ def versions() -> str:
 
 
 def cores() -> int:
-    """Return the number of cores that this process may use."""
+    """Return the number of cores by Dask's count, which keeps to the limits of a container."""
     return int(importlib.import_module("dask.system").CPU_COUNT)
 
 

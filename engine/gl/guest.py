@@ -62,7 +62,7 @@ def saved_state(ctx: moderngl.Context | None) -> Iterator[State]:
         )
     gl = current_functions() if ctx is None else functions_of(ctx)
     if ctx is not None and gl.glGetString(ENUMS["VERSION"]) is None:
-        raise RuntimeError("no GL context is current in this thread: draw in that of the window, or make one current")
+        raise RuntimeError("no GL context is current in this thread: make that of the window current in it")
     unit = SCRATCH_UNIT if ctx is None else ctx.default_texture_unit
     _saved.append(State(gl, limits_of(gl), unit))
     try:

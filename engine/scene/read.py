@@ -64,7 +64,7 @@ class LoadedScene:
     def file(self) -> Path:
         """File it was read from. Raises ValueError where a program has handed it in."""
         if self.path is None:
-            raise ValueError("this scene was made from a program's values: what writes or sends it needs a file")
+            raise ValueError("this scene was made from a program's values; it has no file to write or send")
         return self.path
 
     @property
@@ -123,7 +123,7 @@ def read_again(before: LoadedScene, scene: SceneLike | LoadedScene | None, /) ->
     if scene is not None:
         return read_scene(scene)
     if before.path is None:
-        raise ValueError("this prairie was made from a program's values: hand reload the scene that it is to become")
+        raise ValueError("this prairie was made from a program's values: call reload with a scene")
     return read_scene(before.path)
 
 

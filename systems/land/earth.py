@@ -42,7 +42,7 @@ class Earth(Feature):
         if texture is not None:
             number_of(texture)
         if side is not None and not (isinstance(side, NUMBER_TYPES) and 0.0 < side < inf):
-            raise ValueError(f"a ground's texture comes again every so many metres, above 0, not {shortened(side)}")
+            raise ValueError(f"the side of a ground's texture is above 0 m, not {shortened(side)}")
         self.texture, self.side, self.power = texture, side, LINEAR if linear else ENCODED
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "EarthPart":

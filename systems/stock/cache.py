@@ -31,7 +31,7 @@ def cached_growth(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Pa
     """
     folder = cache_folder() if folder is None else folder
     if folder is None:
-        tell_nothing_is_kept("a cache folder", "there is no home folder")
+        tell_nothing_is_kept("the home folder", "there is none")
         return grow(kind, quality, seed=seed)
     key = growth_key(kind, quality, seed=seed)
     growth = _kept(kind, quality, key, folder)

@@ -61,7 +61,7 @@ def test_view_matrix_is_a_rotation_that_brings_the_eye_to_the_origin(
 def test_two_matrices_that_have_no_inverse_together_are_refused_in_a_sentence() -> None:
     view, projection = np.eye(4), np.eye(4)
     view[1, 0], projection[0, 1] = 1.0, 1e20
-    with pytest.raises(ValueError, match=r"^the view and the projection matrix come to more together than single"):
+    with pytest.raises(ValueError, match=r"^the product of the view and projection matrices overflows"):
         view_of(view, projection)
 
 

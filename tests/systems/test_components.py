@@ -71,7 +71,7 @@ def test_d2_many_that_are_nowhere_are_told_of_in_one_sentence(
         (("gust", "n"), r"a WindSource carries a wind such as Gust\(\), not its name 'gust'"),
         ((Gust, "n"), r"a WindSource carries a wind such as Gust\(\), not the class Gust"),
         ((None, "n"), r"a WindSource carries a wind such as Gust\(\), not None"),
-        ((Gust(), 5), "a wind is called by a text such as 'north', not by 5"),
+        ((Gust(), 5), "a wind's name is a text such as 'north', not 5"),
     ],
 )
 def test_d2_a_source_of_no_wind_is_refused_where_it_is_made(what: tuple[Any, Any], said: str) -> None:

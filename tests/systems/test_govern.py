@@ -113,5 +113,5 @@ def test_ranges_follow_little_by_little_and_arrive() -> None:
 
 @pytest.mark.parametrize("seconds", [0.0, -1.0, float("nan"), float("inf"), "1/60", [0.02]])
 def test_what_is_no_time_cannot_be_held(seconds: object) -> None:
-    with pytest.raises(ValueError, match="a frame is held to a time above 0 s"):
+    with pytest.raises(ValueError, match="hold is a time above 0 s"):
         Governor(seconds)  # type: ignore[arg-type]

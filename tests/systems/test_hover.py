@@ -184,7 +184,7 @@ def test_r4_an_entity_with_a_body_of_its_own_has_no_other(world: World, winds: W
     [
         (Silent(), "hover raised LookupError: nothing there"),
         (Worded(), "hover returned str, not Hover"),
-        (Unknown(), "hover raised ValueError: a body looks like one of saucer, not like 'dragon'"),
+        (Unknown(), "hover raised ValueError: a body's model is one of saucer, not 'dragon'"),
         (Tall(), "hover raised ValueError: a body flies above 0 and up to 1000 m high, not 'high'"),
         (Lost(), "pose returned NoneType, not Pose"),
         (Vague(), "pose returned numbers that are not finite"),

@@ -172,7 +172,7 @@ class Odd(Even):
         (Lost, r"pose returned NoneType, not Pose \(at 0 s\)"),
         (Endless, r"pose returned Pose\(x=inf, .*\), which is not all numbers \(at 0 s\)"),
         (Topped, r"hover returned str, not Hover or None \(at any time\)"),
-        (Winged, r"hover raised ValueError: a body looks like one of saucer, not like 'dragon' \(at any time\)"),
+        (Winged, r"hover raised ValueError: a body's model is one of saucer, not 'dragon' \(at any time\)"),
         (Buried, r"hover raised ValueError: a body flies above 0 and up to 1000 m high, not -1\.0 \(at any time\)"),
         (Wavering, r"hover answers differently when it is asked again \(at any time\)"),
         (Sudden, r"pose raised FloatingPointError: .* \(at -0\.3 s, for what hovers over it\)"),

@@ -192,8 +192,8 @@ def test_a_callers_arrays_are_copied_and_tell_a_change_by_what_they_hold() -> No
 
 def test_what_has_no_file_says_so_where_one_is_needed() -> None:
     loaded = read()
-    with pytest.raises(ValueError, match=r"^this scene was made from a program's values: what writes"):
+    with pytest.raises(ValueError, match=r"^this scene was made from a program's values; it has no file"):
         _ = loaded.file
-    with pytest.raises(ValueError, match=r"^this prairie was made from a program's values: hand reload the"):
+    with pytest.raises(ValueError, match=r"^this prairie was made from a program's values: call reload with a"):
         read_again(loaded, None)
     assert read_again(loaded, {"tallgrass": 2, "seed": 3, "grass": GREEN}).scene.seed == 3

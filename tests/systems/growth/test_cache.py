@@ -207,7 +207,7 @@ def test_a_place_where_nothing_can_be_written_is_told_once_and_no_error(
         assert cached_growth(KIND, SMALL, seed=5, folder=tmp_path) is GROWN
     assert stored(tmp_path) == []
     (told,) = caplog.messages
-    assert told.startswith(f"what has been grown cannot be kept in {tmp_path} (Permission denied), so it is grown")
+    assert told.startswith(f"nothing can be cached in {tmp_path} (Permission denied), so plants and clouds")
 
 
 @pytest.mark.usefixtures("grows")
@@ -264,5 +264,5 @@ def test_without_a_home_there_is_no_cache_and_no_error(
     assert cache_folder() is None
     assert cached_growth(KIND, SMALL, seed=5) is GROWN
     assert [told.partition(")")[0] for told in caplog.messages] == [
-        "what has been grown cannot be kept in a cache folder (there is no home folder"
+        "nothing can be cached in the home folder (there is none"
     ]

@@ -64,7 +64,7 @@ def test_a_ray_is_picked_as_a_row_and_many_from_one_eye(prairie: Prairie) -> Non
     ("origin", "direction", "why"),
     [
         ((1, 2), (0, 1, 0), r"not an array of shape \(2,\)$"),
-        ((1, 2, 3), (0, 0, 0), "and a direction of nothing but 0 leads nowhere$"),
+        ((1, 2, 3), (0, 0, 0), "and a direction has a length above 0$"),
         ((1, 2, np.nan), (0, 1, 0), "not NaN or infinity$"),
         ([(1, 2, 3)] * 2, [(0, 1, 0)] * 3, "not 2 and 3 of them$"),
         ("eye", (0, 1, 0), "not 'eye'$"),

@@ -66,7 +66,7 @@ def test_a_bad_time_is_refused_in_a_sentence_and_no_wind_is_blamed_for_it(prairi
     [
         ({"preset": "hgih"}, r"^unknown preset 'hgih'; there are minimal, low, medium, high, "),
         ({"lod": "voxels"}, r"^unknown representation 'voxels'; there are auto, blades, strips, carpet$"),
-        ({"hold": -1.0}, r"^a frame is held to a time above 0 s, or to None for no limit, not to -1.0$"),
+        ({"hold": -1.0}, r"^hold is a time above 0 s, or None for no limit, not -1.0$"),
     ],
 )
 def test_an_unknown_option_is_refused_in_a_sentence_and_leaves_the_world_alone(
@@ -121,8 +121,8 @@ BAD: list[tuple[object, str]] = [
 @pytest.mark.parametrize(
     ("view", "projection", "sentence"),
     [
-        (GOOD * 1e30, GOOD * 1e30, "^the view and the projection matrix come to more together than single precision"),
-        (GOOD * 1e-25, GOOD * 1e-25, "^the view and the projection matrix come to more together than single precision"),
+        (GOOD * 1e30, GOOD * 1e30, "^the product of the view and projection matrices overflows"),
+        (GOOD * 1e-25, GOOD * 1e-25, "^the product of the view and projection matrices overflows"),
         (Mat4.perspective_projection(1.0, 0.1, 100.0), GOOD, "^the view matrix has perspective: give the view first"),
         (
             GOOD + np.eye(4, k=-3) * 9.0,
@@ -224,7 +224,7 @@ def test_what_is_no_wind_is_refused_in_a_sentence(prairie: Prairie, wind: object
 
 
 def test_a_name_that_is_no_text_is_refused_in_a_sentence(prairie: Prairie) -> None:
-    with pytest.raises(TypeError, match=r"^a wind is called by a text such as 'north', not by 3$"):
+    with pytest.raises(TypeError, match=r"^a wind's name is a text such as 'north', not 3$"):
         prairie.add(Gust(), name=3)  # type: ignore[arg-type]
 
 
@@ -309,7 +309,7 @@ def test_a_viewer_is_called_by_a_text(prairie: Prairie) -> None:
         lambda: prairie.follow(view, view, viewer=3),  # type: ignore[arg-type]
         lambda: prairie.patch_at([[0, 0]], viewer=3),  # type: ignore[arg-type]
     ):
-        with pytest.raises(TypeError, match=r"^a viewer is called by a text such as 'main', not by 3$"):
+        with pytest.raises(TypeError, match=r"^a viewer's name is a text such as 'main', not 3$"):
             ask()
     assert not prairie.viewers.values()
 
