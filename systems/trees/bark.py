@@ -39,14 +39,15 @@ SIDES = 12, 6, 3
 MOST_OUTSET = 0.3
 """Greatest distance of a tube's corners beyond the round stem, relative to its radius."""
 
-PIXEL_RADII = 0.003, 0.006, 0.011, 0.017, 0.027
+PIXEL_RADII = 0.003, 0.0042, 0.006, 0.0085, 0.012, 0.017, 0.027
 """Radii of the model's stem that is a pixel wide [m]: trees between two of them draw the same wood."""
 
 ROUND = 6.0
 """Width from which on a stem is a tube, and shows that it forks [pixels]."""
 
-STRAIGHT = 0.017
-"""Radius of a stem a pixel wide from which on ribbons have fewer points [m]: bends are a few pixels there."""
+STRAIGHT, BENT = 0.017, 1.0
+"""Radius of a stem a pixel wide from which on ribbons have fewer points [m]: bends are a few pixels there. And bend
+below which a ribbon has fewer points nearer by, too [pixels]."""
 
 ALIKE = 1.3
 """Ratio of radii within which stems are sorted as equally thick."""
@@ -81,10 +82,13 @@ class Wood(NamedTuple):
     """Triangles of bark that are drawn at some distance."""
 
     triangles: NDArray[np.uint32]
-    """Shape (n, 3), the thickest first."""
+    """Shape (n, 3), the thickest first; next to the eye, where none is thinner than a pixel, the lowest first."""
 
     radii: Doubles
     """Greatest radius from each triangle on, from the last to the first, (n,) [m]."""
+
+    lows: Doubles
+    """Least height from each triangle on, (n,) [m]."""
 
 
 class _Part(NamedTuple):
@@ -101,6 +105,9 @@ class _Part(NamedTuple):
 
     straight: NDArray[np.intp]
     """The triangles of fewer points, down to the ends of a short stem."""
+
+    bend: Doubles
+    """Greatest distance of each stem's points from the lines between these, shape (stems,) [m]."""
 
 
 def bark_of(
@@ -129,31 +136,47 @@ def bark_of(
                     limb[limbs][:, None, None],
                 )
             first = sum(len(each) for each in bark)
-            fine, straight = (
-                _faces(*vertices.shape, step=step) + first for step in (1, max(vertices.shape[1] // 4, 3))
+            step = max(vertices.shape[1] // 4, 3)
+            fine, straight = (_faces(*vertices.shape, step=each) + first for each in (1, step))
+            of_trunk = limbs is None
+            parts.append(
+                _Part(fine, stems.radius[:, 0], None if of_trunk else bool(ribbon), straight, _bends(stems.spine, step))
             )
-            parts.append(_Part(fine, stems.radius[:, 0], None if limbs is None else bool(ribbon), straight))
             bark.append(vertices.reshape(-1))
     vertices = np.concatenate(bark)
-    radius = vertices["stem"][:, 3].astype(np.float64)
-    return vertices, tuple(_wood(parts, radius, pixel) for pixel in (0.0, *PIXEL_RADII))
+    stem = vertices["stem"].astype(np.float64)
+    return vertices, tuple(_wood(parts, stem, pixel) for pixel in (0.0, *PIXEL_RADII))
 
 
-def _wood(parts: list[_Part], radius: Doubles, pixel: float) -> Wood:
-    """Return the wood where a stem of radius `pixel` [m] is a pixel wide; `radius` is that of each vertex."""
-    chosen = []
-    for part in parts:
-        thin = part.radius_at_foot < ROUND * pixel
-        triangles = part.straight if part.ribbon and pixel >= STRAIGHT else part.triangles
-        kept = triangles if part.ribbon is None else triangles[thin == part.ribbon]
-        chosen.append(kept.reshape(-1, 3))
-    triangles = np.concatenate(chosen).astype(np.uint32)
-    around = radius[triangles]
+def _wood(parts: list[_Part], stem: Doubles, pixel: float) -> Wood:
+    """Return the wood where a stem of radius `pixel` [m] is a pixel wide; `stem` is that of each vertex, (n, 4)."""
+    triangles = np.concatenate([_triangles(part, pixel) for part in parts]).astype(np.uint32)
+    around, low = stem[triangles, 3], stem[triangles, 1].min(axis=1)
     most = around.max(axis=1)
     # Rounding keeps triangles of one stem together: they share vertices.
     thickness = np.round(np.log(around.min(axis=1) + most) / np.log(ALIKE))
-    order = np.argsort(-thickness, kind="stable")
-    return Wood(np.asarray(triangles[order], np.uint32), np.maximum.accumulate(most[order[::-1]]))
+    order = np.argsort(-thickness if pixel else np.floor(low), kind="stable")
+    radii, lows = np.maximum.accumulate(most[order[::-1]]), np.minimum.accumulate(low[order[::-1]])[::-1]
+    return Wood(np.asarray(triangles[order], np.uint32), radii, lows)
+
+
+def _triangles(part: _Part, pixel: float) -> NDArray[np.intp]:
+    """Return a part's triangles (n, 3) where a stem of radius `pixel` [m] is a pixel wide."""
+    if part.ribbon is None:
+        return part.triangles.reshape(-1, 3)
+    drawn = (part.radius_at_foot < ROUND * pixel) == part.ribbon
+    straight = part.ribbon & ((part.bend < BENT * 2.0 * pixel) | (pixel >= STRAIGHT))
+    fine, coarse = part.triangles[drawn & ~straight], part.straight[drawn & straight]
+    return np.concatenate([fine.reshape(-1, 3), coarse.reshape(-1, 3)])
+
+
+def _bends(spine: Doubles, step: int) -> Doubles:
+    """Return the greatest distance of stems' points (n, points, 3) from the lines between each of `step`, (n,)."""
+    points = spine.shape[1]
+    kept = np.unique([*range(0, points, step), points - 1])
+    part = np.arange(points)
+    line = np.stack([[np.interp(part, kept, stem[kept, axis]) for axis in range(3)] for stem in spine])
+    return np.asarray(np.linalg.norm(spine - line.transpose(0, 2, 1), axis=2).max(axis=1))
 
 
 def _with_foot(trunk: Stems) -> Stems:

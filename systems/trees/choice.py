@@ -1,6 +1,7 @@
 """Choosing which trees a picture shows, and how: those of all models at once."""
 
 from collections.abc import Sequence
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -8,12 +9,12 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Doubles, Floats
 from ..space.frustum import outside_planes
-from .bark import PIXEL_RADII
+from .bounds import highest_shown
 from .leafy import near_twigs, twig_instances
 from .model import MARGIN, Model
 from .shells import farthest_of, shells_of
 from .standing import BAREST, PLACED, WIDEST_ROW, Standing, columns_of, far_instances, ring_opacity, set_detail
-from .stream import BACKS, CARDS, FAR, FIRST_OF, LEAVES, SHARES, SHELL_OF, STREAMS, TOO_FEW, WOODS
+from .stream import BACKS, CARDS, FAR, FIRST_OF, LEAVES, SHARES, SHELL_OF, STREAMS, TOO_FEW, WOOD_LIMITS, WOODS
 from .twig import LEAF_PIXELS
 from .wood import AWAY, SWAYS, THINNEST, nearest_ahead
 
@@ -83,6 +84,9 @@ class Batch(NamedTuple):
     foliage: float
     """Least share of its leaves that a tree has."""
 
+    top: float
+    """Height of the model up to which any tree is in the picture [m]; infinite where all of it may be."""
+
     twig_share: float
     """Greatest share of its twigs that is drawn of a tree."""
 
@@ -92,7 +96,7 @@ class Batch(NamedTuple):
 
 def single(model: int, name: str, first: int, /) -> Batch:
     """Return a batch of one tree, drawn anywhere; `first` is its index among all trees."""
-    return Batch(model, name, first, 1, 0.0, 0.0, farthest_of(SHELL_OF[name], 1.0), 1.0, 1.0, 1.0, 1.0)
+    return Batch(model, name, first, 1, 0.0, 0.0, farthest_of(SHELL_OF[name], 1.0), 1.0, 1.0, inf, 1.0, 1.0)
 
 
 class Chosen(NamedTuple):
@@ -122,6 +126,9 @@ class _Seen(NamedTuple):
     pixel_radius: Doubles
     """Radius of a stem of its model that is a pixel wide at its nearest point [m]."""
 
+    top: Doubles
+    """Height of its model up to which it is in the picture [m]; infinite where all of it may be."""
+
 
 class Choice:
     """All trees of a frame, to choose from; `variety` is the spread of brightness within each model."""
@@ -129,6 +136,8 @@ class Choice:
     def __init__(self, standing: Standing, models: Sequence[Model], variety: Sequence[float]) -> None:
         rows, self._model = standing.by_model()
         self._models = models
+        self._slices = np.array([model.slices for model in models])
+        """`Slices` of each model, shape (models, 3, SLICES) [m]."""
         numbers = np.array([_model_numbers(*pair) for pair in zip(models, variety, strict=True)])[self._model].T
         height, middle, half, radius, hertz, self._leaf, spread = numbers
         self._height, self._ring = rows["height"].copy(), rows["ring"].copy()
@@ -143,8 +152,10 @@ class Choice:
         self._crown = self._placed["root"].copy()
         """Middle of each crown [m], shape (n, 3)."""
         self._crown[:, 1] += self._placed["crown_at"]
-        self._ball = np.stack([np.hypot(half, radius), radius], axis=1)
-        """Radius of each model's bounding sphere, and of the circle it stands in [m], shape (n, 2)."""
+        self._ball = np.hypot(half, radius)
+        """Radius of each model's bounding sphere [m], shape (n,)."""
+        self._reach = self._scale[:, None] * (np.stack([half, radius], axis=1) + SWAYS * self._ball[:, None])
+        """Half the height and the radius of each tree's bounding cylinder in any wind [m], shape (n, 2)."""
         beside, sways = np.where(self._ring > 1, WIDEST_ROW, 0.0), (1.0 + SWAYS) * self._scale
         self._high, self._aside = (beside + sways * MARGIN * extent for extent in (middle, radius))
         """Half extents of each tree, up and aside, with the row that it stands for [m], shape (n,)."""
@@ -168,13 +179,16 @@ class Choice:
         order = order[_stable_order(self._model[number[order]])]
         number, distance = number[order], distance[order]
         seen = self._seen(look, number, distance)
+        shown = np.flatnonzero(seen.top > 0.0)
+        if len(shown) < len(number):
+            seen, distance = _Seen(*(each.take(shown, axis=0) for each in seen)), distance[shown]
         leafy, twig = self._leafy(look, seen, distance)
         stream, tree = _by_stream(seen, shells_of(seen.along, look.reach), leafy)
-        to_crown = self._crown.take(number, axis=0) - look.eye
+        to_crown = self._crown.take(seen.number, axis=0) - look.eye
         batches = _batches(stream, tree, seen, np.linalg.norm(to_crown, axis=1))
         # take() is thirty times as fast as fancy indexing on structured arrays.
         rows, twigs = seen.instances.take(tree), twig_instances(seen.instances.take(leafy), twig)
-        return Chosen(batches, _split(batches, rows, twigs), self._placed.take(number[tree]))
+        return Chosen(batches, _split(batches, rows, twigs), self._placed.take(seen.number[tree]))
 
     def _seen(self, look: Look, number: Indices, distance: Doubles) -> _Seen:
         """Return the level of detail of trees at distances (n,) [m]."""
@@ -189,10 +203,22 @@ class Choice:
         instances, along = self._instances.take(number), np.hypot(*(middle - look.eye)[:, ::2].T)
         set_detail(instances, pixels, pixels * pictured)
         instances["opacity"] = ring_opacity(ring, along)
-        reach = (1.0 + SWAYS) * scale[:, None] * self._ball.take(number, axis=0)
-        ahead = nearest_ahead(look.clip, middle, look.eye, reach)
+        ahead = nearest_ahead(look.clip, middle, look.eye, self._reach.take(number, axis=0))
         pixel_radius = THINNEST * np.maximum(ahead, AWAY) / (look.focal * scale)
-        return _Seen(number, self._model[number], instances, along, pixel_radius)
+        top = self._shown_up_to(look, number, instances)
+        return _Seen(number, self._model[number], instances, along, pixel_radius, top)
+
+    def _shown_up_to(self, look: Look, number: Indices, instances: NDArray[np.void]) -> Doubles:
+        """Return the height of each tree's model up to which it is in the picture [m]; 0 or less where none of it is.
+
+        Only of near trees it is computed, where it saves most.
+        """
+        near, top = np.flatnonzero(instances["twig_share"] >= SHARES[0]), np.full(len(number), inf)
+        rows = number[near]
+        top[near] = highest_shown(
+            self._slices[self._model[rows]], instances["root"][near], self._scale[rows], look.sides
+        )
+        return top
 
     def _leafy(self, look: Look, seen: _Seen, distance: Doubles) -> tuple[Indices, Indices]:
         """Return the twigs drawn leaf by leaf: each one's tree, as an index into `seen`, and its own number."""
@@ -201,7 +227,7 @@ class Choice:
             return near, np.zeros(len(near), np.intp)
         scale = self._scale[seen.number]
         within = look.focal * scale * self._leaf[seen.number] / LEAF_PIXELS[0]
-        trees = np.flatnonzero(within > distance - scale * self._ball[seen.number, 0]).tolist()
+        trees = np.flatnonzero(within > distance - scale * self._ball[seen.number]).tolist()
         models = self._models
         twigs = [near_twigs(models[seen.model[n]], seen.instances[n], look.eye, look.sides, within[n]) for n in trees]
         none = np.zeros(0, np.intp)
@@ -275,7 +301,7 @@ def _card_stream(seen: _Seen, near: Indices, shell: Indices) -> Indices:
 def _wood_stream(seen: _Seen, near: Indices, shell: Indices) -> Indices:
     """Return the index in `WOODS` of each near tree: beyond the grass by `pixel_radius`, else by shell."""
     return np.where(
-        shell[near] == 0, np.searchsorted(PIXEL_RADII, seen.pixel_radius[near]), len(PIXEL_RADII) + shell[near]
+        shell[near] == 0, np.searchsorted(WOOD_LIMITS, seen.pixel_radius[near]), len(WOOD_LIMITS) + shell[near]
     )
 
 
@@ -288,7 +314,8 @@ def _batches(stream: Indices, tree: Indices, seen: _Seen, distance: Doubles) -> 
     columns = (
         *divmod(stream[first], len(STREAMS)), first, count, low(distance[tree], first),
         total(distance[tree], first) / count, high(seen.along[tree], first), low(seen.pixel_radius[tree], first),
-        low(foliage[tree], first), high(drawn[tree], first), high((drawn * foliage)[tree], first),
+        low(foliage[tree], first), high(seen.top[tree], first), high(drawn[tree], first),
+        high((drawn * foliage)[tree], first),
     )  # fmt: skip
     return [
         Batch(model, STREAMS[index], start, size, nearest, mean, farthest_of(SHELL_OF[STREAMS[index]], far), *rest)

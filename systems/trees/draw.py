@@ -208,7 +208,7 @@ class TreePart(Part):
             _, model = self._models[batch.model]
             model.write(batch.name, rows)
             if batch.name in model.wood:
-                model.show_wood(batch.name, batch.pixel_radius, batch.foliage)
+                model.show_wood(batch.name, batch.pixel_radius, batch.foliage, batch.top)
             elif batch.name in CARDS:
                 model.show_cards(batch.name, batch.twig_share, batch.leaves)
             elif batch.name == LEAVES:

@@ -45,16 +45,9 @@ from .outline import (
 )
 from .programs import Programs
 from .stream import LEAVES, PICTURED, QUAD, WOOD, GpuModel, Uniforms
-from .twig import BEHIND, FINER_EACH, HANGING_OFF, SHOOTS_LONG, SHOOTS_OFF
+from .twig import BEHIND, FINER_EACH, HANGING_OFF, SHOOTS_OFF, card_reach
 from .twig import PICTURES as OF_TWIGS
 from .wood import CLOSED, SOLID
-
-ASIDE, TURNED, BACK, ON = 0.95, 0.25, 0.3, 1.2
-"""Reach of leaves from their twig, in leaf lengths: aside, by the sine of their angle plus `TURNED`, as that varies;
-back from its foot; on from its tip."""
-
-SHOOTS_ASIDE, HANGING_ASIDE = 0.7, 0.35
-"""Reach of side shoots aside, and of shoots that hang side by side, relative to the longest one's length."""
 
 DARKER = 0.62
 """Pigment of a kind's darkest leaves, relative to its brightest, where a scene gives one colour for both."""
@@ -86,10 +79,7 @@ class GpuKind:
         """Coverage of its card on each of its pictures, relative to that on the first."""
         self.bark = mipmapped(ctx, bark_noise())
         self.bark.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
-        leaf, twig_length = self.habit.leaf, self.habit.twigs.length
-        wide = ASIDE * leaf.length * (np.sin(leaf.angle) + TURNED)
-        wide += SHOOTS_LONG * twig_length * (SHOOTS_ASIDE if leaf.shoots > 1 else HANGING_ASIDE)
-        self.reach = wide / twig_length, -BACK * leaf.length / twig_length, 1.0 + ON * leaf.length / twig_length
+        self.reach = card_reach(self.habit)
         self._uniforms = self._kind_uniforms()
         self._vectors = {id(each): parameter.vectors({**self._uniforms, **each.numbers}) for each in self.models}
 

@@ -8,7 +8,6 @@ from ..space.frustum import outside_planes
 from .model import Model
 from .standing import INSTANCE, TWIG_INSTANCE
 from .stream import twigs_drawn
-from .wood import SWAYS
 
 
 def near_twigs(model: Model, instance: np.void, eye: Doubles, sides: Doubles, within: float) -> NDArray[np.intp]:
@@ -17,9 +16,9 @@ def near_twigs(model: Model, instance: np.void, eye: Doubles, sides: Doubles, wi
     `instance` is the tree's record of `INSTANCE`, and `sides` the picture's, as `Viewer` has them.
     """
     (cosine, sine), scale = instance["turn"].tolist(), float(instance["scale"])
-    x, y, z = model.twigs["foot"].astype(np.float64).T
-    foot = scale * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=1) + instance["root"]
-    distance = np.linalg.norm(foot - eye, axis=1)
+    x, y, z = model.balls.middle.T
+    middle = scale * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=1) + instance["root"]
+    distance = np.linalg.norm(middle - eye, axis=1)
     near = np.argsort(distance)[: int((distance < within).sum())]
     near = near[
         near
@@ -27,8 +26,7 @@ def near_twigs(model: Model, instance: np.void, eye: Doubles, sides: Doubles, wi
             len(model.twigs), float(instance["twig_share"] * (1.0 - instance["far_fade"]) * instance["foliage"])
         )
     ]
-    reach = scale * (2.0 * model.habit.twigs.length + SWAYS * model.height)
-    return np.asarray(near[outside_planes(foot[near], sides) <= reach])
+    return np.asarray(near[outside_planes(middle[near], sides) <= scale * model.balls.radius[near]])
 
 
 def twig_instances(trees: NDArray[np.void], twigs: NDArray[np.intp]) -> NDArray[np.void]:

@@ -10,6 +10,7 @@ from ...components.arrays import Doubles
 from ...engine.declared.tree import HabitName
 from .bake import picture_size
 from .bark import Wood, bark_of
+from .bounds import Balls, Slices, slices_of, twig_balls, wood_balls
 from .crown import leaf_area, shade_of, shading
 from .grow import Tree, grown
 from .habit import HABITS, Habit
@@ -55,6 +56,12 @@ class Model:
     radius: float
     """Radius of its crown about the trunk [m]."""
 
+    balls: Balls
+    """Bounds of its twigs."""
+
+    slices: Slices
+    """Bounds of its slices."""
+
     hertz: float
     """Frequency of its trunk [Hz]."""
 
@@ -86,11 +93,14 @@ def _model(habit: Habit, height: float, *, seed: int) -> Model:
     twigs = _twig_records(tree, area, seed)
     vertices, wood = bark_of(tree, area, *_limbs(tree, seed))
     ends = tree.twigs.foot + tree.twigs.length[:, None] * tree.twigs.along
+    balls = twig_balls(twigs, height, habit)
+    parts = zip(balls, wood_balls(vertices, height), strict=True)
+    slices = slices_of(Balls(*(np.concatenate(each) for each in parts)))
     radius = float(np.hypot(ends[:, 0], ends[:, 2]).max())
     top = float(ends[:, 1].max())
     half = MARGIN * max(0.5 * top, radius)  # a picture from above is as high as the tree is broad
     return Model(
-        habit, height, twigs, vertices, wood, 0.5 * top, half, *picture_size(MARGIN * radius / half), radius,
+        habit, height, twigs, vertices, wood, 0.5 * top, half, *picture_size(MARGIN * radius / half), radius, balls, slices,
         trunk_hertz(height, habit.slender * height), float(area.sum()),
     )  # fmt: skip
 

@@ -39,15 +39,18 @@ BACKS = tuple(f"back{number}" for number in range(SHELLS + 1))
 """Streams of far pictures from far to near, as soft edges are blended: beyond the grass, and by its shells. The stream
 `FAR` has all pictures, from near to far."""
 
+WOOD_LIMITS = *PIXEL_RADII[:-1:2], *PIXEL_RADII[-2:]
+"""Limits between radii of a stem a pixel wide [m]. The wood of trees between two is drawn together."""
+
 CARDS = tuple(f"{NEAR}{number}" for number in range(len(SHARES) + 1 + SHELLS))
-WOODS = tuple(f"{WOOD}{number}" for number in range(len(PIXEL_RADII) + 1 + SHELLS))
-"""Streams of cards and of wood: beyond the grass by `SHARES` and by `PIXEL_RADII`, then by shells of grass."""
+WOODS = tuple(f"{WOOD}{number}" for number in range(len(WOOD_LIMITS) + 1 + SHELLS))
+"""Streams of cards and of wood: beyond the grass by `SHARES` and by `WOOD_LIMITS`, then by shells of grass."""
 
 SHELL_OF = {
     FAR: 0, LEAVES: SHELLS + 1,
     **{name: number for number, name in enumerate(BACKS)},
     **{name: max(number - len(SHARES), 0) for number, name in enumerate(CARDS)},
-    **{name: max(number - len(PIXEL_RADII), 0) for number, name in enumerate(WOODS)},
+    **{name: max(number - len(WOOD_LIMITS), 0) for number, name in enumerate(WOODS)},
 }  # fmt: skip
 """Shell of grass that each stream's trees stand in: 0 is beyond all grass; single leaves are in front of it."""
 
@@ -133,10 +136,13 @@ class GpuModel:
         for each in (stream, self.stood[id(stream)], self.hung.get(name, stream)):
             each.room(0)
 
-    def show_wood(self, name: str, pixel_radius: float, foliage: float) -> None:
-        """Choose the triangles that a stream of wood draws, as `parts` returns them."""
+    def show_wood(self, name: str, pixel_radius: float, foliage: float, top: float) -> None:
+        """Choose the triangles that a stream of wood draws, as `parts` returns them, up to a height [m]."""
         self.wood_class[name] = wood_class = int(np.searchsorted(PIXEL_RADII, pixel_radius))
-        self.wood[name] = parts(self.model.wood[wood_class].radii, pixel_radius, foliage)
+        wood = self.model.wood[wood_class]
+        solid, soft = parts(wood.radii, pixel_radius, foliage)
+        low = int(np.searchsorted(wood.lows, top))
+        self.wood[name] = Parts(min(solid, low), min(soft, low))
 
     def show_cards(self, name: str, twig_share: float, leaves: float) -> None:
         """Set the number of twigs that a stream draws; `twig_share` and `leaves` are those of its `Batch`."""

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ...engine.gl.emit import emitted, record_lookup
+from .habit import Habit
 
 TWIG = np.dtype(
     [
@@ -46,9 +47,27 @@ TWIGS_EACH = FINER_EACH**2
 """Number of twigs that a picture stands for, relative to the one before: the distance between leaves is in proportion
 to their size. If leaves were denser, a near tree's cards would look like plates."""
 
+ASIDE, TURNED, BACK, ON = 0.95, 0.25, 0.3, 1.2
+"""Reach of leaves from their twig, in leaf lengths: aside, by the sine of their angle plus `TURNED`, as that varies;
+back from its foot; on from its tip."""
+
+SHOOTS_ASIDE, HANGING_ASIDE = 0.7, 0.35
+"""Reach of side shoots aside, and of shoots that hang side by side, relative to the longest one's length."""
+
 GLSL = record_lookup("Twig", TWIG, "tree_twigs", ROW) + emitted(
     {
         "ORDERS": ORDERS, "RANKS": RANKS, "LEAST_KEPT": LEAST_KEPT,
         "SHOOTS_LONG": SHOOTS_LONG, "PICTURES": PICTURES, "TWIGS_EACH": TWIGS_EACH,
     }
 )  # fmt: skip
+
+
+def card_reach(habit: Habit, /) -> tuple[float, float, float]:
+    """Return how far a twig's card reaches to either side, and from where to where along it [usual length of a twig].
+
+    Its foot is at 0.
+    """
+    leaf, length = habit.leaf, habit.twigs.length
+    wide = ASIDE * leaf.length * (np.sin(leaf.angle) + TURNED)
+    wide += SHOOTS_LONG * length * (SHOOTS_ASIDE if leaf.shoots > 1 else HANGING_ASIDE)
+    return float(wide / length), -BACK * leaf.length / length, 1.0 + ON * leaf.length / length

@@ -33,8 +33,8 @@ THINS = 0.35, 0.65
 FADES = 2.0, 4.0
 """Width from which on a stem's edges are soft, and from which on they are soft over a whole pixel [pixels]."""
 
-LEAFY = 0.95
-"""Share of its leaves from which on a tree's thin stems are left out."""
+FOLIAGES = 64
+"""Steps of the share of leaves that `FAINTEST_STEM` is listed for."""
 
 FLAT = 1e-9
 """Determinant below which a matrix has no perspective."""
@@ -60,17 +60,34 @@ class Parts(NamedTuple):
 def nearest_ahead(clip: Doubles, middle: Doubles, eye: Doubles, reach: Doubles, /) -> Doubles:
     """Return the least depth of what is seen of trees, shape (n,) [m].
 
-    `reach` is the radius of each tree's bounding sphere and of the circle it stands in (n, 2) [m]. A part in the
+    `reach` holds half the height and the radius of each tree's upright bounding cylinder (n, 2) [m]. A part in the
     picture is at most a picture's corner away from straight ahead, so its depth is bounded by the distance along the
     ground, too.
     """
-    ahead = middle @ clip[3, :3] + clip[3, 3] - reach[:, 0] * np.linalg.norm(clip[3, :3])
+    forward = clip[3, :3]
+    nearer = reach @ (abs(forward[1]), np.hypot(*forward[::2]))
+    ahead = middle @ forward + clip[3, 3] - nearer
     rows = clip[[0, 1, 3], :3]
     if abs(np.linalg.det(rows)) < FLAT:
         return np.asarray(ahead)
     corners = np.linalg.solve(rows, np.array([[-1.0, 1.0, -1.0, 1.0], [-1.0, -1.0, 1.0, 1.0], [1.0] * 4]))
     distance = np.hypot(middle[:, 0] - eye[0], middle[:, 2] - eye[2]) - reach[:, 1]
     return np.asarray(np.maximum(ahead, distance / np.linalg.norm(corners, axis=0).max()))
+
+
+def _faintest_stems() -> list[float]:
+    """Return the coverage of a stem below which `wood.vert` makes it fainter than `FAINTEST`, by the share of leaves.
+
+    There are `FOLIAGES` equal steps from 0 to 1.
+    """
+    cover, foliage = np.linspace(0.0, 1.0, 513), np.linspace(0.0, 1.0, FOLIAGES + 1)[:, None]
+    part = np.clip((cover - THINS[0]) / (THINS[1] - THINS[0]), 0.0, 1.0)
+    drawn = cover * (1.0 - foliage + foliage * part * part * (3.0 - 2.0 * part))
+    faint: list[int] = (drawn < FAINTEST).sum(axis=1).tolist()
+    return [float(cover[max(count - 1, 0)]) for count in faint]
+
+
+FAINTEST_STEM = _faintest_stems()
 
 
 def parts(radii: Doubles, pixel_radius: float, foliage: float, /) -> Parts:
@@ -82,4 +99,5 @@ def parts(radii: Doubles, pixel_radius: float, foliage: float, /) -> Parts:
     def count(radius: float) -> int:
         return len(radii) - int(np.searchsorted(radii, radius))
 
-    return Parts(count(OPAQUE * pixel_radius), count(THINS[0] * pixel_radius) if foliage >= LEAFY else len(radii))
+    faintest = FAINTEST_STEM[int(FOLIAGES * min(foliage, 1.0))]
+    return Parts(count(OPAQUE * pixel_radius), count(faintest * pixel_radius))

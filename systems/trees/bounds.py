@@ -1,0 +1,98 @@
+"""Bounds of the parts of a near tree in any wind: parts outside the picture are not drawn."""
+
+from math import hypot
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...components.arrays import Doubles
+from .bark import MOST_OUTSET
+from .grow import POINTS
+from .habit import Habit
+from .motion import LEAF_TURNS, LIMB_LEANS, LIMB_STIFF, LIMB_SWINGS, TRUNK_LEANS, TRUNK_SWINGS
+from .twig import card_reach
+
+SLICES = 8
+"""Number of level slices of a tree."""
+
+LARGER = 1.35
+"""Greatest size of a near tree's twig on its card, relative to its own: where two thirds of the twigs are drawn."""
+
+MOST_TRUNK = hypot(TRUNK_LEANS + TRUNK_SWINGS, 0.5 * TRUNK_SWINGS)
+"""Greatest displacement of a trunk's top by a message of 1, relative to its height: along the wind and across it."""
+
+MOST_LIMB = hypot(LIMB_LEANS + LIMB_SWINGS, 0.7 * LIMB_SWINGS, LIMB_SWINGS)
+"""Greatest displacement of a limb by a message of 1: along the wind, across it and upwards, as in `swayed` of
+tree.glsl."""
+
+FLUTTERS = LEAF_TURNS * hypot(0.4, 0.25)
+"""Greatest displacement of a twig's tip against its foot, relative to its length: `tip_offset` of twig.glsl."""
+
+
+class Balls(NamedTuple):
+    """Bounding spheres of parts of a model in any wind."""
+
+    middle: Doubles
+    """(n, 3) [m]."""
+
+    radius: Doubles
+    """(n,) [m]."""
+
+
+class Slices(NamedTuple):
+    """Upright bounding cylinders of a model's slices in any wind, the lowest first."""
+
+    low: Doubles
+    """(SLICES,) [m]."""
+
+    high: Doubles
+    """(SLICES,) [m]."""
+
+    radius: Doubles
+    """(SLICES,) [m]."""
+
+
+def twig_balls(twigs: NDArray[np.void], height: float, habit: Habit, /) -> Balls:
+    """Return the bounding spheres of twigs, records of `TWIG`, on their cards."""
+    wide, back, ahead = card_reach(habit)
+    reach = hypot(wide, max(ahead - 0.5, 0.5 - back)) + FLUTTERS * ahead
+    middle = twigs["foot"] + 0.5 * twigs["span"][:, None] * twigs["along"].astype(np.float64)
+    return Balls(middle, LARGER * reach * twigs["span"] + _sway(middle, twigs["pivot"], height))
+
+
+def wood_balls(vertices: NDArray[np.void], height: float, /) -> Balls:
+    """Return the bounding spheres of vertices, records of `BARK`, with half of the stems to the next ones."""
+    stem = vertices["stem"].astype(np.float64)
+    around = (1.0 + MOST_OUTSET) * stem[:, 3] + 0.5 * height / (POINTS[0] - 1)
+    return Balls(stem[:, :3], around + _sway(stem[:, :3], vertices["pivot"], height))
+
+
+def _sway(place: Doubles, pivot: NDArray[np.floating], height: float) -> Doubles:
+    """Return the greatest displacement of places (n, 3) on limbs with these feet in a message of 1 [m]."""
+    high, out = place[:, 1] / height, np.linalg.norm(place - pivot, axis=1)
+    trunk = 0.5 * high**2 * (3.0 - high) * height  # `cantilever` of crown.glsl
+    limb = out * out / (out + LIMB_STIFF)
+    return np.asarray(MOST_TRUNK * trunk + MOST_LIMB * limb)
+
+
+def slices_of(balls: Balls, /) -> Slices:
+    """Return the slices of the parts with these bounding spheres."""
+    low, high = balls.middle[:, 1] - balls.radius, balls.middle[:, 1] + balls.radius
+    ends = np.linspace(low.min(), high.max(), SLICES + 1)
+    out = np.hypot(balls.middle[:, 0], balls.middle[:, 2]) + balls.radius
+    within = (low[:, None] <= ends[1:]) & (high[:, None] >= ends[:-1])
+    return Slices(ends[:-1], ends[1:], np.where(within, out[:, None], 0.0).max(axis=0))
+
+
+def highest_shown(slices: Doubles, root: Doubles, scale: Doubles, sides: Doubles, /) -> Doubles:
+    """Return the height of each model up to which a tree is in the picture, (n,) [m]; 0 or less where none of it is.
+
+    `slices` are each tree's `Slices`, (n, 3, SLICES), `root` is its place (n, 3) [m], and `sides` are planes of the
+    frustum.
+    """
+    low, high, radius = (scale[:, None, None] * slices[:, each, :, None] for each in range(3))
+    up, level = sides[:, 1], np.hypot(sides[:, 0], sides[:, 2])
+    foot = (root @ sides[:, :3].T + sides[:, 3])[:, None]
+    shown = (foot + np.where(up > 0.0, high, low) * up + radius * level >= 0.0).all(axis=2)
+    return np.where(shown, slices[:, 1], 0.0).max(axis=1, initial=0.0)
