@@ -11,7 +11,7 @@ from .bark import MOST_OUTSET
 from .grow import POINTS
 from .habit import Habit
 from .motion import LEAF_TURNS, LIMB_LEANS, LIMB_STIFF, LIMB_SWINGS, TRUNK_LEANS, TRUNK_SWINGS
-from .twig import card_reach
+from .twig import BLOCK, card_reach
 
 SLICES = 8
 """Number of level slices of a tree."""
@@ -59,6 +59,31 @@ def twig_balls(twigs: NDArray[np.void], height: float, habit: Habit, /) -> Balls
     reach = hypot(wide, max(ahead - 0.5, 0.5 - back)) + FLUTTERS * ahead
     middle = twigs["foot"] + 0.5 * twigs["span"][:, None] * twigs["along"].astype(np.float64)
     return Balls(middle, LARGER * reach * twigs["span"] + _sway(middle, twigs["pivot"], height))
+
+
+def grouped(places: Doubles, /) -> NDArray[np.intp]:
+    """Return the order of places (n, 3) in which each `BLOCK` are neighbours: halved again and again, across."""
+    done, left = list[NDArray[np.intp]](), [np.arange(len(places))]
+    while left:
+        rows = left.pop()
+        if len(rows) <= BLOCK:
+            done.append(rows)
+            continue
+        half = BLOCK * max(len(rows) // BLOCK // 2, 1)
+        rows = rows[np.argsort(places[rows, np.ptp(places[rows], axis=0).argmax()])]
+        left += [rows[half:], rows[:half]]
+    return np.concatenate(done)
+
+
+def blocks_of(balls: Balls, order: NDArray[np.intp], /) -> Balls:
+    """Return the bounding spheres of each `BLOCK` of spheres in an order; in the last one there may be fewer."""
+    first = np.arange(0, len(order), BLOCK)
+    middle, radius = balls.middle[order], balls.radius[order]
+    low = np.minimum.reduceat(middle - radius[:, None], first)
+    high = np.maximum.reduceat(middle + radius[:, None], first)
+    within = 0.5 * (low + high)
+    off = np.linalg.norm(middle - within.repeat(BLOCK, axis=0)[: len(order)], axis=1) + radius
+    return Balls(within, np.maximum.reduceat(off, first))
 
 
 def wood_balls(vertices: NDArray[np.void], height: float, /) -> Balls:

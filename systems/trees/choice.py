@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles, Floats
 from ..space.frustum import outside_planes
 from .bounds import highest_shown
-from .leafy import near_twigs, twig_instances
+from .leafy import GROUPED_FROM, blocks_of_models, blocks_shown, near_twigs
 from .model import MARGIN, Model
 from .shells import farthest_of, shells_of
 from .standing import BAREST, PLACED, WIDEST_ROW, Standing, columns_of, far_instances, ring_opacity, set_detail
-from .stream import BACKS, CARDS, FAR, FIRST_OF, LEAVES, SHARES, SHELL_OF, STREAMS, TOO_FEW, WOOD_LIMITS, WOODS
+from .stream import BACKS, CARDS, FAR, FIRST_OF, LEAVES, SHELL_OF, STREAMS, WOOD_LIMITS, WOODS
 from .twig import LEAF_PIXELS
 from .wood import AWAY, SWAYS, THINNEST, nearest_ahead
 
@@ -57,7 +57,7 @@ class Look(NamedTuple):
 
 
 class Batch(NamedTuple):
-    """Trees of one model, or twigs of them, that one stream draws together."""
+    """Trees of one model, or twigs or blocks of twigs of them, that one stream draws together."""
 
     model: int
     """Index of the model among those of all kinds."""
@@ -87,16 +87,10 @@ class Batch(NamedTuple):
     top: float
     """Height of the model up to which any tree is in the picture [m]; infinite where all of it may be."""
 
-    twig_share: float
-    """Greatest share of its twigs that is drawn of a tree."""
-
-    leaves: float
-    """Greatest product of `twig_share` and `foliage` of a tree."""
-
 
 def single(model: int, name: str, first: int, /) -> Batch:
     """Return a batch of one tree, drawn anywhere; `first` is its index among all trees."""
-    return Batch(model, name, first, 1, 0.0, 0.0, farthest_of(SHELL_OF[name], 1.0), 1.0, 1.0, inf, 1.0, 1.0)
+    return Batch(model, name, first, 1, 0.0, 0.0, farthest_of(SHELL_OF[name], 1.0), 1.0, 1.0, inf)
 
 
 class Chosen(NamedTuple):
@@ -104,7 +98,7 @@ class Chosen(NamedTuple):
 
     batches: list[Batch]
     instances: list[NDArray[np.void]]
-    """Instance attributes of each batch: records of `INSTANCE`, or of `TWIG_INSTANCE` for single leaves."""
+    """Instance attributes of each batch: records of `INSTANCE`."""
 
     placed: NDArray[np.void]
     """Places of all trees, batch after batch, records of `PLACED`."""
@@ -136,6 +130,7 @@ class Choice:
     def __init__(self, standing: Standing, models: Sequence[Model], variety: Sequence[float]) -> None:
         rows, self._model = standing.by_model()
         self._models = models
+        self._blocks = blocks_of_models(models)
         self._slices = np.array([model.slices for model in models])
         """`Slices` of each model, shape (models, 3, SLICES) [m]."""
         numbers = np.array([_model_numbers(*pair) for pair in zip(models, variety, strict=True)])[self._model].T
@@ -182,13 +177,14 @@ class Choice:
         shown = np.flatnonzero(seen.top > 0.0)
         if len(shown) < len(number):
             seen, distance = _Seen(*(each.take(shown, axis=0) for each in seen)), distance[shown]
-        leafy, twig = self._leafy(look, seen, distance)
-        stream, tree = _by_stream(seen, shells_of(seen.along, look.reach), leafy)
+        leafy, twigs = self._leafy(look, seen, distance), self._on_cards(look, seen)
+        stream, tree, first = _by_stream(seen, shells_of(seen.along, look.reach), leafy, twigs)
         to_crown = self._crown.take(seen.number, axis=0) - look.eye
         batches = _batches(stream, tree, seen, np.linalg.norm(to_crown, axis=1))
-        # take() is thirty times as fast as fancy indexing on structured arrays.
-        rows, twigs = seen.instances.take(tree), twig_instances(seen.instances.take(leafy), twig)
-        return Chosen(batches, _split(batches, rows, twigs), self._placed.take(seen.number[tree]))
+        rows = seen.instances.take(tree)  # thirty times as fast as fancy indexing on structured arrays
+        rows["first"] = first
+        instances = [rows[batch.first : batch.first + batch.size] for batch in batches]
+        return Chosen(batches, instances, self._placed.take(seen.number[tree]))
 
     def _seen(self, look: Look, number: Indices, distance: Doubles) -> _Seen:
         """Return the level of detail of trees at distances (n,) [m]."""
@@ -213,25 +209,30 @@ class Choice:
 
         Only of near trees it is computed, where it saves most.
         """
-        near, top = np.flatnonzero(instances["twig_share"] >= SHARES[0]), np.full(len(number), inf)
+        near, top = np.flatnonzero(instances["twig_share"] >= GROUPED_FROM), np.full(len(number), inf)
         rows = number[near]
         top[near] = highest_shown(
             self._slices[self._model[rows]], instances["root"][near], self._scale[rows], look.sides
         )
         return top
 
-    def _leafy(self, look: Look, seen: _Seen, distance: Doubles) -> tuple[Indices, Indices]:
+    def _on_cards(self, look: Look, seen: _Seen) -> tuple[Indices, Doubles]:
+        """Return the blocks of twigs drawn on cards: each one's tree, as an index into `seen`, and `first`."""
+        near = np.flatnonzero(seen.instances["far_fade"] < 1.0)
+        tree, first = blocks_shown(self._blocks, seen.model[near], seen.instances.take(near), look.eye, look.sides)
+        return near[tree], first
+
+    def _leafy(self, look: Look, seen: _Seen, distance: Doubles) -> tuple[Indices, Doubles]:
         """Return the twigs drawn leaf by leaf: each one's tree, as an index into `seen`, and its own number."""
         if look.leaves_from is not None:
             near = np.flatnonzero(seen.instances["far_fade"] < 1.0)
-            return near, np.zeros(len(near), np.intp)
+            return near, np.zeros(len(near))
         scale = self._scale[seen.number]
         within = look.focal * scale * self._leaf[seen.number] / LEAF_PIXELS[0]
         trees = np.flatnonzero(within > distance - scale * self._ball[seen.number]).tolist()
         models = self._models
         twigs = [near_twigs(models[seen.model[n]], seen.instances[n], look.eye, look.sides, within[n]) for n in trees]
-        none = np.zeros(0, np.intp)
-        return np.repeat(np.array(trees, np.intp), [*map(len, twigs)]), np.concatenate([none, *twigs])
+        return np.repeat(np.array(trees, np.intp), [*map(len, twigs)]), np.concatenate([np.zeros(0), *twigs])
 
 
 def _model_numbers(model: Model, variety: float) -> tuple[float, ...]:
@@ -263,39 +264,28 @@ def _bounding_spheres(middle: Doubles, reach: Doubles) -> tuple[Doubles, Doubles
     return 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1)
 
 
-def _by_stream(seen: _Seen, shell: Indices, leafy: Indices) -> tuple[Indices, Indices]:
-    """Sort trees into streams; return the stream of each entry and its tree, ordered by stream.
+def _by_stream(
+    seen: _Seen, shell: Indices, leafy: tuple[Indices, Doubles], cards: tuple[Indices, Doubles]
+) -> tuple[Indices, Indices, Doubles]:
+    """Sort trees into streams; return the stream of each entry, its tree and its `first`, ordered by stream.
 
-    Streams are numbered through all models. A tree has an entry in each stream that draws it; `leafy` are the trees of
-    the twigs drawn leaf by leaf, one entry a twig.
+    Streams are numbered through all models. A tree has an entry in each stream that draws it, or one for each of its
+    twigs drawn leaf by leaf, and of its blocks of twigs drawn on cards.
     """
-    far_fade = seen.instances["far_fade"]
+    far_fade, (leafy_tree, twig), (card_tree, block) = seen.instances["far_fade"], leafy, cards
     near, far = np.flatnonzero(far_fade < 1.0), np.flatnonzero(far_fade > 0.0)
     back = far[::-1]
-    tree = np.concatenate([leafy, near, near, far, back])
+    tree = np.concatenate([leafy_tree, card_tree, near, far, back])
     within = [
-        np.zeros(len(leafy), np.intp), _card_stream(seen, near, shell), _wood_stream(seen, near, shell),
+        np.zeros(len(twig), np.intp), shell[card_tree], _wood_stream(seen, near, shell),
         np.zeros(len(far), np.intp), shell[back],
     ]  # fmt: skip
     first = [FIRST_OF[name] for name in (LEAVES, CARDS[0], WOODS[0], FAR, BACKS[0])]
     stream_of_model = np.concatenate([number + index for number, index in zip(first, within, strict=True)])
     stream = seen.model[tree] * len(STREAMS) + stream_of_model
     order = _stable_order(stream)
-    return stream[order], tree[order]
-
-
-def _card_stream(seen: _Seen, near: Indices, shell: Indices) -> Indices:
-    """Return the index in `CARDS` of each near tree.
-
-    Beyond the grass it follows from the share of twigs drawn, if enough trees have a small share; else from the shell.
-    """
-    model, shell = seen.model[near], shell[near]
-    drawn = seen.instances["twig_share"][near] * (1.0 - seen.instances["far_fade"][near])
-    group = (drawn[:, None] < SHARES).sum(axis=1)
-    beyond_grass, fewest = shell == 0, group == len(SHARES)
-    few = np.bincount(model[beyond_grass & fewest], minlength=int(model.max(initial=0)) + 1) < TOO_FEW
-    group = np.where(few[model] & fewest, len(SHARES) - 1, group)
-    return np.where(beyond_grass, group, len(SHARES) + shell)
+    of_trees = np.zeros(len(near) + 2 * len(far))
+    return stream[order], tree[order], np.concatenate([twig, block, of_trees])[order]
 
 
 def _wood_stream(seen: _Seen, near: Indices, shell: Indices) -> Indices:
@@ -308,25 +298,16 @@ def _wood_stream(seen: _Seen, near: Indices, shell: Indices) -> Indices:
 def _batches(stream: Indices, tree: Indices, seen: _Seen, distance: Doubles) -> list[Batch]:
     """Return a batch for each run of equal `stream`; `distance` is that of each tree's crown [m]."""
     first = np.flatnonzero(np.diff(stream, prepend=-1))
-    instances, count = seen.instances, np.diff(first, append=len(stream))
-    drawn, foliage = instances["twig_share"] * (1.0 - instances["far_fade"]), instances["foliage"]
+    count, foliage = np.diff(first, append=len(stream)), seen.instances["foliage"]
     low, high, total = np.minimum.reduceat, np.maximum.reduceat, np.add.reduceat
+    new = np.diff(tree, prepend=-1) != 0  # else another block of twigs of the same tree
+    new[first] = True
     columns = (
         *divmod(stream[first], len(STREAMS)), first, count, low(distance[tree], first),
-        total(distance[tree], first) / count, high(seen.along[tree], first), low(seen.pixel_radius[tree], first),
-        low(foliage[tree], first), high(seen.top[tree], first), high(drawn[tree], first),
-        high((drawn * foliage)[tree], first),
+        total(distance[tree] * new, first) / total(new, first, dtype=np.intp), high(seen.along[tree], first),
+        low(seen.pixel_radius[tree], first), low(foliage[tree], first), high(seen.top[tree], first),
     )  # fmt: skip
     return [
         Batch(model, STREAMS[index], start, size, nearest, mean, farthest_of(SHELL_OF[STREAMS[index]], far), *rest)
         for model, index, start, size, nearest, mean, far, *rest in zip(*map(np.ndarray.tolist, columns), strict=True)
-    ]
-
-
-def _split(batches: list[Batch], rows: NDArray[np.void], twigs: NDArray[np.void]) -> list[NDArray[np.void]]:
-    """Return the instances of each batch: a part of `twigs` for single leaves, else a part of `rows`."""
-    ends = np.cumsum([batch.size if batch.name == LEAVES else 0 for batch in batches]).tolist()
-    return [
-        twigs[end - batch.size : end] if batch.name == LEAVES else rows[batch.first : batch.first + batch.size]
-        for batch, end in zip(batches, ends, strict=True)
     ]

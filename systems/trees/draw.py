@@ -24,7 +24,7 @@ from .programs import HANG, HANG_LEAVES, HARD, SOFT, STAND, Programs
 from .shade import ShadeMap
 from .standing import PLACED, STOOD, Standing
 from .stream import CARDS, CAST, LEAVES, GpuModel, Uniforms
-from .twig import LEAF_PIXELS
+from .twig import BLOCK, LEAF_PIXELS
 
 EVERY_LEAF = -2.0, -1.0
 """Uniform in place of `LEAF_PIXELS` where all twigs are drawn leaf by leaf."""
@@ -209,10 +209,8 @@ class TreePart(Part):
             model.write(batch.name, rows)
             if batch.name in model.wood:
                 model.show_wood(batch.name, batch.pixel_radius, batch.foliage, batch.top)
-            elif batch.name in CARDS:
-                model.show_cards(batch.name, batch.twig_share, batch.leaves)
             elif batch.name == LEAVES:
-                model.most_twigs[LEAVES] = 1 if self.leaves_from is None else len(model.model.twigs)
+                model.twigs_of_leaves = 1 if self.leaves_from is None else len(model.model.twigs)
         self._send_placed(placed)
 
     def _send_placed(self, placed: NDArray[np.void]) -> None:
@@ -256,13 +254,13 @@ class TreePart(Part):
     def _hang(self, batch: Batch, programs: Programs) -> int:
         """Run `hang.vert` for a batch's twigs; return the number of draw calls."""
         (kind, model), name = self._models[batch.model], batch.name
-        stream, hung, most = model.streams[name], model.hung[name], model.most_twigs[name]
-        hung.room(batch.size * most)
+        stream, hung, each = model.streams[name], model.hung[name], model.twigs_of_leaves if name == LEAVES else BLOCK
+        hung.room(batch.size * each)
         if not hung.count:
             return 0
         array = programs.feedback(HANG_LEAVES if name == LEAVES else HANG, stream, model.stood[id(stream)])
-        kind.set_uniforms(array.program, model, self._uniforms, {"whole": (most == len(model.model.twigs),)})
-        array.transform(hung.buffer, moderngl.POINTS, vertices=most, instances=batch.size)
+        kind.set_uniforms(array.program, model, self._uniforms)
+        array.transform(hung.buffer, moderngl.POINTS, vertices=each, instances=batch.size)
         return 1
 
     def draw_solid(self) -> int:

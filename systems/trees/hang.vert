@@ -11,21 +11,18 @@ flat out uvec4 hung_light;
 flat out uvec2 hung_haze;
 #endif
 
-uniform bool whole;  // whether all its twigs are drawn: they are sorted from near to far then, so that they hide one another
+in float first;  // index of the twig, or of the first of them; of a block of neighbours on cards, -1 less the place of its first twig
 
-// Index of the twig in its order, or by distance.
+// Index of the twig, and of none where there are no more.
 int next_twig() {
-    if (!whole)
-        return gl_VertexID;
-    vec3 to = to_model(eye - root);
-    bool along_x = abs(to.x) > abs(to.z);
-    int place = (along_x ? to.x : to.z) > 0.0 ? twigs - 1 - gl_VertexID : gl_VertexID;
-    int both = int(twig_of(place).orders);
-    return along_x ? both % ORDERS : both / ORDERS;
+    int from = int(round(first));
+    if (from >= 0)
+        return from + gl_VertexID;
+    int place = gl_VertexID - 1 - from;
+    return place < twigs ? int(twig_of(place).grouped) : twigs;
 }
 
 #ifdef LEAVES
-in float first;  // index of the twig, or of the first of them
 const bool LEAF_BY_LEAF = true;
 
 void write_leaves(int number, vec3 along, vec3 aside, float rotation, Light above, vec3 below) {
@@ -54,11 +51,9 @@ void write_card(vec3 along, vec3 aside, vec3 facing, vec4 chance, float picture,
 #endif
 
 void main() {
-#ifdef LEAVES
-    int number = int(first + 0.5) + gl_VertexID;
-#else
     int number = next_twig();
-#endif
+    bool missing = number >= twigs;
+    number = min(number, twigs - 1);
     Twig twig = twig_of(number);
     vec4 chance = random(number, 0, 3);
     float picture = LEAF_BY_LEAF ? 0.0 : twig_picture(chance.y), size = twig_size((float(number) + 0.5) / float(twigs), int(picture));
@@ -68,7 +63,7 @@ void main() {
 #ifdef LEAVES
     hung_haze = uvec2(0u);
 #endif
-    if (size <= 0.0 || (chance.w < leaf_share(twig.foot)) != LEAF_BY_LEAF)
+    if (missing || size <= 0.0 || (chance.w < leaf_share(twig.foot)) != LEAF_BY_LEAF)
         return;
     if (!LEAF_BY_LEAF)
         twig.face = card_normal(twig);

@@ -1,4 +1,7 @@
-"""Twigs that are drawn leaf by leaf."""
+"""Twigs that are drawn: leaf by leaf, or in blocks on their cards."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,11 +9,77 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles
 from ..space.frustum import outside_planes
 from .model import Model
-from .standing import INSTANCE, TWIG_INSTANCE
-from .stream import twigs_drawn
+from .twig import BLOCK, RANKS
+
+GROUPED_FROM = 2 / 3
+"""Share of a tree's twigs from which on its blocks are of neighbours: from near to far they hide one another, and those
+outside the picture are left out. Below it, they are of the first twigs that are drawn."""
+
+Indices = NDArray[np.intp]
 
 
-def near_twigs(model: Model, instance: np.void, eye: Doubles, sides: Doubles, within: float) -> NDArray[np.intp]:
+class Blocks(NamedTuple):
+    """Blocks of neighbouring twigs of all models."""
+
+    middle: Doubles
+    """Of their bounding spheres, (models, most blocks, 3) [m]."""
+
+    radius: Doubles
+    """(models, most blocks) [m]; below 0 where a model has no more."""
+
+    twigs: Indices
+    """Number of each model's twigs, (models,)."""
+
+
+def blocks_of_models(models: Sequence[Model], /) -> Blocks:
+    """Return the blocks of models."""
+    most = max((len(model.blocks.radius) for model in models), default=0)
+    middle, radius = np.zeros((len(models), most, 3)), np.full((len(models), most), -np.inf)
+    for number, model in enumerate(models):
+        count = len(model.blocks.radius)
+        middle[number, :count], radius[number, :count] = model.blocks
+    return Blocks(middle, radius, np.array([len(model.twigs) for model in models], np.intp))
+
+
+def blocks_shown(
+    blocks: Blocks, model: Indices, instances: NDArray[np.void], eye: Doubles, sides: Doubles, /
+) -> tuple[Indices, Doubles]:
+    """Return the blocks of twigs that are drawn on cards: each one's tree, and `first` of its instance, by tree.
+
+    `model` is that of each tree (n,), and `instances` are records of `INSTANCE`; `sides` are planes of the frustum.
+    """
+    share = instances["twig_share"] * (1.0 - instances["far_fade"]) * instances["foliage"]
+    drawn = twigs_drawn(blocks.twigs[model], share)
+    sampled, grouped = (np.flatnonzero(each) for each in ((share > 0.0) & (share < GROUPED_FROM), share >= GROUPED_FROM))
+    count = -(-drawn[sampled] // BLOCK)
+    number = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+    whose, block = _neighbours_shown(blocks, model[grouped], instances[grouped], eye, sides)
+    tree = np.concatenate([np.repeat(sampled, count), grouped[whose]])
+    first = np.concatenate([BLOCK * number, -1 - BLOCK * block]).astype(np.float64)
+    order = np.argsort(tree, kind="stable")
+    return tree[order], first[order]
+
+
+def _neighbours_shown(
+    blocks: Blocks, model: Indices, instances: NDArray[np.void], eye: Doubles, sides: Doubles
+) -> tuple[Indices, Indices]:
+    """Return the blocks of neighbours in the picture: each one's tree and its own number, from near to far."""
+    scale, (cosine, sine) = instances["scale"][:, None, None], instances["turn"].T[..., None]
+    x, y, z = np.moveaxis(blocks.middle[model], 2, 0)
+    middle = instances["root"][:, None] + scale * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=2)
+    inside = (middle @ sides[:, :3].T + sides[:, 3]).min(axis=2) >= -scale[..., 0] * blocks.radius[model]
+    order = np.argsort(np.where(inside, np.linalg.norm(middle - eye, axis=2), np.inf), axis=1)
+    tree, place = np.nonzero(np.take_along_axis(inside, order, axis=1))
+    return tree, order[tree, place]
+
+
+def twigs_drawn(twigs: Indices, share: Doubles, /) -> Indices:
+    """Return the numbers of trees' twigs that are drawn where a share of them is seen."""
+    dwindling = 0.5 / RANKS  # as in `twig_size` of twig.glsl
+    return np.minimum((twigs * (share + dwindling)).astype(np.intp) + 1, twigs)
+
+
+def near_twigs(model: Model, instance: np.void, eye: Doubles, sides: Doubles, within: float) -> Indices:
     """Return the numbers of a tree's twigs within a distance of the eye [m] and in the picture, nearest first.
 
     `instance` is the tree's record of `INSTANCE`, and `sides` the picture's, as `Viewer` has them.
@@ -20,19 +89,6 @@ def near_twigs(model: Model, instance: np.void, eye: Doubles, sides: Doubles, wi
     middle = scale * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=1) + instance["root"]
     distance = np.linalg.norm(middle - eye, axis=1)
     near = np.argsort(distance)[: int((distance < within).sum())]
-    near = near[
-        near
-        < twigs_drawn(
-            len(model.twigs), float(instance["twig_share"] * (1.0 - instance["far_fade"]) * instance["foliage"])
-        )
-    ]
+    share = instance["twig_share"] * (1.0 - instance["far_fade"]) * instance["foliage"]
+    near = near[near < twigs_drawn(np.intp(len(model.twigs)), share)]
     return np.asarray(near[outside_planes(middle[near], sides) <= scale * model.balls.radius[near]])
-
-
-def twig_instances(trees: NDArray[np.void], twigs: NDArray[np.intp]) -> NDArray[np.void]:
-    """Return records of `TWIG_INSTANCE`: `trees` (n,) are each twig's tree, and `twigs` (n,) their numbers."""
-    rows = np.zeros(len(trees), TWIG_INSTANCE)
-    for name in INSTANCE.names or ():
-        rows[name] = trees[name]
-    rows["first"] = twigs
-    return rows

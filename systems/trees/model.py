@@ -10,12 +10,12 @@ from ...components.arrays import Doubles
 from ...engine.declared.tree import HabitName
 from .bake import picture_size
 from .bark import Wood, bark_of
-from .bounds import Balls, Slices, slices_of, twig_balls, wood_balls
+from .bounds import Balls, Slices, blocks_of, grouped, slices_of, twig_balls, wood_balls
 from .crown import leaf_area, shade_of, shading
 from .grow import Tree, grown
 from .habit import HABITS, Habit
 from .motion import limb_hertz, trunk_hertz
-from .twig import ORDERS, TWIG
+from .twig import TWIG
 
 MODELS = 2
 """Models grown of a kind: each stands for many trees, turned and scaled."""
@@ -59,6 +59,9 @@ class Model:
     balls: Balls
     """Bounds of its twigs."""
 
+    blocks: Balls
+    """Bounds of the blocks that its twigs are grouped into."""
+
     slices: Slices
     """Bounds of its slices."""
 
@@ -100,7 +103,8 @@ def _model(habit: Habit, height: float, *, seed: int) -> Model:
     top = float(ends[:, 1].max())
     half = MARGIN * max(0.5 * top, radius)  # a picture from above is as high as the tree is broad
     return Model(
-        habit, height, twigs, vertices, wood, 0.5 * top, half, *picture_size(MARGIN * radius / half), radius, balls, slices,
+        habit, height, twigs, vertices, wood, 0.5 * top, half, *picture_size(MARGIN * radius / half), radius,
+        balls, blocks_of(balls, twigs["grouped"].astype(np.intp)), slices,
         trunk_hertz(height, habit.slender * height), float(area.sum()),
     )  # fmt: skip
 
@@ -124,5 +128,5 @@ def _twig_records(tree: Tree, area: Doubles, seed: int) -> NDArray[np.void]:
     records["limb"], records["hertz"] = limb[twigs.limb].T
     middle = twigs.foot + 0.5 * twigs.length[:, None] * twigs.along.astype(np.float64)
     records["shading"] = shading(tree, area, middle)
-    records["orders"] = np.argsort(middle[:, 0]) + ORDERS * np.argsort(middle[:, 2])
+    records["grouped"] = grouped(middle)
     return records

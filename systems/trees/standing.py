@@ -37,12 +37,10 @@ INSTANCE = np.dtype(
     [
         ("root", "3f4"), ("scale", "f4"), ("turn", "2f4"), ("phase", "f4"), ("tint", "f4"),
         ("twig_share", "f4"), ("far_fade", "f4"), ("foliage", "f4"), ("columns", "f4"), ("opacity", "f4"),
+        ("first", "f4"),
     ]
 )  # fmt: skip
-"""Instance attributes of a tree; `tree.glsl` describes each."""
-
-TWIG_INSTANCE = np.dtype([*INSTANCE.descr, ("first", "f4")])
-"""Instance attributes of a twig drawn leaf by leaf: those of its tree, and the twig's number."""
+"""Instance attributes of a tree, a block of its twigs or one of them; `tree.glsl` and `hang.vert` describe each."""
 
 PLACED = np.dtype([("root", "3f4"), ("crown_at", "f4"), ("phase", "f4"), ("hertz", "f4")])
 """Input of `stand.vert`: place of a tree, height of its crown's middle above that [m], phase in the wind and frequency

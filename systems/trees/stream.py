@@ -12,8 +12,8 @@ from .model import Model
 from .normals import Normals
 from .outline import NOWHERE
 from .shells import SHELLS
-from .standing import HUNG, HUNG_LEAVES, INSTANCE, ROW_SPACING, STOOD, TWIG_INSTANCE
-from .twig import RANKS, ROW, TWIG
+from .standing import HUNG, HUNG_LEAVES, INSTANCE, ROW_SPACING, STOOD
+from .twig import ROW, TWIG
 from .wood import Parts, parts
 
 Uniforms = Mapping[str, tuple[float, ...]]
@@ -29,12 +29,6 @@ IN_ROWS = "in rows"
 QUAD = 6
 """Vertices of a quad as two triangles."""
 
-SHARES = 2 / 3, 1 / 3, 1 / 6
-"""Limits between shares of twigs. The cards of trees between two are drawn together, as many of each as any has."""
-
-TOO_FEW = 6
-"""Number of trees with the smallest share of twigs below which a draw call of their own does not pay."""
-
 BACKS = tuple(f"back{number}" for number in range(SHELLS + 1))
 """Streams of far pictures from far to near, as soft edges are blended: beyond the grass, and by its shells. The stream
 `FAR` has all pictures, from near to far."""
@@ -42,14 +36,14 @@ BACKS = tuple(f"back{number}" for number in range(SHELLS + 1))
 WOOD_LIMITS = *PIXEL_RADII[:-1:2], *PIXEL_RADII[-2:]
 """Limits between radii of a stem a pixel wide [m]. The wood of trees between two is drawn together."""
 
-CARDS = tuple(f"{NEAR}{number}" for number in range(len(SHARES) + 1 + SHELLS))
+CARDS = tuple(f"{NEAR}{number}" for number in range(SHELLS + 1))
 WOODS = tuple(f"{WOOD}{number}" for number in range(len(WOOD_LIMITS) + 1 + SHELLS))
-"""Streams of cards and of wood: beyond the grass by `SHARES` and by `WOOD_LIMITS`, then by shells of grass."""
+"""Streams of cards and of wood: beyond the grass, of wood by `WOOD_LIMITS`, and by shells of grass."""
 
 SHELL_OF = {
     FAR: 0, LEAVES: SHELLS + 1,
     **{name: number for number, name in enumerate(BACKS)},
-    **{name: max(number - len(SHARES), 0) for number, name in enumerate(CARDS)},
+    **{name: number for number, name in enumerate(CARDS)},
     **{name: max(number - len(WOOD_LIMITS), 0) for number, name in enumerate(WOODS)},
 }  # fmt: skip
 """Shell of grass that each stream's trees stand in: 0 is beyond all grass; single leaves are in front of it."""
@@ -61,12 +55,6 @@ FIRST_OF = {name: number for number, name in enumerate(STREAMS)}
 
 ROOM = 16
 """Trees that a stream has room for at first: there are many streams, and most have few trees."""
-
-
-def twigs_drawn(twigs: int, share: float, /) -> int:
-    """Return the number of a tree's twigs that are drawn where a share of them is seen."""
-    dwindling = 0.5 / RANKS  # as in `twig_size` of twig.glsl
-    return min(int(twigs * (share + dwindling)) + 1, twigs)
 
 
 class GpuModel:
@@ -88,20 +76,19 @@ class GpuModel:
         self.triangles = ctx.buffer(np.concatenate([each.triangles for each in model.wood]))
         self.first_triangle: list[int] = np.cumsum([0, *(len(each.triangles) for each in model.wood)]).tolist()
         """First triangle of each of `PIXEL_RADII`."""
-        self.bare = Stream(ctx, TWIG_INSTANCE)
-        self._alone = np.zeros(1, TWIG_INSTANCE)
+        self.bare = Stream(ctx, INSTANCE)
+        self._alone = np.zeros(1, INSTANCE)
         for name in ("twig_share", "columns", "opacity", "scale", "foliage", "tint"):
             self._alone[name] = 1.0
         self._alone["turn"] = 1.0, 0.0
         self.bare.write(self._alone)
-        self.streams = {name: Stream(ctx, INSTANCE, rows=ROOM) for name in (*WOODS, FAR, *BACKS, *CARDS)}
-        self.streams[LEAVES] = Stream(ctx, TWIG_INSTANCE)
+        self.streams = {name: Stream(ctx, INSTANCE, rows=ROOM) for name in (*WOODS, FAR, *BACKS, *CARDS, LEAVES)}
         self.stood = {id(each): Stream(ctx, STOOD, rows=ROOM) for each in self.streams.values()}
         """Outputs of `stand.vert` for each stream, by the stream's id."""
         self.hung = {**{name: Stream(ctx, HUNG) for name in CARDS}, LEAVES: Stream(ctx, HUNG_LEAVES)}
         """Outputs of `hang.vert` for streams of twigs."""
-        self.most_twigs = dict.fromkeys(self.streams, 0)
-        """Greatest number of twigs that a tree of a stream draws."""
+        self.twigs_of_leaves = 1
+        """Number of twigs that an instance of `LEAVES` draws."""
         self.wood = dict.fromkeys(WOODS, Parts(0, 0))
         """Triangles that the trees of a stream of wood draw."""
         self.wood_class = dict.fromkeys(WOODS, 0)
@@ -144,17 +131,11 @@ class GpuModel:
         low = int(np.searchsorted(wood.lows, top))
         self.wood[name] = Parts(min(solid, low), min(soft, low))
 
-    def show_cards(self, name: str, twig_share: float, leaves: float) -> None:
-        """Set the number of twigs that a stream draws; `twig_share` and `leaves` are those of its `Batch`."""
-        twigs = len(self.model.twigs)
-        self.most_twigs[name] = twigs if twig_share >= SHARES[0] else twigs_drawn(twigs, leaves)
-
     def rehearse(self) -> list[str]:
         """Put a tree into each empty stream, to draw it once; return these streams' names."""
         empty = [name for name, stream in self.streams.items() if not stream.count]
         for name in empty:
-            self.write(name, self._alone if name == LEAVES else self._alone[[*(INSTANCE.names or ())]].astype(INSTANCE))
-            self.most_twigs[name] = 1
+            self.write(name, self._alone)
             if name in self.wood:
                 self.wood[name] = Parts(1, 1)
         return empty

@@ -10,13 +10,13 @@ TWIG = np.dtype(
         ("foot", "3f4"), ("span", "f4"),  # [m]
         ("along", "3f4"), ("limb", "f4"),  # random number of its limb, 0 to 1
         ("face", "3f4"), ("hertz", "f4"),  # frequency of its limb
-        ("pivot", "3f4"), ("orders", "f4"),  # foot of its limb [m]; the twig at this number in two other orders
+        ("pivot", "3f4"), ("grouped", "f4"),  # foot of its limb [m]; the twig at this place of an order where blocks are neighbours
         ("shading", "4f4"),  # optical depth outwards, linear in direction
     ]
 )  # fmt: skip
 
-ORDERS = 4096
-"""More than the twigs of a tree: a float holds their order along x plus this times that along z."""
+BLOCK = 64
+"""Twigs that are drawn together on their cards, as many as a wave of a graphics card has lanes."""
 
 ROW = 64
 """Records in a row of their texture."""
@@ -56,7 +56,7 @@ SHOOTS_ASIDE, HANGING_ASIDE = 0.7, 0.35
 
 GLSL = record_lookup("Twig", TWIG, "tree_twigs", ROW) + emitted(
     {
-        "ORDERS": ORDERS, "RANKS": RANKS, "LEAST_KEPT": LEAST_KEPT,
+        "RANKS": RANKS, "LEAST_KEPT": LEAST_KEPT,
         "SHOOTS_LONG": SHOOTS_LONG, "PICTURES": PICTURES, "TWIGS_EACH": TWIGS_EACH,
     }
 )  # fmt: skip
