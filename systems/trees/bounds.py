@@ -120,4 +120,4 @@ def highest_shown(slices: Doubles, root: Doubles, scale: Doubles, sides: Doubles
     up, level = sides[:, 1], np.hypot(sides[:, 0], sides[:, 2])
     foot = (root @ sides[:, :3].T + sides[:, 3])[:, None]
     shown = (foot + np.where(up > 0.0, high, low) * up + radius * level >= 0.0).all(axis=2)
-    return np.where(shown, slices[:, 1], 0.0).max(axis=1, initial=0.0)
+    return np.asarray(np.where(shown, slices[:, 1], 0.0).max(axis=1, initial=0.0))

@@ -176,7 +176,7 @@ class Choice:
         seen = self._seen(look, number, distance)
         shown = np.flatnonzero(seen.top > 0.0)
         if len(shown) < len(number):
-            seen, distance = _Seen(*(each.take(shown, axis=0) for each in seen)), distance[shown]
+            seen, distance = _only(seen, shown), distance[shown]
         leafy, twigs = self._leafy(look, seen, distance), self._on_cards(look, seen)
         stream, tree, first = _by_stream(seen, shells_of(seen.along, look.reach), leafy, twigs)
         to_crown = self._crown.take(seen.number, axis=0) - look.eye
@@ -262,6 +262,12 @@ def _bounding_spheres(middle: Doubles, reach: Doubles) -> tuple[Doubles, Doubles
     low = np.minimum.reduceat(middle - reach[:, None], first)
     high = np.maximum.reduceat(middle + reach[:, None], first)
     return 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1)
+
+
+def _only(seen: _Seen, rows: Indices) -> _Seen:
+    """Return these rows of the trees in a picture."""
+    instances, of_trees = seen.instances.take(rows), (seen.along[rows], seen.pixel_radius[rows], seen.top[rows])
+    return _Seen(seen.number[rows], seen.model[rows], instances, *of_trees)
 
 
 def _by_stream(

@@ -49,9 +49,9 @@ def blocks_shown(
     `model` is that of each tree (n,), and `instances` are records of `INSTANCE`; `sides` are planes of the frustum.
     """
     share = instances["twig_share"] * (1.0 - instances["far_fade"]) * instances["foliage"]
-    drawn = twigs_drawn(blocks.twigs[model], share)
-    sampled, grouped = (np.flatnonzero(each) for each in ((share > 0.0) & (share < GROUPED_FROM), share >= GROUPED_FROM))
-    count = -(-drawn[sampled] // BLOCK)
+    sampled = np.flatnonzero((share > 0.0) & (share < GROUPED_FROM))
+    grouped = np.flatnonzero(share >= GROUPED_FROM)
+    count = -(-twigs_drawn(blocks.twigs[model[sampled]], share[sampled]) // BLOCK)
     number = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
     whose, block = _neighbours_shown(blocks, model[grouped], instances[grouped], eye, sides)
     tree = np.concatenate([np.repeat(sampled, count), grouped[whose]])
@@ -74,7 +74,7 @@ def _neighbours_shown(
 
 
 def twigs_drawn(twigs: Indices, share: Doubles, /) -> Indices:
-    """Return the numbers of trees' twigs that are drawn where a share of them is seen."""
+    """Return the number of each tree's twigs that are drawn where a share of them is seen, (n,)."""
     dwindling = 0.5 / RANKS  # as in `twig_size` of twig.glsl
     return np.minimum((twigs * (share + dwindling)).astype(np.intp) + 1, twigs)
 
@@ -89,6 +89,6 @@ def near_twigs(model: Model, instance: np.void, eye: Doubles, sides: Doubles, wi
     middle = scale * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=1) + instance["root"]
     distance = np.linalg.norm(middle - eye, axis=1)
     near = np.argsort(distance)[: int((distance < within).sum())]
-    share = instance["twig_share"] * (1.0 - instance["far_fade"]) * instance["foliage"]
-    near = near[near < twigs_drawn(np.intp(len(model.twigs)), share)]
+    share = float(instance["twig_share"] * (1.0 - instance["far_fade"]) * instance["foliage"])
+    near = near[near < twigs_drawn(np.array(len(model.twigs)), np.array(share))]
     return np.asarray(near[outside_planes(middle[near], sides) <= scale * model.balls.radius[near]])

@@ -1,0 +1,98 @@
+"""Bounds of parts of trees: what lies outside a picture is left out, and nothing else (F3, N6)."""
+
+import numpy as np
+import pytest
+
+from tallgrass.components.arrays import Doubles
+from tallgrass.engine.camera import View, projection_matrix, view_matrix
+from tallgrass.systems.space.frustum import picture_sides
+from tallgrass.systems.trees.bark import PIXEL_RADII
+from tallgrass.systems.trees.bounds import highest_shown
+from tallgrass.systems.trees.leafy import GROUPED_FROM, blocks_of_models, blocks_shown
+from tallgrass.systems.trees.model import Model, models_of
+from tallgrass.systems.trees.standing import INSTANCE
+from tallgrass.systems.trees.twig import BLOCK
+from tallgrass.testing import looking
+
+EYE = np.array([0.0, 1.7, 0.0])
+CAMERA = looking(0.0, 1.7, 0.0, pitch=4.0, view=50.0)
+SIDES = picture_sides(View(view_matrix(CAMERA), projection_matrix(CAMERA.view, 16.0 / 9.0)))
+
+
+@pytest.fixture(scope="module", params=["birch", "oak"])
+def model(request: pytest.FixtureRequest) -> Model:
+    return models_of(request.param, 3)[0]
+
+
+def around() -> np.ndarray:
+    """Return near trees all around the eye, of all sizes and shares of leaves, records of `INSTANCE`."""
+    draw, rows = np.random.default_rng(5), np.zeros(60, INSTANCE)
+    off, to = draw.uniform(3.0, 40.0, len(rows)), draw.uniform(-np.pi, np.pi, len(rows))
+    rows["root"][:, 0], rows["root"][:, 2] = off * np.sin(to), off * np.cos(to)
+    rows["turn"] = np.stack([np.cos(to), np.sin(to)], axis=1)
+    rows["scale"], rows["foliage"] = draw.uniform(0.5, 1.3, len(rows)), draw.uniform(0.5, 1.0, len(rows))
+    rows["twig_share"] = draw.uniform(0.2, 1.0, len(rows))
+    return rows
+
+
+def inside(places: Doubles, tree: np.void) -> np.ndarray:
+    """Return whether places of a tree's model (n, 3) are in the picture, (n,)."""
+    (cosine, sine), (x, y, z) = tree["turn"], places.T
+    at = tree["root"] + tree["scale"] * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=1)
+    return np.asarray((at @ SIDES[:, :3].T + SIDES[:, 3] >= 0.0).all(axis=1))
+
+
+def test_a_tree_is_in_the_picture_up_to_the_highest_of_its_parts_there(model: Model) -> None:
+    trees = around()
+    slices = np.tile(np.array(model.slices), (len(trees), 1, 1))
+    top = highest_shown(slices, trees["root"].astype(float), trees["scale"].astype(float), SIDES)
+    wood, whole = model.vertices["stem"][:, :3], model.slices.high[-1]
+    for tree, high in zip(trees, top, strict=True):
+        shown = np.concatenate([each[inside(each, tree)] for each in (wood, model.balls.middle)])
+        assert high >= shown[:, 1].max(initial=0.0)
+    assert (top <= 0.0).sum() > 30  # behind the eye or beside the picture
+    assert ((top > 0.0) & (top < whole)).any()  # its crown is above the picture
+
+
+def test_next_to_the_eye_wood_is_drawn_from_the_ground_up(model: Model) -> None:
+    near, height = model.wood[0], model.vertices["stem"][:, 1]
+    assert np.all(np.diff(near.lows) >= 0.0)
+    for top in (1.0, 4.0, 8.0):
+        left_out = height[near.triangles[np.searchsorted(near.lows, top) :]]
+        assert left_out.size
+        assert left_out.min() >= top
+    assert len(model.wood) == len(PIXEL_RADII) + 1
+
+
+def test_blocks_of_twigs_are_neighbours_and_each_twig_is_in_one(model: Model) -> None:
+    order = model.twigs["grouped"].astype(int)
+    assert np.array_equal(np.sort(order), np.arange(len(order)))
+    for number, (middle, radius) in enumerate(zip(*model.blocks, strict=True)):
+        twigs = order[BLOCK * number : BLOCK * (number + 1)]
+        off = np.linalg.norm(model.balls.middle[twigs] - middle, axis=1) + model.balls.radius[twigs]
+        assert off.max() <= radius + 1e-9
+    assert np.median(model.blocks.radius) < 0.6 * np.hypot(model.radius, model.half)
+
+
+def test_all_twigs_in_the_picture_are_drawn_and_near_to_the_eye_few_others(model: Model) -> None:
+    trees, order = around(), model.twigs["grouped"].astype(int)
+    whose, first = blocks_shown(blocks_of_models([model]), np.zeros(len(trees), int), trees, EYE, SIDES)
+    drawn_of_all, grouped = 0, 0
+    for number, tree in enumerate(trees):
+        places, share = first[whose == number].astype(int), float(tree["twig_share"] * tree["foliage"])
+        runs = [np.arange(each, each + BLOCK) if each >= 0 else order[-1 - each :][:BLOCK] for each in places]
+        drawn = np.concatenate([np.zeros(0, int), *runs])
+        assert len({*drawn.tolist()}) == len(drawn)
+        kept = np.arange(len(order)) < share * len(order)
+        assert {*np.flatnonzero(kept & inside(model.balls.middle, tree)).tolist()} <= {*drawn.tolist()}
+        if share >= GROUPED_FROM:
+            grouped += 1
+            drawn_of_all += len(drawn)
+    assert 0 < drawn_of_all < 0.5 * grouped * len(order)
+
+
+def test_a_tree_without_leaves_has_no_blocks(model: Model) -> None:
+    trees = around()
+    trees["foliage"] = 0.0
+    whose, first = blocks_shown(blocks_of_models([model]), np.zeros(len(trees), int), trees, EYE, SIDES)
+    assert len(whose) == len(first) == 0
