@@ -10,7 +10,7 @@ TWIG = np.dtype(
         ("foot", "3f4"), ("span", "f4"),  # [m]
         ("along", "3f4"), ("limb", "f4"),  # random number of its limb, 0 to 1
         ("face", "3f4"), ("hertz", "f4"),  # frequency of its limb
-        ("pivot", "3f4"), ("grouped", "f4"),  # foot of its limb [m]; the twig at this place of an order where blocks are neighbours
+        ("pivot", "3f4"), ("grouped", "f4"),  # foot of its limb [m]; the twig at this place of the blocks
         ("shading", "4f4"),  # optical depth outwards, linear in direction
     ]
 )  # fmt: skip
