@@ -64,13 +64,17 @@ def _neighbours_shown(
     blocks: Blocks, model: Indices, instances: NDArray[np.void], eye: Doubles, sides: Doubles
 ) -> tuple[Indices, Indices]:
     """Return the blocks of neighbours in the picture: each one's tree and its own number, from near to far."""
-    scale, (cosine, sine) = instances["scale"][:, None, None], instances["turn"].T[..., None]
-    x, y, z = np.moveaxis(blocks.middle[model], 2, 0)
-    middle = instances["root"][:, None] + scale * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=2)
-    inside = (middle @ sides[:, :3].T + sides[:, 3]).min(axis=2) >= -scale[..., 0] * blocks.radius[model]
-    order = np.argsort(np.where(inside, np.linalg.norm(middle - eye, axis=2), np.inf), axis=1)
-    tree, place = np.nonzero(np.take_along_axis(inside, order, axis=1))
-    return tree, order[tree, place]
+    middle, scale = blocks.middle[model], instances["scale"].astype(np.float64)
+    (cosine, sine), x, z = scale * instances["turn"].T, middle[..., 0], middle[..., 2]
+    place = np.empty_like(middle)
+    place[..., 0], place[..., 2] = cosine[:, None] * x - sine[:, None] * z, sine[:, None] * x + cosine[:, None] * z
+    place[..., 1] = scale[:, None] * middle[..., 1]
+    place += instances["root"][:, None]
+    inside = (place @ sides[:, :3].T + sides[:, 3]).min(axis=2) >= -scale[:, None] * blocks.radius[model]
+    tree, block = np.nonzero(inside)
+    away = place[tree, block] - eye
+    order = np.lexsort(((away * away).sum(axis=1), tree))
+    return tree[order], block[order]
 
 
 def twigs_drawn(twigs: Indices, share: Doubles, /) -> Indices:
