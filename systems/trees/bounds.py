@@ -10,7 +10,18 @@ from ...components.arrays import Doubles
 from .bark import MOST_OUTSET
 from .grow import POINTS
 from .habit import Habit
-from .motion import LEAF_TURNS, LIMB_LEANS, LIMB_STIFF, LIMB_SWINGS, TRUNK_LEANS, TRUNK_SWINGS
+from .motion import (
+    FLUTTERS,
+    LEAF_TURNS,
+    LIMB_LEANS,
+    LIMB_SIDEWAYS,
+    LIMB_STIFF,
+    LIMB_SWINGS,
+    LOAD_AT_END,
+    TRUNK_LEANS,
+    TRUNK_SIDEWAYS,
+    TRUNK_SWINGS,
+)  # fmt: skip
 from .twig import BLOCK, card_reach
 
 SLICES = 8
@@ -19,14 +30,14 @@ SLICES = 8
 LARGER = 1.35
 """Greatest size of a near tree's twig on its card, relative to its own: where two thirds of the twigs are drawn."""
 
-MOST_TRUNK = hypot(TRUNK_LEANS + TRUNK_SWINGS, 0.5 * TRUNK_SWINGS)
+MOST_TRUNK = hypot(TRUNK_LEANS + TRUNK_SWINGS, TRUNK_SIDEWAYS * TRUNK_SWINGS)
 """Greatest displacement of a trunk's top by a message of 1, relative to its height: along the wind and across it."""
 
-MOST_LIMB = hypot(LIMB_LEANS + LIMB_SWINGS, 0.7 * LIMB_SWINGS, LIMB_SWINGS)
+MOST_LIMB = hypot(LIMB_LEANS + LIMB_SWINGS, LIMB_SIDEWAYS * LIMB_SWINGS, LIMB_SWINGS)
 """Greatest displacement of a limb by a message of 1: along the wind, across it and upwards, as in `swayed` of
 tree.glsl."""
 
-FLUTTERS = LEAF_TURNS * hypot(0.4, 0.25)
+MOST_FLUTTER = LEAF_TURNS * hypot(*FLUTTERS)
 """Greatest displacement of a twig's tip against its foot, relative to its length: `tip_offset` of twig.glsl."""
 
 
@@ -56,7 +67,7 @@ class Slices(NamedTuple):
 def twig_balls(twigs: NDArray[np.void], height: float, habit: Habit, /) -> Balls:
     """Return the bounding spheres of twigs, records of `TWIG`, on their cards."""
     wide, back, ahead = card_reach(habit)
-    reach = hypot(wide, max(ahead - 0.5, 0.5 - back)) + FLUTTERS * ahead
+    reach = hypot(wide, max(ahead - 0.5, 0.5 - back)) + MOST_FLUTTER * ahead
     middle = twigs["foot"] + 0.5 * twigs["span"][:, None] * twigs["along"].astype(np.float64)
     return Balls(middle, LARGER * reach * twigs["span"] + _sway(middle, twigs["pivot"], height))
 
@@ -96,7 +107,7 @@ def wood_balls(vertices: NDArray[np.void], height: float, /) -> Balls:
 def _sway(place: Doubles, pivot: NDArray[np.floating], height: float) -> Doubles:
     """Return the greatest displacement of places (n, 3) on limbs with these feet in a message of 1 [m]."""
     high, out = place[:, 1] / height, np.linalg.norm(place - pivot, axis=1)
-    trunk = 0.5 * high**2 * (3.0 - high) * height  # `cantilever` of crown.glsl
+    trunk = 0.5 * high**2 * (LOAD_AT_END - high) * height  # `cantilever` of crown.glsl
     limb = out * out / (out + LIMB_STIFF)
     return np.asarray(MOST_TRUNK * trunk + MOST_LIMB * limb)
 

@@ -2,7 +2,6 @@
 #include "lib/canopy.glsl"
 #include "systems/trees/motion.py"
 
-const float LOAD_AT_END = 3.0;  // of a cantilever, whose line is (3 x² - x³) / 2
 const float BELOW_REACHES = 0.4;  // part of the light from below that reaches the depth of a crown
 
 // Displacement of a trunk at a part of its height, relative to its top's: it bends as a cantilever.

@@ -26,6 +26,15 @@ TRUNK_HERTZ, LIMB_HERTZ, LEAF_HERTZ = (0.2, 0.5), (1.0, 3.0), (3.0, 10.0)
 TRUNK_ACROSS, LIMB_ACROSS = 1.06, 1.13
 """Frequency of trunks and limbs across the wind, relative to that along it."""
 
+TRUNK_SIDEWAYS, LIMB_SIDEWAYS = 0.5, 0.7
+"""Amplitude of trunks and limbs across the wind, relative to that along it."""
+
+FLUTTERS = 0.4, 0.25
+"""Displacement of a twig's tip out of its face and aside, relative to its length and its leaves' rotation."""
+
+LOAD_AT_END = 3.0
+"""Of a cantilever bent by a load at its end, whose line is (3 x² - x³) / 2."""
+
 SKY_FROM = 0.5
 """Mean sine of the elevation that skylight comes from."""
 
@@ -53,6 +62,8 @@ GLSL = {
     "LIMB_LEANS": LIMB_LEANS, "LIMB_SWINGS": LIMB_SWINGS, "LIMB_STIFF": LIMB_STIFF,
     "LEAF_TURNS": LEAF_TURNS, "LEAF_HERTZ": own_hertz(LEAF_HERTZ), "AIR_FADES": AIR_FADES,
     "TRUNK_ACROSS": TRUNK_ACROSS, "LIMB_ACROSS": LIMB_ACROSS,
+    "TRUNK_SIDEWAYS": TRUNK_SIDEWAYS, "LIMB_SIDEWAYS": LIMB_SIDEWAYS,
+    "FLUTTERS": FLUTTERS, "LOAD_AT_END": LOAD_AT_END,
     "SKY_FROM": SKY_FROM, "SKY_MEETS_LESS": SKY_MEETS_LESS, "OWN_CROWN": OWN_CROWN,
 }  # fmt: skip
 

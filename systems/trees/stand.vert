@@ -12,7 +12,7 @@ out vec4 out_haze;
 out vec4 out_grass;
 out vec3 out_light_from_grass;
 
-const vec3 TRUNK_ASIDE = vec3(0.5, TRUNK_ACROSS, 0.37);  // of the trunk across the wind: amplitude and frequency, relative to those along it; phase
+const vec3 TRUNK_ASIDE = vec3(TRUNK_SIDEWAYS, TRUNK_ACROSS, 0.37);  // of the trunk across the wind: amplitude and frequency, relative to those along it; phase
 const vec2 GRASS_REFLECTS = vec2(0.5, 0.55);  // part of the sun's and of the sky's light that grass reflects, with its gaps
 const float GRASS_TONE_AT = 0.7;  // height on its blades whose pigment is seen from above
 const float LOWEST_LIGHT = 0.12;  // least sine of the sun's elevation for that light

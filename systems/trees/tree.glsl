@@ -31,7 +31,7 @@ const vec3 light_from_grass = vec3(0.0);
 
 uniform float moment;  // time, within PERIOD [s]
 
-const vec3 LIMB_ASIDE = vec3(0.7, LIMB_ACROSS, 1.7);  // of a limb across the wind: amplitude and frequency, relative to those along it; factor of its
+const vec3 LIMB_ASIDE = vec3(LIMB_SIDEWAYS, LIMB_ACROSS, 1.7);  // of a limb across the wind: amplitude and frequency, relative to those along it; factor of its
                                                       // phase
 const float OVER_TOP = 1.2;  // height up to which a tree bends, relative to its model's: twigs and pictures go beyond that
 const float LOWEST_ARC = 0.5;  // twice the least height, for the drop of what is bent aside [m]

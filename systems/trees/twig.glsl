@@ -18,7 +18,6 @@ uniform vec2 leaf_pixels; // length of a leaf from which on twigs begin to be dr
 
 const uvec4 BYTES_AT = uvec4(0u, 8u, 16u, 24u);  // offsets of the bytes of a number [bits]
 const float ASKEW = 0.01;  // keeps two directions from being one
-const vec2 FLUTTERS = vec2(0.4, 0.25);  // displacement of a twig's tip out of its face and aside, relative to its leaves' rotation
 const vec2 CARD_TONES = vec2(0.9, 0.2);  // least tone of a card, and its range
 const float NEAREST_TWIG = 0.1;  // least distance of a twig [m]
 
