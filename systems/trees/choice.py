@@ -160,11 +160,11 @@ class Choice:
         """Return the indices of the trees within a frustum's sides."""
         middle, radius = self._spheres
         near = np.flatnonzero(np.repeat(outside_planes(middle, sides) <= radius, CLUSTER)[: len(self._model)])
-        inside = self._middle.take(near, axis=0) @ sides[:, :3].T + sides[:, 3]
-        reach = np.outer(self._high[near], np.abs(sides[:, 1])) + np.outer(
-            self._aside[near], np.hypot(*sides[:, :3:2].T)
+        inside = sides[:, :3] @ self._middle.take(near, axis=0).T + sides[:, 3:]
+        inside += np.outer(np.abs(sides[:, 1]), self._high[near]) + np.outer(
+            np.hypot(*sides[:, :3:2].T), self._aside[near]
         )
-        return np.asarray(near[(inside >= -reach).all(axis=1)])
+        return np.asarray(near[inside.min(axis=0) >= 0.0])
 
     def choose(self, look: Look, /) -> Chosen:
         """Return what is drawn of the trees in a picture."""

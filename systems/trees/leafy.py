@@ -70,10 +70,10 @@ def _neighbours_shown(
     place[..., 0], place[..., 2] = cosine[:, None] * x - sine[:, None] * z, sine[:, None] * x + cosine[:, None] * z
     place[..., 1] = scale[:, None] * middle[..., 1]
     place += instances["root"][:, None]
-    inside = (place @ sides[:, :3].T + sides[:, 3]).min(axis=2) >= -scale[:, None] * blocks.radius[model]
-    tree, block = np.nonzero(inside)
+    outside = outside_planes(place.reshape(-1, 3), sides).reshape(place.shape[:2])
+    tree, block = np.nonzero(outside <= scale[:, None] * blocks.radius[model])
     away = place[tree, block] - eye
-    order = np.lexsort(((away * away).sum(axis=1), tree))
+    order = np.lexsort((np.einsum("ij,ij->i", away, away), tree))
     return tree[order], block[order]
 
 
@@ -89,10 +89,13 @@ def near_twigs(model: Model, instance: np.void, eye: Doubles, sides: Doubles, wi
     `instance` is the tree's record of `INSTANCE`, and `sides` the picture's, as `Viewer` has them.
     """
     (cosine, sine), scale = instance["turn"].tolist(), float(instance["scale"])
-    x, y, z = model.balls.middle.T
-    middle = scale * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=1) + instance["root"]
-    distance = np.linalg.norm(middle - eye, axis=1)
-    near = np.argsort(distance)[: int((distance < within).sum())]
+    root = instance["root"].astype(np.float64)
+    to_model = np.array([[cosine, 0.0, -sine], [0.0, 1.0, 0.0], [sine, 0.0, cosine]])
     share = float(instance["twig_share"] * (1.0 - instance["far_fade"]) * instance["foliage"])
-    near = near[near < twigs_drawn(np.array(len(model.twigs)), np.array(share))]
-    return np.asarray(near[outside_planes(middle[near], sides) <= scale * model.balls.radius[near]])
+    middle, radius = (each[: twigs_drawn(np.array(len(model.twigs)), np.array(share))] for each in model.balls)
+    away = middle - (eye - root) @ to_model / scale
+    squared = np.einsum("ij,ij->i", away, away)
+    near = np.flatnonzero(squared < (within / scale) ** 2)
+    planes = np.column_stack([sides[:, :3] @ to_model, (sides[:, :3] @ root + sides[:, 3]) / scale])
+    near = near[outside_planes(middle[near], planes) <= radius[near]]
+    return np.asarray(near[np.argsort(squared[near])])
