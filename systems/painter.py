@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from math import inf, nextafter
 
 import moderngl
 
@@ -248,7 +249,7 @@ class Painter(Holding):
         target.depth_mask = True
         for part in self._parts_with["draw_soft"]:
             among_grass = not all_soft and part.soft_distance() is not None
-            self.draw_calls += part.draw_soft(self._reach() if among_grass else 0.0)
+            self.draw_calls += part.draw_soft(nextafter(self._reach(), inf) if among_grass else 0.0)
         if has_edges:  # thin grass on a crest lets trees behind it show through
             target.depth_mask = False
             self.draw_calls += self._draw_culled(view, partial(carpet.draw_thin, target))

@@ -139,11 +139,14 @@ class RepresentationPainter(Part, ABC):
 
     @property
     def farthest(self) -> float:
-        """Distance along the ground of the farthest patch that is drawn in far-to-near order [m]; 0 for none."""
+        """Distance of the farthest patch drawn in far-to-near order, by `distance_in_order` [m]; 0 for none."""
         return 0.0
 
     def draw_beyond(self, distance: float, /) -> int:
-        """Draw the patches beyond a distance [m], which `draw` then leaves out; return the number of draw calls."""
+        """Draw the patches at a distance or beyond it [m]; return the number of draw calls.
+
+        Distances are those of `distance_in_order`. `draw` then leaves these patches out.
+        """
         del distance
         return 0
 

@@ -124,3 +124,12 @@ def nearness(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[n
     aside, ahead = cells_apart(cell, centre)
     ring = np.maximum(aside, ahead)
     return -(ring * ring + np.minimum(aside, ahead))
+
+
+def distance_in_order(cell: NDArray[np.int32], centre: NDArray[np.int32], /) -> NDArray[np.float64]:
+    """Return the distances of cells (..., 2) from `centre` by which `nearness` orders them, (...) [patch sides].
+
+    Of two things on a ray from the viewer's cell, the one on the farther cell is never the nearer by this distance, as
+    the viewer walks from cell to cell.
+    """
+    return np.asarray(np.sqrt(-nearness(cell, centre).astype(np.float64)))

@@ -19,7 +19,7 @@ def as_places(xz: ArrayLike, /) -> Floats:
     return np.ascontiguousarray(places.reshape(-1, 2).clip(-FARTHEST, FARTHEST))
 
 
-def cell_of(place: NDArray[np.float32], /, *, patch: float) -> Ints:
+def cell_of(place: NDArray[np.floating], /, *, patch: float) -> Ints:
     """Return the cells (i, j) of ground positions (x, z), both of shape (..., 2)."""
     return np.floor(np.asarray(place, np.float64) / patch).astype(np.int32)
 

@@ -7,8 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles, Floats
+from ...components.arrays import Doubles, Floats, Ints
+from ..space.cone import distance_in_order
 from ..space.frustum import outside_planes
+from ..space.window import cell_of
 from .bounds import highest_shown
 from .leafy import GROUPED_FROM, blocks_of_models, blocks_shown, near_twigs
 from .model import MARGIN, Model
@@ -48,6 +50,12 @@ class Look(NamedTuple):
     reach: float
     """Distance up to which grass is drawn from far to near [m]."""
 
+    patch: float
+    """Side of a patch of grass [m]."""
+
+    centre: Ints
+    """Cell that the viewer stands in, (2,)."""
+
     detail_eyes: Sequence[Doubles | tuple[float, float, float]] = ()
     """Eyes that level of detail is chosen for: the nearest one counts. Without any, `eye` does."""
 
@@ -76,7 +84,7 @@ class Batch(NamedTuple):
     """Mean distance of the crowns' middles [m]."""
 
     far: float
-    """Distance of the farthest tree along the ground, as `farthest_of` returns it [m]."""
+    """Distance of the farthest tree by the order of patches, as `farthest_of` returns it [m]."""
 
     pixel_radius: float
     """Least radius of a stem of the model that is a pixel wide, at the nearest tree [m]."""
@@ -116,6 +124,9 @@ class _Seen(NamedTuple):
 
     along: Doubles
     """Distance of each along the ground [m]."""
+
+    in_order: Doubles
+    """Distance by which the patch that each stands on is drawn, among the others [m]."""
 
     pixel_radius: Doubles
     """Radius of a stem of its model that is a pixel wide at its nearest point [m]."""
@@ -197,12 +208,13 @@ class Choice:
             pixels = np.where(pixels * pictured <= look.leaves_from, 0.0, ANY_HEIGHT)
         pixels[ring > 1] = 0.0
         instances, along = self._instances.take(number), np.hypot(*(middle - look.eye)[:, ::2].T)
+        in_order = look.patch * distance_in_order(cell_of(middle[:, ::2], patch=look.patch), look.centre)
         set_detail(instances, pixels, pixels * pictured)
         instances["opacity"] = ring_opacity(ring, along)
         ahead = nearest_ahead(look.clip, middle, look.eye, self._reach.take(number, axis=0))
         pixel_radius = THINNEST * np.maximum(ahead, AWAY) / (look.focal * scale)
         top = self._shown_up_to(look, number, instances)
-        return _Seen(number, self._model[number], instances, along, pixel_radius, top)
+        return _Seen(number, self._model[number], instances, along, in_order, pixel_radius, top)
 
     def _shown_up_to(self, look: Look, number: Indices, instances: NDArray[np.void]) -> Doubles:
         """Return the height of each tree's model up to which it is in the picture [m]; 0 or less where none of it is.
@@ -266,8 +278,8 @@ def _bounding_spheres(middle: Doubles, reach: Doubles) -> tuple[Doubles, Doubles
 
 def _only(seen: _Seen, rows: Indices) -> _Seen:
     """Return these rows of the trees in a picture."""
-    instances, of_trees = seen.instances.take(rows), (seen.along[rows], seen.pixel_radius[rows], seen.top[rows])
-    return _Seen(seen.number[rows], seen.model[rows], instances, *of_trees)
+    of_trees = (each[rows] for each in (seen.along, seen.in_order, seen.pixel_radius, seen.top))
+    return _Seen(seen.number[rows], seen.model[rows], seen.instances.take(rows), *of_trees)
 
 
 def _by_stream(
@@ -310,7 +322,7 @@ def _batches(stream: Indices, tree: Indices, seen: _Seen, distance: Doubles) -> 
     new[first] = True
     columns = (
         *divmod(stream[first], len(STREAMS)), first, count, low(distance[tree], first),
-        total(distance[tree] * new, first) / total(new, first, dtype=np.intp), high(seen.along[tree], first),
+        total(distance[tree] * new, first) / total(new, first, dtype=np.intp), high(seen.in_order[tree], first),
         low(seen.pixel_radius[tree], first), low(foliage[tree], first), high(seen.top[tree], first),
     )  # fmt: skip
     return [

@@ -177,7 +177,7 @@ class TreePart(Part):
         """Choose and send what is drawn of each tree, unless its inputs are unchanged."""
         record, viewer = self._block.record[0], outlook.viewer
         view = record["clip"].tobytes(), float(record["half_screen"][1]), viewer.eye, viewer.sides.tobytes()
-        inputs = standing, *view, self.leaves_from, self.detail_eyes, self.held
+        inputs = standing, *view, viewer.centre.tobytes(), self.leaves_from, self.detail_eyes, self.held
         if self._inputs == inputs:
             return
         self._inputs = inputs
@@ -196,7 +196,9 @@ class TreePart(Part):
         detail_eyes: Sequence[Place | Doubles] = (self._detail_eye,) if self.held else ()
         if self.leaves_from is not None and self.detail_eyes:
             detail_eyes = self.detail_eyes
-        return Look(eye, outlook.viewer.sides, clip, focal, self._reach(outlook), detail_eyes, self.leaves_from)
+        patch, centre = float(record["patch_side"]), outlook.viewer.centre
+        reach = self._reach(outlook)
+        return Look(eye, outlook.viewer.sides, clip, focal, reach, patch, centre, detail_eyes, self.leaves_from)
 
     def _send(self, chosen: Chosen) -> None:
         """Send instances, and where they stand."""

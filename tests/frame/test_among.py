@@ -1,15 +1,20 @@
 """Soft edges of trees among the grass hide grass and wood behind them (N3)."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import Any
 
 import esper
 import moderngl
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from tallgrass import Pose, Prairie, Tree
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_truth
+from tallgrass.systems.show.strips.painter import StripsPainter
+from tallgrass.systems.space.cone import distance_in_order
 from tallgrass.systems.trees.shells import SHELL, SHELLS, shells_of
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 
@@ -28,6 +33,7 @@ quality:
   carpet: 32
 """
 SIZE = 72, 72
+Array = NDArray[Any]
 FAR_OFF = looking(0.0, 6.0, 22.0, pitch=-10.0, view=14.0)  # as pictures, and twig by twig
 NEAR = looking(0.0, 6.0, 22.0, pitch=-11.0, view=4.0)
 
@@ -81,6 +87,49 @@ def test_n3_trees_behind_change_nothing_of_the_order_in_which_a_trees_edges_and_
     finally:
         for each in behind:
             esper.delete_entity(each, immediate=True)
+
+
+@pytest.mark.parametrize("yaw", [30.0, 45.0])
+def test_n3_no_edges_of_trees_change_as_the_viewer_enters_another_patch(
+    ctx: moderngl.Context, prairie: Prairie, yaw: float
+) -> None:
+    stage, border = Stage(ctx, SIZE), -6.0 * prairie.site.ground.patch
+    away, seen = -border / np.sin(np.radians(yaw)), []
+    for x in (border - 0.002, border + 0.002):
+        stage.begin()
+        prairie.draw(*stage.matrices(looking(x, 6.0, away * np.cos(np.radians(yaw)), yaw=yaw, pitch=-10.0, view=12.0)))
+        drawn = stage.read().astype(int)
+        seen.append(float(np.maximum(drawn[..., 0] - drawn[..., 1:].max(axis=-1), 0).sum()))
+    assert seen[1] == pytest.approx(seen[0], rel=0.005)  # by distances along the ground, 0.015 or more
+
+
+def test_n3_before_edges_of_a_tree_come_the_strips_of_its_own_patch_and_of_all_that_the_order_has_beyond(
+    ctx: moderngl.Context, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert prairie.painter is not None
+    painter = prairie.painter.painters["strips"]
+    assert isinstance(painter, StripsPainter)
+    drawing, placements, numbers, drawn = painter.strips, list[Array](), list[Array](), list[int]()
+    for name, kept in ("write", placements), ("write_strips", numbers):
+        monkeypatch.setattr(drawing, name, partial(_noting, kept, getattr(drawing, name)))
+    stage = Stage(ctx, SIZE)
+    prairie.draw(*stage.matrices(looking(-14.7, 6.0, 15.3, yaw=44.0, pitch=-10.0, view=14.0)))
+    cell = placements[-1]["cell"][numbers[-1] // drawing.stride].astype(np.int32)
+    away = distance_in_order(cell, prairie.viewers["main"].viewer.centre) * drawing.patch
+    assert len(np.unique(away)) > 20
+    monkeypatch.setattr(drawing, "draw", partial(_draw_numbers, drawn))
+    painter.draw_beyond(middle := float(np.median(away)))
+    assert drawn == np.flatnonzero(away >= middle).tolist()
+
+
+def _draw_numbers(drawn: list[int], first: int, count: int, **_: object) -> int:
+    drawn.extend(range(first, first + count))
+    return 1
+
+
+def _noting(kept: list[Array], write: Callable[[Array], None], array: Array) -> None:
+    kept.append(array)
+    write(array)
 
 
 def test_trees_stand_in_shells_of_grass_that_stay_where_they_are_while_it_ends_elsewhere() -> None:

@@ -11,12 +11,13 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Floats, Mask
+from ....components.arrays import Doubles, Mask
 from ....engine.declared.quality import Quality
 from ....engine.gl.remembered import Remembered
 from ....engine.gl.shaders import Texts
 from ...around.outlook import Outlook
 from ...grow.organs import any_heads
+from ...space.cone import distance_in_order
 from ...space.grown import Grown
 from ..representation import Canvas, RepresentationPainter
 from .draw import StripDrawing
@@ -44,9 +45,8 @@ class _Gathered:
 
     batches: list[Batch]
 
-    distance: Floats
-    """Distance of each drawn patch [patch sides], in drawing order, shape (m,). It never rises: a patch that is drawn
-    after a nearer one has the distance of that."""
+    distance: Doubles
+    """Distance of each drawn patch, as `distance_in_order` has it [patch sides], in drawing order, shape (m,)."""
 
     ends: NDArray[np.int64]
     """Index after each drawn patch's last polygon strip, shape (m,)."""
@@ -147,7 +147,7 @@ class StripsPainter(RepresentationPainter):
         order = partial(polygon_strips, placements, patch, present, self._fineness, stride=self.strips.stride)
         strips, count = self._ordered.of(outlook.viewer.name, (placements["code"], patch, present), order)
         drawn = batches(_modes(rings, changes=self._changes).take(patch), count)
-        distance = np.minimum.accumulate(np.hypot(*(placements["cell"].take(patch, axis=0) - centre).T))
+        distance = distance_in_order(placements["cell"].take(patch, axis=0).astype(np.int32), centre)
         return _Gathered(placements, strips, drawn, distance, np.cumsum(count), receivers)
 
     @property
@@ -186,9 +186,9 @@ class StripsPainter(RepresentationPainter):
         return float(self._now.distance[0]) * self.strips.patch
 
     def draw_beyond(self, distance: float, /) -> int:
-        """Draw the strips of patches beyond a distance [m]; return the number of draw calls."""
+        """Draw the strips of patches at a distance or beyond it [m]; return the number of draw calls."""
         assert self._now is not None
-        beyond = int((self._now.distance * self.strips.patch > distance).sum())
+        beyond = int((self._now.distance * self.strips.patch >= distance).sum())
         return self._draw_to(int(self._now.ends[beyond - 1])) if beyond else 0
 
     def _draw_to(self, end: int | None) -> int:

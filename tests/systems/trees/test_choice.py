@@ -6,7 +6,9 @@ from numpy.typing import NDArray
 
 from tallgrass.components.arrays import Doubles
 from tallgrass.engine.camera import View, projection_matrix, view_matrix
+from tallgrass.systems.space.cone import distance_in_order
 from tallgrass.systems.space.frustum import picture_sides
+from tallgrass.systems.space.window import cell_of
 from tallgrass.systems.trees.choice import Choice, Chosen, Look
 from tallgrass.systems.trees.model import MODELS, Model, models_of
 from tallgrass.systems.trees.shells import SHELL
@@ -14,7 +16,7 @@ from tallgrass.systems.trees.standing import PICTURE_BELOW, STANDING, Standing
 from tallgrass.systems.trees.stream import BACKS, CARDS, FAR, LEAVES, WOODS
 from tallgrass.testing import looking
 
-PIXELS, REACH = 900.0, 120.0
+PIXELS, REACH, PATCH = 900.0, 120.0, 2.0
 CAMERA = looking(0.0, 4.0, 0.0, pitch=5.0, view=45.0)
 EYE = np.array([0.0, 4.0, 0.0])
 
@@ -40,7 +42,8 @@ def chosen(
     rows: NDArray[np.void], models: list[Model], *, reach: float = REACH, leaves_from: float | None = None
 ) -> Chosen:
     view = View(view_matrix(CAMERA), projection_matrix(CAMERA.view, 1.0))
-    look = Look(EYE, picture_sides(view), view.clip.astype(np.float64), PIXELS, reach, leaves_from=leaves_from)
+    sides, clip = picture_sides(view), view.clip.astype(np.float64)
+    look = Look(EYE, sides, clip, PIXELS, reach, PATCH, np.zeros(2, np.int32), leaves_from=leaves_from)
     return Choice(Standing(rows), models, [0.1] * len(models)).choose(look)
 
 
@@ -134,11 +137,22 @@ def test_trees_among_the_grass_are_in_streams_by_shells_of_it_and_all_beyond_it_
     for batch, rows in zip(found.batches, found.instances, strict=True):
         off = np.hypot(rows["root"][:, 0], rows["root"][:, 2])
         if batch.name in (*CARDS, *WOODS, *BACKS):
-            assert batch.far == (pytest.approx(off.max()) if off.max() < REACH else np.inf)
-            assert off.min() > (SHELL * batch.far if 0.25 * REACH < off.max() < REACH else 0.0)
+            assert off.min() > (SHELL * off.max() if 0.25 * REACH < off.max() < REACH else 0.0)
             assert off.max() < REACH or off.min() >= REACH
             shells |= {batch.name} if off.max() < REACH else set()
     assert all(shells.intersection(names) for names in (CARDS, WOODS, BACKS))
+
+
+def test_soft_edges_come_after_the_patch_that_the_farthest_tree_of_a_stream_stands_on(models: list[Model]) -> None:
+    found, checked = chosen(a_wood(models), models), 0
+    for batch, rows in zip(found.batches, found.instances, strict=True):
+        place = rows["root"][:, ::2]
+        if batch.name in (*CARDS, *BACKS):
+            among = np.hypot(*place.T) < REACH
+            patches = distance_in_order(cell_of(place, patch=PATCH), np.zeros(2, np.int32))
+            assert batch.far == (PATCH * patches.max() if among.all() else np.inf)
+            checked += among.all()
+    assert checked > len(models)
 
 
 def test_twigs_that_are_drawn_leaf_by_leaf_are_of_trees_that_are_near(models: list[Model]) -> None:
