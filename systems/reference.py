@@ -222,7 +222,8 @@ def _distances(depth: NDArray[np.float64], seen: View, centre: Ints, ground: Gro
     world = clip @ seen.unclip.T
     place = np.stack([world[..., 0] / world[..., 3], world[..., 2] / world[..., 3]], axis=-1)
     cell = cell_of(np.clip(place, -1e6, 1e6), patch=ground.patch)
-    here = (depth < 1.0) & (np.abs(place) <= np.asarray(ground.terrain.size) / 2.0).all(axis=-1)
+    low, size = np.asarray(ground.terrain.origin), np.asarray(ground.terrain.size)
+    here = (depth < 1.0) & ((place >= low) & (place <= low + size)).all(axis=-1)
     return np.where(here, discrete_distance(cell, centre), -1).astype(np.int32)
 
 

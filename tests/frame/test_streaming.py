@@ -15,6 +15,7 @@ from tallgrass.engine.terrain import stream
 from tallgrass.systems import streaming
 from tallgrass.systems.features import feature_of
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.reference import patch_distances
 from tallgrass.systems.trees.feature import Trees
 from tallgrass.testing import looking, private_world
 
@@ -69,6 +70,9 @@ def test_n5_a_place_looks_alike_for_who_comes_there_and_who_begins_there(stage: 
     gone, there = prairies(live=False), prairies(AWAY, live=False)
     stage.shot(gone, at(gone, (0.0, 0.0)))
     np.testing.assert_array_equal(stage.shot(gone, at(gone, AWAY)), stage.shot(there, at(there, AWAY)))
+    apart = [patch_distances(each, *stage.matrices(at(each, AWAY)), stage.size) for each in (gone, there)]
+    assert (apart[0] >= 0).mean() > 0.3  # measures find patches where the walker is, too
+    np.testing.assert_array_equal(*apart)
 
 
 @pytest.mark.slow
