@@ -44,6 +44,10 @@ class Residents:
             self.lost.append(resident.entity)
 
 
+class _Never:
+    """A component that no entity has. Esper caches the list of those that do until any entity or component changes."""
+
+
 class World:
     """A prairie's own entities among a game's.
 
@@ -59,6 +63,7 @@ class World:
         """Number of times that all our entities were deleted at once, as by `esper.clear_database`."""
         self._home: ref[Resident] | None = None
         self._mine = Residents()
+        self._changes, self._cached = 0, esper.get_component(_Never)
         self._logged: set[int] = set()
         """Entities whose unusable pose has been logged."""
         _worlds.add(self)
@@ -88,6 +93,21 @@ class World:
             self._mine.lost.clear()
             self.generation += 1
         return self.generation
+
+    def changes(self) -> int:
+        """Return a number that rises when entities or components have come or gone other than while `exchanging`."""
+        self._must_be_current()
+        cached = esper.get_component(_Never)
+        if cached is not self._cached:
+            self._changes, self._cached = self._changes + 1, cached
+        return self._changes
+
+    @contextmanager
+    def exchanging(self) -> Iterator[None]:
+        """Let entities come and go that concern nobody who asks for `changes`, as patches do in every frame."""
+        self.changes()
+        yield
+        self._cached = esper.get_component(_Never)
 
     def lost(self) -> list[int]:
         """Return our entities that the game has deleted one by one since the last call."""
@@ -158,11 +178,16 @@ class World:
     def rows(self, kind: type[Component]) -> list[tuple[int, Component]]:
         """Return every entity with a component of exactly this type, in any order, those of other prairies too.
 
-        It is quick, as esper caches the list: compare it with a kept one to see changes. The list is built anew
-        whenever any entity comes or goes, so exchange many entities `uncollected`.
+        Esper caches the list until any entity comes or goes: ask for `changes` first. Compare it with a kept one to see
+        what has changed, and exchange many entities `uncollected`.
         """
         self._must_be_current()
         return esper.get_component(kind)
+
+    def beside(self, rows: list[tuple[int, Component]], other: type[Other]) -> list[Other | None]:
+        """Return the component of exactly the type `other` of each entity in some rows, None where it has none."""
+        find = esper.try_component
+        return [find(entity, other) for entity, _ in rows]
 
     def both(self, kind: type[Component], other: type[Other]) -> list[tuple[int, Component, Other]]:
         """Return every entity with components of exactly these two types, of the same owners and order as `all`."""

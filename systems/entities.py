@@ -85,9 +85,10 @@ class PatchEntities:
             return
         rows = without[np.argsort(patches.distance[without], kind="stable")[:BATCH]].tolist()
         left, outlook.left_behind[:] = outlook.left_behind[:BATCH], outlook.left_behind[BATCH:]
-        for _, entity in zip_longest(self._make(outlook, rows), left):
-            if entity is not None:
-                self.world.delete(entity)
+        with self.world.exchanging():
+            for _, entity in zip_longest(self._make(outlook, rows), left):
+                if entity is not None:
+                    self.world.delete(entity)
 
     def _make(self, outlook: Outlook, rows: list[int]) -> Iterator[int]:
         """Make and yield the entities of the patches in some rows, one after another."""
@@ -106,8 +107,9 @@ class PatchEntities:
         patches = outlook.patches
         rows = window_rows(cells, side=patches.side)
         there = patches.alive[rows] & (patches.cell[rows] == cells).all(axis=1)
-        for _ in self._make(outlook, np.unique(rows[there & (patches.entity[rows] == 0)]).tolist()):
-            pass
+        with self.world.exchanging():
+            for _ in self._make(outlook, np.unique(rows[there & (patches.entity[rows] == 0)]).tolist()):
+                pass
         return np.where(there, patches.entity[rows], 0)
 
 

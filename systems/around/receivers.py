@@ -232,11 +232,13 @@ class Receiving:
         fresh = changed[owner[changed] != 0][: self.BATCH]
         self._owner[fresh] = owner[fresh]
         self._owned = int(np.count_nonzero(self._owner))
-        for slot, entity in zip_longest(fresh.tolist(), to_delete):  # in turn, as `PatchEntities` does
-            if slot is not None:
-                self._entity[slot] = world.create(self.component(slot, viewer=patches.viewer, patch=int(owner[slot])))
-            if entity is not None:
-                world.delete(entity)
+        with world.exchanging():
+            for slot, entity in zip_longest(fresh.tolist(), to_delete):  # in turn, as `PatchEntities` does
+                if slot is not None:
+                    component = self.component(slot, viewer=patches.viewer, patch=int(owner[slot]))
+                    self._entity[slot] = world.create(component)
+                if entity is not None:
+                    world.delete(entity)
 
     def component(self, slot: int, /, *, viewer: str, patch: int) -> Receivers:
         """Return the component of the receivers of a slot."""

@@ -50,7 +50,8 @@ class Trees(Feature):
         """Entities of these trees, in the same order; some may have been felled."""
         self.wild: Wild | None = None
         """The trees of a forest that is too large for all of them to be entities."""
-        self._last_seen: tuple[list[tuple[int, Tree]], list[tuple[int, Pose]]] = [], []
+        self._world_changes = -1
+        self._last_seen: tuple[list[tuple[int, Tree]], list[Pose | None]] = [], []
         self._terrain_version = -1
         self._generation = world.check()
         self._unknown: set[str] = set()
@@ -116,15 +117,21 @@ class Trees(Feature):
         """Take over changed trees at a time [s], and the grass density below them."""
         self._revive()
         changes = self._grown.ground.terrain.changes.count
-        with uncollected():
-            seen = (trees := self._world.rows(Tree)), self._world.rows(Pose) if trees else []
-            changed = seen != self._last_seen
-            self._last_seen = seen  # the new lists, though equal: the next ones hold the same objects
-        if changed or changes != self._terrain_version:
+        if self._have_changed() or changes != self._terrain_version:
             self._terrain_version = changes
             self._update_rows(time)
         if self._fading.step(time):
             self._shade_grass()
+
+    def _have_changed(self) -> bool:
+        """Return whether trees or their poses have changed since the last call."""
+        if self._world_changes == (changes := self._world.changes()):
+            return False
+        self._world_changes, before = changes, self._last_seen
+        with uncollected():
+            trees = self._world.rows(Tree)
+            self._last_seen = trees, self._world.beside(trees, Pose)
+            return self._last_seen != before
 
     def _revive(self) -> None:
         """Make the scene's standing trees entities again after the game has cleared its world."""

@@ -43,6 +43,35 @@ def test_a_missing_component_is_a_key_error(world: World) -> None:
         world.get(world.create(Grass(0.5)), Score)
 
 
+def test_changes_count_what_a_game_does_but_not_what_is_exchanged(world: World) -> None:
+    theirs = esper.create_entity(Grass(0.9))
+    counted = [world.changes()]
+    for change in (
+        lambda: esper.create_entity(Score(1)),
+        lambda: esper.add_component(theirs, Grass(0.8)),
+        lambda: esper.remove_component(theirs, Grass),
+        lambda: esper.delete_entity(theirs, immediate=True),
+        lambda: world.create(Score(2)),
+    ):
+        assert world.changes() == counted[-1]
+        change()
+        counted.append(world.changes())
+        with world.exchanging():
+            world.delete(world.create(Grass(0.1)))
+    assert counted == [*range(counted[0], counted[0] + 6)]
+    esper.create_entity(Score(3))
+    with world.exchanging():  # a change before it is not forgotten
+        world.create(Grass(0.2))
+    assert world.changes() == counted[-1] + 1
+
+
+def test_components_beside_others_are_found_in_their_order(world: World) -> None:
+    for grass, score in ((0.1, 1), (0.2, None), (0.3, 3)):
+        world.create(Grass(grass), *([] if score is None else [Score(score)]))
+    rows = world.rows(Grass)
+    assert world.beside(rows, Score) == [{0.1: Score(1), 0.2: None, 0.3: Score(3)}[grass.height] for _, grass in rows]
+
+
 def test_components_are_found_by_their_exact_type_and_by_rising_entity(world: World) -> None:
     entities = [world.create(Grass(number / 10)) for number in range(20)]
     world.create(Reed(2.0))

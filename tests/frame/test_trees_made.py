@@ -8,10 +8,12 @@ import moderngl
 import numpy as np
 import pytest
 
-from tallgrass import Pose, Tree
+from tallgrass import Patch, Pose, Presser, Tree
 from tallgrass.components.arrays import Floats
+from tallgrass.systems.features import feature_of
 from tallgrass.systems.trees import bake, kind, stream
 from tallgrass.systems.trees.draw import TreePart
+from tallgrass.systems.trees.feature import Trees
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 from tallgrass.testing.little import SPARSE
 
@@ -75,3 +77,26 @@ def test_a_later_run_draws_no_pictures_and_looks_the_same_to_the_bit(
             seen.append(stage.shot(run, AHEAD))
     assert made == [5]  # of a twig with ever more leaves, and of two models
     assert np.array_equal(seen[0], seen[1])
+
+
+def test_trees_stay_as_they_are_while_other_things_move_and_patches_come_and_go(
+    ctx: moderngl.Context, stage: Stage
+) -> None:
+    with private_world(), little_prairie(scene=SCENE, ctx=ctx) as own:
+        tree = esper.create_entity(Tree("ash", height=9.0), Pose(0.0, 0.0))
+        feet = esper.create_entity(Presser(radius=0.4), Pose(2.0, 8.0))
+        trees = feature_of(Trees, own.features)
+        stood, entities = list[Any](), set[int]()
+        for step in range(4):
+            esper.add_component(feet, Pose(2.0, 8.0 + step))
+            stage.shot(own, looking(0.0, 1.7, 12.0 + 4.0 * step, pitch=14.0, view=57.0, yaw=90.0 * step))
+            stood.append(trees.standing.rows)
+            entities |= {entity for entity, _ in esper.get_component(Patch)}
+        assert len(entities) > len(esper.get_component(Patch)), "no patch has come or gone"
+        assert all(rows is stood[0] for rows in stood)
+        esper.add_component(tree, Pose(3.0, 0.0))
+        stage.shot(own, AHEAD)
+        assert trees.standing.rows["root"][0, 0] == 3.0
+        esper.delete_entity(tree, immediate=True)
+        stage.shot(own, AHEAD)
+        assert not len(trees.standing.rows)
