@@ -89,8 +89,8 @@ class GpuKind:
         found = kept_pictures(key, [(model.model.wide, model.model.lines) for model in self.models])
         if found is None:
             found = [self._twig_pictures(programs)]
+            self._load_card(found[0], as_drawn=True)
             for model in self.models:
-                self._load_card(found[0])
                 found += self._model_pictures(programs, model)
             keep_pictures(key, found)
         self._load_card(found[0])
@@ -101,18 +101,19 @@ class GpuKind:
             model.outline = picture_outline(cover)
             model.solid_outline = solid_outline(cover, FULL * CLOSED, model.outline)
 
-    def _load_card(self, twig: list[Bytes]) -> None:
-        """Make the card's texture, outlines and normals from its twig's pictures."""
-        if self.card is None:
-            shown = [each[::2, ..., 3].max(axis=0) for each in twig]
-            self.solid = solid_above(twig[1][0, ..., 3])  # the largest level of such cards on screen, about
-            self.card = texture_of(self.ctx, [equalised(card_texels(each), FULL * self.solid) for each in twig])
-            solid = covered_at(shown, FULL * self.solid)
-            self.outline = corner_list(card_outline(shown[0] > FAINTEST))
-            self.solid_outline = corner_list(card_outline(solid, CLOSE_MARGIN)) if solid.any() else []
-            self._normals = card_normals(twig[0][:2])
-            cover = twig[0][::2, ..., 3].mean(axis=(1, 2))
-            self._picture_cover = tuple((cover / cover[0]).tolist())
+    def _load_card(self, twig: list[Bytes], *, as_drawn: bool = False) -> None:
+        """Make the card's texture, outlines and normals from its twig's pictures; `as_drawn` is of `card_texels`."""
+        self._release_card()
+        shown = [each[::2, ..., 3].max(axis=0) for each in twig]
+        self.solid = solid_above(twig[1][0, ..., 3])  # the largest level of such cards on screen, about
+        texels = [card_texels(each, as_drawn=as_drawn) for each in twig]
+        self.card = texture_of(self.ctx, [equalised(each, FULL * self.solid) for each in texels])
+        solid = covered_at(shown, FULL * self.solid)
+        self.outline = corner_list(card_outline(shown[0] > FAINTEST))
+        self.solid_outline = corner_list(card_outline(solid, CLOSE_MARGIN)) if solid.any() else []
+        self._normals = card_normals(twig[0][:2])
+        cover = twig[0][::2, ..., 3].mean(axis=(1, 2))
+        self._picture_cover = tuple((cover / cover[0]).tolist())
 
     def _twig_pictures(self, programs: Programs) -> list[Bytes]:
         """Return the pictures of its twig, each with more and smaller leaves; the depth test is on meanwhile."""
@@ -203,8 +204,12 @@ class GpuKind:
     def release(self) -> None:
         """Release all GL objects."""
         release_all(*self.models, self.bark)
+        self._release_card()
+
+    def _release_card(self) -> None:
         if self.card is not None:
             self.card.release()
+            self.card = None
 
 
 def _leaf_uniforms(leaf: Leaf, twig_length: float) -> Uniforms:

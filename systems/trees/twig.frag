@@ -33,16 +33,17 @@ void main() {
 #endif
 #ifdef BAKED
 #ifdef LEAVES
-    float cover = inside.y > 0.5 ? inside.z : leaf, shows = inside.x * mix(RIBBED, 1.0, beside);
+    bool stem = inside.y > 0.5;
+    float cover = stem ? inside.z : leaf, ribbed = mix(RIBBED, 1.0, beside), shows = inside.x * ribbed, brightest = stem ? 0.0 : ribbed;
     second = vec4(0.5 + 0.5 * normalize(facing), 1.0);
 #else
     CardTexel seen = card_texel(on, picture);
-    float cover = seen.cover, shows = seen.tone * tone;
+    float cover = seen.cover, shows = seen.tone * tone, brightest = 0.0;
     second = packed_shading(inside);
 #endif
     if (cover <= threshold_of(APART * (tone + inside.x)))
         discard;
-    pixel = vec4(clamp(shows, 0.0, 1.0), 0.0, 0.0, 1.0);
+    pixel = vec4(clamp(shows, 0.0, 1.0), brightest, 0.0, 1.0);  // tone, and the tone if all leaves had a tone of 1
 #else
     float cover = stem_cover < 0.0 ? leaf : stem_cover;
     discard_uncovered(cover);

@@ -47,6 +47,12 @@ TWIGS_EACH = FINER_EACH**2
 """Number of twigs that a picture stands for, relative to the one before: the distance between leaves is in proportion
 to their size. If leaves were denser, a near tree's cards would look like plates."""
 
+LEAF_TONES = 0.25, 0.75
+"""Least tone of a leaf, and its range."""
+
+MEAN_TONE = LEAF_TONES[0] + 0.5 * LEAF_TONES[1]
+"""Mean tone of leaves."""
+
 ASIDE, TURNED, BACK, ON = 0.95, 0.25, 0.3, 1.2
 """Reach of leaves from their twig, in leaf lengths: aside, by the sine of their angle plus `TURNED`, as that varies;
 back from its foot; on from its tip."""
@@ -57,7 +63,7 @@ SHOOTS_ASIDE, HANGING_ASIDE = 0.7, 0.35
 GLSL = record_lookup("Twig", TWIG, "tree_twigs", ROW) + emitted(
     {
         "RANKS": RANKS, "LEAST_KEPT": LEAST_KEPT,
-        "SHOOTS_LONG": SHOOTS_LONG, "PICTURES": PICTURES, "TWIGS_EACH": TWIGS_EACH,
+        "LEAF_TONES": LEAF_TONES, "SHOOTS_LONG": SHOOTS_LONG, "PICTURES": PICTURES, "TWIGS_EACH": TWIGS_EACH,
     }
 )  # fmt: skip
 
