@@ -71,6 +71,13 @@ def test_a_card_that_stands_for_several_twigs_shows_more_leaves_and_not_larger_o
         assert (edges[1:] / edges[:-1]).min() > 1.2  # leaves lie over one another, which hides edges
 
 
+@pytest.mark.slow
+def test_all_pictures_of_a_kinds_twigs_are_as_bright(prairie: Prairie) -> None:
+    for name, pictures in cards(prairie).items():
+        tone, _, _, cover = pictures.sum(axis=(1, 2), dtype=np.float64).T
+        assert tone / cover == pytest.approx(tone.sum() / cover.sum(), rel=0.02), name
+
+
 def test_how_leaves_lie_is_told_in_few_directions() -> None:
     draw = np.random.default_rng(4)
     normal = draw.normal(0.0, (0.3, 0.2, 0.2), (64 * 64, 3)) + np.array([0.1, 0.0, 1.0])

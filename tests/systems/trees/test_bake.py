@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from tallgrass.systems.trees.bake import COARSEST, dilated, equalised, picture_size, tree_levels
+from tallgrass.systems.trees.bake import COARSEST, card_texels, dilated, equalised, picture_size, tree_levels
 from tallgrass.systems.trees.far import COARSER, LINES
+from tallgrass.systems.trees.twig import MEAN_TONE
 
 
 @pytest.mark.parametrize("breadth", [0.07, 0.31, 0.8, 1.0])
@@ -38,6 +39,21 @@ def test_of_a_tree_texels_are_larger_that_tell_how_light_has_come() -> None:
     assert met[-1].shape == shows[-1].shape
     assert all((each == 255).all() for each in shows)
     assert all((each == 80).all() for each in met)
+
+
+def test_leaves_on_cards_have_the_mean_tone_of_all_twigs_whichever_those_of_the_twig_drawn() -> None:
+    draw = np.random.default_rng(6)
+    layers = draw.integers(0, 256, (4, 16, 16, 4)).astype(np.uint8)
+    layers[::2, ..., 3] = 255
+    ribbed = np.where(draw.uniform(size=(2, 16, 16)) < 0.2, 0.8, 1.0)
+    leaf_tone = np.array([0.5, 0.75])[:, None, None]
+    layers[::2, ..., 0], layers[::2, ..., 1] = 255.0 * leaf_tone * ribbed, 255.0 * ribbed
+    made, drawn = card_texels(layers), card_texels(layers, as_drawn=True)
+    assert made[..., 0].mean(axis=(1, 2)) == pytest.approx(MEAN_TONE * 255.0 * ribbed.mean(axis=(1, 2)), rel=0.01)
+    assert np.array_equal(drawn[..., 0], layers[::2, ..., 0])
+    for each in (made, drawn):
+        assert np.array_equal(each[..., 1:3], layers[1::2, ..., :2])
+        assert np.array_equal(each[..., 3], layers[::2, ..., 3])
 
 
 def test_what_is_solid_of_a_card_is_as_bright_as_all_of_it() -> None:
