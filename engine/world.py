@@ -161,25 +161,28 @@ class World:
     def all(self, kind: type[Component]) -> list[tuple[int, Component]]:
         """Return every entity with a component of exactly this type, by rising entity number.
 
-        The game's own entities are among them, those of other prairies in the same world are not. The order is fixed,
-        so that results do not depend on a set's order.
+        The game's own entities are among them, those of other prairies in the same world are not, nor those that the
+        game has deleted, even if esper still defers that. The order is fixed, so that results do not depend on a set's
+        order.
         """
         self._must_be_current()
         rows = esper.get_component(kind)
         if not rows:
             return []
         mine, component_of, found = self._mine, esper.try_component, list[tuple[int, Component]]()
+        exists = esper.entity_exists
         for row in rows:
             mark = component_of(row[0], Resident)
-            if mark is None or mark.owner is mine:  # the game's, and our own
+            if (mark is None or mark.owner is mine) and exists(row[0]):  # the game's, and our own
                 found.append(row)
         return sorted(found, key=itemgetter(0))
 
     def rows(self, kind: type[Component]) -> list[tuple[int, Component]]:
         """Return every entity with a component of exactly this type, in any order, those of other prairies too.
 
-        Esper caches the list until any entity comes or goes: ask for `changes` first. Compare it with a kept one to see
-        what has changed, and exchange many entities `uncollected`.
+        Deleted ones are among them as long as esper defers that. It caches the list until any entity comes or goes: ask
+        for `changes` first. Compare it with a kept one to see what has changed, and exchange many entities
+        `uncollected`.
         """
         self._must_be_current()
         return esper.get_component(kind)
@@ -196,9 +199,10 @@ class World:
         if not rows:
             return []
         mine, component_of, found = self._mine, esper.try_component, list[tuple[int, Component, Other]]()
+        exists = esper.entity_exists
         for entity, one in rows:
             two, mark = component_of(entity, other), component_of(entity, Resident)
-            if two is not None and (mark is None or mark.owner is mine):
+            if two is not None and (mark is None or mark.owner is mine) and exists(entity):
                 found.append((entity, one, two))
         return sorted(found, key=itemgetter(0))
 
@@ -237,7 +241,7 @@ class World:
                 for entity in list(self._mine.marks):
                     self.delete(entity)
                 for entity, mark in esper.get_component(Resident):
-                    if mark.owner is self._mine:
+                    if mark.owner is self._mine and esper.entity_exists(entity):  # esper fails if one is gone twice
                         esper.delete_entity(entity, immediate=True)
                 if not _residents(self.name, but=self) and self in _worlds:
                     esper.remove_processor(Advance)

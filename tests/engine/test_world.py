@@ -243,6 +243,21 @@ def test_entities_with_two_components_are_found_by_rising_number_and_no_others(w
     assert [(entity, grass.height) for entity, grass, _ in world.both(Grass, Score)] == [(first, 0.5), (last, 0.7)]
 
 
+def test_what_a_game_has_deleted_is_gone_at_once_even_if_esper_still_defers_that(world: World) -> None:
+    ours, theirs = world.create(Grass(0.5), Score(1)), esper.create_entity(Grass(0.6), Score(2))
+    for gone in (ours, theirs):
+        esper.delete_entity(gone)
+    assert (world.all(Grass), world.both(Grass, Score)) == ([], [])
+
+
+def test_d6_esper_can_still_delete_what_a_game_deleted_before_the_release(world: World) -> None:
+    entities = [world.create(Grass(0.5)) for _ in range(3)]
+    esper.delete_entity(entities[1])
+    world.release()
+    esper.process()
+    assert list(esper.get_entities()) == []
+
+
 def test_what_we_delete_ourselves_is_not_lost(world: World) -> None:
     ours = [world.create(Grass(0.5)) for _ in range(3)]
     world.delete(ours[0])

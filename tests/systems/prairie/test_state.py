@@ -43,6 +43,7 @@ SCENE: dict[str, Any] = {
     "quality": "low",
 }
 PLACES = np.random.default_rng(0).uniform(-25.0, 25.0, (600, 2)).astype(np.float32)
+TREES = {"quality": "minimal", "trees": {"oak": {"habit": "oak", "positions": [[0, -10], [5, 8]]}}}
 HEAD = len(b"tallgrass state\n")
 
 Told = dict[str, Floats]
@@ -333,3 +334,25 @@ def test_two_prairies_of_one_world_bring_back_what_they_share_once(played: Prair
     finally:
         esper.switch_world(world.name)
         esper.delete_world("another")
+
+
+def test_what_a_game_has_deleted_is_not_saved_even_if_esper_still_defers_that(world: World) -> None:
+    del world
+    made = Prairie.load(SCENE | TREES)
+    doomed = [
+        esper.get_component(Tree)[0][0],
+        made.add(Blast()),
+        esper.create_entity(Presser(), Pose(0.0, 0.0)),
+        esper.create_entity(Lamp(), Pose(0.0, 0.0, y=2.0)),
+    ]
+    for entity in doomed:
+        esper.delete_entity(entity)
+    state = made.state()
+    made.release()
+    esper.clear_dead_entities()
+    again = Prairie.load(SCENE | TREES)
+    counts = [len(esper.get_component(each)) for each in (WindSource, Presser)]
+    assert again.restore(state) == {}
+    assert [len(esper.get_component(each)) for each in (WindSource, Presser)] == counts
+    assert (len(esper.get_component(Tree)), esper.get_component(Lamp)) == (1, [])
+    again.release()
