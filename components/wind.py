@@ -5,11 +5,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
 from reprlib import repr as shortened
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Self, cast
+from typing import ClassVar, Literal, Self, cast
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, Field, PrivateAttr, ValidationError, model_validator
+from pydantic import Field, PrivateAttr, model_validator
 
 from .arrays import Floats
 from .body import Hover
@@ -17,7 +17,7 @@ from .course import Course
 from .declaration import Declaration, DeclarationError
 from .pose import HERE, Pose
 from .presser import Presser
-from .words import errors_in_words
+from .words import Plain
 
 INTERFACE = 1
 """Version of the interface between winds and tallgrass; it changes when winds written for it would break."""
@@ -103,21 +103,7 @@ class TwinValues:
     """
 
 
-if TYPE_CHECKING:  # a metaclass with `__call__` would hide the fields from type checkers
-    from pydantic._internal._model_construction import ModelMetaclass as _Making
-else:
-
-    class _Making(type(BaseModel)):
-        """Turns a class's validation errors into a ValueError with a plain sentence."""
-
-        def __call__(cls, *args: Any, **values: Any) -> Any:
-            try:
-                return super().__call__(*args, **values)
-            except ValidationError as error:
-                raise ValueError(f"{cls.__name__}: {errors_in_words(error, cls, cls.__name__)}") from None
-
-
-class WindPrimitive(Declaration, metaclass=_Making):
+class WindPrimitive(Declaration, metaclass=Plain):
     """A wind as an object on the prairie (paper, section 3.3): a mask on the ground and an action inside it.
 
     A primitive has no state: all its methods are pure functions of places and a time, so that any machine computes the

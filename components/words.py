@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Iterable
 from difflib import get_close_matches
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from pydantic import BaseModel, ValidationError
@@ -40,6 +41,23 @@ def sentence(error: ErrorDetails, field: Field, /) -> str:
 def errors_in_words(error: ValidationError, model: type[BaseModel], name: str, /) -> str:
     """Return the errors of a model that is called `name`, a sentence each."""
     return "; ".join(sentence(each, _field_of(each, model, name)) for each in error.errors(include_url=False))
+
+
+if TYPE_CHECKING:  # a metaclass with `__call__` would hide the fields from type checkers
+    from pydantic._internal._model_construction import ModelMetaclass
+
+    Plain = ModelMetaclass
+else:
+
+    class Plain(type(BaseModel)):
+        """Turns a class's validation errors into a ValueError with a plain sentence."""
+
+        def __call__(cls, *args: Any, **values: Any) -> Any:
+            """Return an object of the class."""
+            try:
+                return super().__call__(*args, **values)
+            except ValidationError as error:
+                raise ValueError(f"{cls.__name__}: {errors_in_words(error, cls, cls.__name__)}") from None
 
 
 def _field_of(error: ErrorDetails, model: type[BaseModel], name: str) -> Field:

@@ -14,6 +14,7 @@ from ...components.arrays import Floats
 from ...components.body import Hover, Model
 from ...components.declaration import Declaration, DeclarationError, Pair
 from ...components.wind import Extent, Grass, TwinValues
+from ...components.words import Plain
 from ...engine.memo import by_identity
 from .outline import FINE, Outline, outline_of_picture, outline_of_polygon, polygon_of_ellipse
 from .placed import PlacedWind
@@ -26,7 +27,7 @@ SOFT_RIM = 0.45
 """Width of the rim over which a blast grows to its strength, as a part of the way from the outline inwards."""
 
 
-class Shape(Declaration):
+class Shape(Declaration, metaclass=Plain):
     """The outline of a blast on the ground, in its own frame: x to the right, -z ahead. One of these."""
 
     disc: float | None = Field(default=None, gt=0.05, le=1000.0)
