@@ -23,7 +23,8 @@ def pick(terrain: Terrain, origin: Doubles, direction: Doubles, /, *, farthest: 
     found = np.full((len(origin), 3), np.nan, np.float32)
     lowest, highest = terrain.span[0] - _MARGIN, terrain.span[1] + _MARGIN
     for number, (start, way) in enumerate(zip(origin, direction, strict=True)):
-        along = way / np.linalg.norm(way)
+        scaled = way / np.abs(way).max()  # else squares of tiny lengths were 0
+        along = scaled / np.linalg.norm(scaled)
         along[np.abs(along) < _SAME] = 0.0
         begin, end = _between(start[1], along[1], lowest, highest)
         if terrain.mirrored:
@@ -73,8 +74,9 @@ def _met(terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: fl
     stops = np.concatenate([[begin], inner, [last]])
     before, after = stops[:-1], stops[1:]
     middle = at + 0.5 * (before + after)[:, None] * way
-    a, b, c, d = _corners(terrain, np.floor(middle).astype(np.intp))
     cell = np.floor(middle)
+    near = cell if terrain.mirrored else np.clip(cell, -1, counts)  # no integer is as large as some places are
+    a, b, c, d = _corners(terrain, near.astype(np.intp))
     inside = ((cell >= 0) & (cell < np.array([columns - 1, rows - 1]))) | terrain.mirrored
     u, v = (at - cell + before[:, None] * way).T * inside.T
     du, dv = way[:, None] * inside.T

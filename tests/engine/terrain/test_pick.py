@@ -59,6 +59,19 @@ def test_level_ground_is_met_where_it_is_beyond_its_edge_too(way: tuple[float, f
     np.testing.assert_allclose(met[0], np.array([1.0, 6.0, 2.0]) + 2.0 / -way[1] * np.array(way), rtol=1e-6)
 
 
+@pytest.mark.parametrize("far", [1e12, 1e30])
+def test_level_ground_is_met_however_far_off_a_ray_begins(far: float) -> None:
+    level = Terrain(np.full((3, 3), 4.0, np.float32), 10.0)
+    met = pick(level, np.array([[far, 6.0, -far]]), np.array([[0.0, -1.0, 0.0]]))
+    np.testing.assert_allclose(met[0], (far, 4.0, -far), rtol=1e-6)
+
+
+def test_the_length_of_a_direction_does_not_count_however_small() -> None:
+    level = Terrain(np.full((3, 3), 4.0, np.float32), 10.0)
+    met = pick(level, np.array([[1.0, 6.0, 2.0]]), np.array([[1e-300, -1e-300, 0.0]]))
+    np.testing.assert_allclose(met[0], (3.0, 4.0, 2.0), rtol=1e-6)
+
+
 def test_rays_meet_mirrored_ground_where_it_is_seen() -> None:
     seen = Terrain(np.pad(HILLS.heights, ((117, 117), (147, 147)), mode="reflect"), HILLS.cell)
     start, way = rays(300)
