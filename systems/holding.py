@@ -1,6 +1,6 @@
 """The GL objects of a site in one context, and their exchange for another site's piece by piece."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import chain
 from typing import TypeVar
@@ -163,6 +163,7 @@ class Holding:
         if self.site is None:
             return True  # it is uploaded when it is drawn
         if self._staged is None or self._staged.representations is not site.representations:
+            release_all(self._staged)
             self._staged = staged = Staged(site.representations, self._defines_of(site))
             if self._fits(site, self.site):
                 staged.steps = self._staging(site)
@@ -176,7 +177,7 @@ class Holding:
                 staged.steps = staged.making(self._canvas(site, air), self._compiler, site.scene.wind, ready)
         return next(self._staged.steps, "over") == "over"
 
-    def _staging(self, site: Site) -> Iterator[None]:
+    def _staging(self, site: Site) -> Generator[None, None, None]:
         for each in site.representations:
             yield from self.painters[each.name].staging(site.representations)
 

@@ -1,6 +1,6 @@
 """Staging: the grass of another site is uploaded piece by piece while the present one is drawn."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
@@ -21,7 +21,7 @@ class Staged:
     defines: dict[str, str | int]
     """Defines of the programs that draw it."""
 
-    steps: Iterator[None] = field(default_factory=lambda: iter(()))
+    steps: Generator[None, None, None] = field(default_factory=lambda: (None for _ in ()))
     """Uploads the rest, a piece a step."""
 
     air: CardWinds | None = None
@@ -37,7 +37,7 @@ class Staged:
         winds: Sequence[WindPrimitive],
         ready: Callable[[], Iterator[None]] | None,
         /,
-    ) -> Iterator[None]:
+    ) -> Generator[None, None, None]:
         """Make its own painters, one program at a time, each once the driver has compiled it in the background.
 
         Then take the steps that `ready` returns, if it is given.
@@ -55,7 +55,8 @@ class Staged:
             yield from _each_defining(block, self.defines, ready())
 
     def release(self) -> None:
-        """Release everything that has not been taken over."""
+        """Release everything that has not been taken over; what the present painters hold is theirs to release."""
+        self.steps.close()
         release_all(*self.painters.values(), self.air)
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from ...components.arrays import Bytes
 from .functions import ENUMS, functions_of
 from .limits import limits_of
+from .stream import released_unless_finished
 
 Made = TypeVar("Made")
 
@@ -80,17 +81,18 @@ def mipmapping(ctx: moderngl.Context, made: list[Bytes], /) -> Generator[None, N
         gl.glTexImage3D(target, level, stored, *size, 0, given, ENUMS["UNSIGNED_BYTE"], None)
     gl.glTexParameteri(target, ENUMS["TEXTURE_MAX_LEVEL"], len(made) - 1)
     texture.filter = (moderngl.NEAREST_MIPMAP_NEAREST, moderngl.LINEAR)
-    for level, texels in enumerate(made):
-        each = max(PIECE // texels[0].nbytes, 1)
-        for first in range(0, layers, each):
-            part = texels[first : first + each]
-            size = texels.shape[2], texels.shape[1], len(part)
-            gl.glBindTexture(target, texture.glo)
-            gl.glPixelStorei(ENUMS["UNPACK_ALIGNMENT"], 1)
-            data = part.ctypes.data
-            gl.glTexSubImage3D(target, level, 0, 0, first, *size, given, ENUMS["UNSIGNED_BYTE"], data)
-            if level == 0 or first + each < layers:
-                yield
+    with released_unless_finished(texture):
+        for level, texels in enumerate(made):
+            each = max(PIECE // texels[0].nbytes, 1)
+            for first in range(0, layers, each):
+                part = texels[first : first + each]
+                size = texels.shape[2], texels.shape[1], len(part)
+                gl.glBindTexture(target, texture.glo)
+                gl.glPixelStorei(ENUMS["UNPACK_ALIGNMENT"], 1)
+                data = part.ctypes.data
+                gl.glTexSubImage3D(target, level, 0, 0, first, *size, given, ENUMS["UNSIGNED_BYTE"], data)
+                if level == 0 or first + each < layers:
+                    yield
     return texture
 
 

@@ -1,5 +1,7 @@
 """Vertex buffers and textures of records that are refilled every frame."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any, Protocol
 
 import moderngl
@@ -19,6 +21,16 @@ def release_all(*things: Releasable | None) -> None:
     for thing in things:
         if thing is not None:
             thing.release()
+
+
+@contextmanager
+def released_unless_finished(*things: Releasable) -> Iterator[None]:
+    """Release each thing if the body raises, or if its generator is closed before its end."""
+    try:
+        yield
+    except BaseException:
+        release_all(*things)
+        raise
 
 
 def attributes(record: np.dtype[np.void]) -> tuple[str, list[str]]:

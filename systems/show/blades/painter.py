@@ -161,6 +161,7 @@ class BladesPainter(RepresentationPainter):
     def staging(self, stocks: Sequence[Any], /) -> Iterator[None]:
         """Send the blades of another stock to GL, a piece at a time; the current ones stay."""
         blades, strips = (next(stock for stock in stocks if stock.name == name) for name in ("blades", "strips"))
+        self._release_staged()
         store = yield from BladeStore.beside(self.ctx, blades.stock, strips.stock)
         self._staged = blades.stock, strips, store
 
@@ -315,7 +316,13 @@ class BladesPainter(RepresentationPainter):
     def release(self) -> None:
         """Give everything back."""
         release_all(*self.groups, self.morph, self.shelves, *self.passes, self.hearing)
-        release_all(self.store, *([] if self._staged is None else [self._staged[2]]))
+        release_all(self.store)
+        self._release_staged()
+
+    def _release_staged(self) -> None:
+        staged, self._staged = self._staged, None
+        if staged is not None:
+            staged[2].release()
 
 
 def _set_morph(

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ....engine.gl.emit import emitted, record_lookup
 from ....engine.gl.mipmaps import at_once
-from ....engine.gl.stream import Records, release_all
+from ....engine.gl.stream import Records, release_all, released_unless_finished
 from ..strips.stock import StripStock
 from .organs import organ_defines
 from .plant import BladeStock
@@ -66,10 +66,12 @@ class BladeStore:
         self.organs = organ_defines(blades.records.dtype)
         self.blades = Records(ctx, blades.records.dtype, BLADES_ROW, rows=-(-blades.records.size // BLADES_ROW))
         self.blades.write(blades.records.reshape(-1))
-        yield
-        self.points = strips.targets.shape[3]
-        self.slices = _texture(ctx, strips.slices.reshape(-1, 1, 1), SLICES_ROW)
-        yield
+        with released_unless_finished(self.blades):
+            yield
+            self.points = strips.targets.shape[3]
+            self.slices = _texture(ctx, strips.slices.reshape(-1, 1, 1), SLICES_ROW)
+            with released_unless_finished(self.slices):
+                yield
         self.targets = _texture(ctx, strips.targets.reshape(-1, self.points, 2), TARGETS_ROW)
 
     @property

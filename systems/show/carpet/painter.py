@@ -102,6 +102,7 @@ class CarpetPainter(RepresentationPainter):
     def staging(self, stocks: Sequence[Any], /) -> Iterator[None]:
         """Upload the images of another stock, a piece at a time, while the present one is drawn."""
         carpet = next(each for each in stocks if each.name == "carpet")
+        self._release_staged()
         images = yield from sending_carpet(self.images.ctx, carpet.stock.growths)
         self._staged = carpet.stock, images
 
@@ -313,8 +314,12 @@ class CarpetPainter(RepresentationPainter):
     def release(self) -> None:
         """Release all GL objects."""
         release_all(self.ground, self.air, self.images, self.bents)
-        if self._staged is not None:
-            self._staged[1].release()
+        self._release_staged()
+
+    def _release_staged(self) -> None:
+        staged, self._staged = self._staged, None
+        if staged is not None:
+            staged[1].release()
 
 
 def _shares(patches: PatchTable, cover: Floats | None) -> Bytes:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Floats
 from ....engine.gl.mipmaps import PIECE, at_once, mipmapping, stack_for
+from ....engine.gl.stream import released_unless_finished
 from ...grow.record import Growth
 from .grow import carpet_of
 
@@ -28,12 +29,13 @@ def sending_carpet(ctx: moderngl.Context, growths: Sequence[Growth]) -> Generato
         return texture
     texture = ctx.texture_array((columns, rows, layers), 4)
     piece, layer = max(PIECE // images[0][0].nbytes, 1), 0
-    for of_model in images:
-        for first in range(0, len(of_model), piece):
-            part = np.ascontiguousarray(of_model[first : first + piece])
-            texture.write(part, viewport=(0, 0, layer, columns, rows, len(part)))
-            layer += len(part)
-            yield
+    with released_unless_finished(texture):
+        for of_model in images:
+            for first in range(0, len(of_model), piece):
+                part = np.ascontiguousarray(of_model[first : first + piece])
+                texture.write(part, viewport=(0, 0, layer, columns, rows, len(part)))
+                layer += len(part)
+                yield
     texture.build_mipmaps()
     texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
     return texture

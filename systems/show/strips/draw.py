@@ -13,7 +13,7 @@ from ....engine.gl.emit import emitted, record_lookup
 from ....engine.gl.mipmaps import at_once
 from ....engine.gl.remembered import Shelves
 from ....engine.gl.shaders import Texts, set_uniform, set_uniform_array
-from ....engine.gl.stream import Records, release_all
+from ....engine.gl.stream import Records, release_all, released_unless_finished
 from ...frame.block import filled, joined, room_for
 from ...grow.organs import any_heads
 from ...grow.record import Form
@@ -138,6 +138,8 @@ class StripDrawing:
 
     def staging(self, forms: Sequence[Form], atlas: Atlas, /) -> Iterator[None]:
         """Upload new strips beside those in use, a piece at a time."""
+        release_all(self._staged)
+        self._staged = None
         self._staged = yield from _uploading(self._canvas.ctx, self.rings, forms, atlas)
 
     def restock(self) -> None:
@@ -235,9 +237,8 @@ class StripDrawing:
     def release(self) -> None:
         """Release all GL objects."""
         arrays = list(self._arrays.values())
-        staged = [] if self._staged is None else [self._staged]
         release_all(*arrays, *(array.program for array in arrays), self.hearing, self.shelves)
-        release_all(self._uploaded, *staged)
+        release_all(self._uploaded, self._staged)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -284,7 +285,8 @@ def _uploading(
 ) -> Generator[None, None, _Uploaded]:
     """Upload an atlas a piece at a time."""
     texels = yield from sending_strips(ctx, atlas.texels)
-    ranks = yield from sending_strips(ctx, atlas.ranks)
+    with released_unless_finished(texels):
+        ranks = yield from sending_strips(ctx, atlas.ranks)
     return _Uploaded(forms, rings, texels, ranks, extent_texture(ctx, atlas.extents))
 
 

@@ -1,0 +1,57 @@
+"""Grass that is sent to GL while other grass is drawn, and then not wanted (F4)."""
+
+import gc
+from collections.abc import Callable
+from time import sleep
+from typing import Any
+
+import moderngl
+import pytest
+
+from tallgrass.systems.prairie import Prairie
+from tallgrass.testing import LITTLE
+
+Stage = Any
+Load = Callable[..., Prairie]
+
+
+def play_until_staged(stage: Stage, prairie: Prairie) -> None:
+    """Draw frames until a piece of the grass that has grown anew is in GL."""
+    assert prairie.painter is not None
+    before = prairie.painter._staged  # noqa: SLF001 - no frame shows it
+    for _ in range(500):
+        prairie.advance(0.05)
+        stage.shot(prairie)
+        if prairie.painter._staged not in (None, before):  # noqa: SLF001
+            return
+        sleep(0.01)
+    pytest.fail("it never comes")
+
+
+@pytest.mark.parametrize("keys", [{}, {"withered": 0.3}], ids=["same programs", "other programs"])
+def test_f4_grass_that_is_given_up_half_way_leaves_nothing_behind_in_gl(
+    ctx: moderngl.Context, stage: Stage, load: Load, keys: dict[str, Any]
+) -> None:
+    prairie = load(LITTLE)
+    stage.shot(prairie)
+    saved = prairie.state()
+    gc.collect()  # what other tests have left
+    before, ctx.gc_mode = ctx.gc_mode, "context_gc"
+    ctx.objects.clear()
+    try:
+        for pieces in range(6):
+            prairie.change_kind("tall", height=[0.5, 1.0 + 0.02 * pieces], over=1000.0, **keys)
+            play_until_staged(stage, prairie)
+            for _ in range(pieces):
+                prairie.advance(0.05)
+                stage.shot(prairie)
+            prairie.restore(saved)
+        prairie.change_kind("short", stiffness=1.5)
+        play_until_staged(stage, prairie)
+        prairie.release()
+        gc.collect()
+        dropped = [thing for thing in ctx.objects if not isinstance(thing, moderngl.InvalidObject)]
+    finally:
+        ctx.gc_mode = before
+        ctx.objects.clear()
+    assert dropped == []
