@@ -45,6 +45,10 @@ class Place(Declaration):
     """Channel of the map that holds this kind's density."""
 
 
+NOWHERE = Place(map=MapArray(np.zeros((1, 1), np.uint8)))
+"""Map of a kind that grows nowhere, as `place: none` declares it."""
+
+
 def _or_none(schema: dict[str, Any]) -> None:
     schema["anyOf"].insert(1, {"const": "none"})
 
@@ -144,7 +148,7 @@ class GrassKind(Declaration):
     @classmethod
     def _nowhere(cls, value: Any) -> Any:
         """Read `none` as an empty map."""
-        return Place(map=MapArray(np.zeros((1, 1), np.uint8))) if isinstance(value, str) and value == "none" else value
+        return NOWHERE if isinstance(value, str) and value == "none" else value
 
     @model_validator(mode="before")
     @classmethod

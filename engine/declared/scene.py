@@ -22,7 +22,7 @@ from ...components.wind import Mixing, WindPrimitive
 from ...components.words import suggestion
 from ..handed import MOST_SEED, must_be_known
 from .camera import CameraSource
-from .grass import MOST_KINDS, GrassKind
+from .grass import MOST_KINDS, NOWHERE, GrassKind
 from .lamp import LampOnPath
 from .light import Light
 from .parts import PARTS, PartName
@@ -165,8 +165,8 @@ class Scene(Declaration):
         if self.terrain.window is None:
             return self
         for name, kind in self.grass.items():
-            if kind.place is not None:
-                why = "a map has no place on ground without an edge, as terrain.window makes it: use slope or sow"
+            if kind.place not in (None, NOWHERE):
+                why = "a map has no place on ground without an edge, as terrain.window makes it: use slope, none or sow"
                 raise DeclarationError(why, "grass", name, "place")
         return self
 

@@ -43,12 +43,12 @@ def prairies(ctx: moderngl.Context) -> Iterator[Any]:
     loaded = list[Prairie]()
 
     def load(
-        about: tuple[float, float] = (0.0, 0.0), window: float = 512.0, trees: Any = None, **options: Any
+        about: tuple[float, float] = (0.0, 0.0), window: float = 512.0, trees: Any = None, grass: Any = None, **options: Any
     ) -> Prairie:
         scene = {
             "tallgrass": 2,
             "terrain": {"heights": dunes, "window": window, "cell": 2.0},
-            "grass": {"tall": {"height": [0.4, 0.8]}, "short": {"height": [0.2, 0.3], "slope": 20}},
+            "grass": grass or {"tall": {"height": [0.4, 0.8]}, "short": {"height": [0.2, 0.3], "slope": 20}},
             "quality": SOON_GROWN,
             "camera": {"position": [*about]},
             "trees": trees or {},
@@ -145,6 +145,16 @@ def test_n5_a_forest_is_the_same_for_who_comes_there_and_who_begins_there(stage:
     assert len(root) > 200
     assert np.abs(root[:, 1] - dunes(root[:, 0], root[:, 2])).max() < 0.01
     assert np.array_equal(root, seen[1]["root"])
+
+
+def test_a_kind_that_grows_nowhere_grows_where_it_is_sown_however_far_off(stage: Stage, prairies: Any) -> None:
+    played = prairies(AWAY, grass={"bare": {"place": "none", "height": [0.2, 0.3]}, "crop": {"place": "none"}})
+    aim = at(played, AWAY, pitch=-60.0)
+    bare = stage.shot(played, aim)
+    assert played.grass_at([AWAY]).density.tolist() == [[0.0, 0.0]]
+    played.sow("crop", Footprint(radius=15.0), 1.0, pose=Pose(*AWAY))
+    assert played.grass_at([AWAY, (AWAY[0] + 40.0, AWAY[1])]).name == ("crop", "")
+    assert np.abs(stage.shot(played, aim) - bare).mean() > 10.0
 
 
 def test_d6_what_needs_an_edge_is_refused_in_a_sentence() -> None:
