@@ -9,15 +9,15 @@ from ...components.arrays import Doubles
 from .crown import shading
 from .grow import Stems, Tree
 
-BARK = np.dtype([("stem", "4f4"), ("side", "4f4"), ("surface", "4f4"), ("pivot", "3f4"), ("shading", "4f4")])
+BARK = np.dtype([("stem", "4f4"), ("side", "4f4"), ("shading", "4f4"), ("surface", "2f4"), ("limb_row", "u4")])
 """A vertex of bark; `wood.vert` describes each field."""
 
 PACKED = np.dtype(
     {
         "names": list(BARK.names or ()),
-        "formats": ["4u2", "4u1", "4f2", "3f2", "4u1"],
-        "offsets": [0, 8, 12, 20, 28],
-        "itemsize": 32,
+        "formats": ["4u2", "4u1", "4u1", "2f2", "u2"],
+        "offsets": [0, 8, 12, 16, 20],
+        "itemsize": 24,
     }
 )
 """The same vertex in fewer bytes: vertex fetches bound the drawing of wood."""
@@ -110,15 +110,12 @@ class _Part(NamedTuple):
     """Greatest distance of each stem's points from the lines between these, shape (stems,) [m]."""
 
 
-def bark_of(
-    tree: Tree, area: Doubles, pivot: Doubles, limb: Doubles, /
-) -> tuple[NDArray[np.void], tuple[Wood, ...]]:  # fmt: skip
+def bark_of(tree: Tree, area: Doubles, first_limb: int, /) -> tuple[NDArray[np.void], tuple[Wood, ...]]:
     """Return the bark of all stems, records of `BARK`, and the wood for each of `PIXEL_RADII` and beyond.
 
-    `area` is each twig's leaf area [m²]. Of each limb, `pivot` is the foot (n, 3) [m], and `limb` its random number and
-    its frequency (n, 2).
+    `area` is each twig's leaf area [m²], and `first_limb` the row of the first limb in the texture of twigs.
     """
-    limb_of = None, np.arange(len(limb)), tree.limb_of
+    limb_of = None, np.arange(len(tree.levels[1].at)), tree.limb_of
     levels = _with_foot(tree.levels[0]), *tree.levels[1:]
     every = np.concatenate([stems.spine.reshape(-1, 3) for stems in levels])
     shades = np.split(shading(tree, area, every), np.cumsum([stems.spine[..., 0].size for stems in levels])[:-1])
@@ -128,13 +125,8 @@ def bark_of(
         variants = [_flared(_tubes(stems, sides))] if limbs is None else [_tubes(stems, sides), _ribbons(stems)]
         for ribbon, vertices in enumerate(variants):
             vertices["shading"] = shade.reshape(*stems.spine.shape[:2], 1, 4)
-            if limbs is None:
-                vertices["pivot"] = vertices["stem"][..., :3]
-            else:
-                vertices["pivot"], vertices["surface"][..., 2:] = (
-                    pivot[limbs][:, None, None],
-                    limb[limbs][:, None, None],
-                )
+            if limbs is not None:
+                vertices["limb_row"] = (first_limb + limbs)[:, None, None]
             first = sum(len(each) for each in bark)
             step = max(vertices.shape[1] // 4, 3)
             fine, straight = (_faces(*vertices.shape, step=each) + first for each in (1, step))
@@ -268,7 +260,7 @@ def ranges_of(vertices: NDArray[np.void], /) -> Ranges:
 def packed(vertices: NDArray[np.void], ranges: Ranges, /) -> NDArray[np.void]:
     """Return vertices as records of `PACKED`."""
     records, (side, mean) = np.zeros(len(vertices), PACKED), ranges.most_shading
-    for name in ("surface", "pivot"):
+    for name in ("surface", "limb_row"):
         records[name] = vertices[name]
     part = (vertices["stem"] - np.array(ranges.stem_least)) / np.maximum(ranges.stem_range, LEAST_RANGE)
     records["stem"] = np.round(STEM_SCALE * part)

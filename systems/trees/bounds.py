@@ -97,11 +97,16 @@ def blocks_of(balls: Balls, order: NDArray[np.intp], /) -> Balls:
     return Balls(within, np.maximum.reduceat(off, first))
 
 
-def wood_balls(vertices: NDArray[np.void], height: float, /) -> Balls:
-    """Return the bounding spheres of vertices, records of `BARK`, with half of the stems to the next ones."""
+def wood_balls(vertices: NDArray[np.void], twigs: NDArray[np.void], height: float, /) -> Balls:
+    """Return the bounding spheres of vertices, records of `BARK`, with half of the stems to the next ones.
+
+    `twigs` are records of `TWIG`, among them those of the limbs.
+    """
     stem = vertices["stem"].astype(np.float64)
     around = (1.0 + MOST_OUTSET) * stem[:, 3] + 0.5 * height / (POINTS[0] - 1)
-    return Balls(stem[:, :3], around + _sway(stem[:, :3], vertices["pivot"], height))
+    limb = vertices["limb_row"]
+    pivot = np.where(limb[:, None] > 0, twigs["pivot"][limb], stem[:, :3])
+    return Balls(stem[:, :3], around + _sway(stem[:, :3], pivot, height))
 
 
 def _sway(place: Doubles, pivot: NDArray[np.floating], height: float) -> Doubles:

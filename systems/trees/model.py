@@ -35,6 +35,9 @@ class Model:
     twigs: NDArray[np.void]
     """Records of `TWIG`, in an order whose every start is a fair sample, shape (n,)."""
 
+    limbs: NDArray[np.void]
+    """Its limbs as records of `TWIG`, shape (n,)."""
+
     vertices: NDArray[np.void]
     """Records of `BARK`, shape (n,)."""
 
@@ -93,39 +96,41 @@ def models_of(name: HabitName, seed: int, /) -> tuple[Model, ...]:
 def _model(habit: Habit, height: float, *, seed: int) -> Model:
     tree = grown(habit, height, seed=seed)
     area = leaf_area(tree.twigs, habit.leaf, habit.twigs.length)
-    twigs = _twig_records(tree, area, seed)
-    vertices, wood = bark_of(tree, area, *_limbs(tree, seed))
+    limbs = _limb_records(tree, seed)
+    twigs = _twig_records(tree, area, limbs)
+    vertices, wood = bark_of(tree, area, len(twigs))
     ends = tree.twigs.foot + tree.twigs.length[:, None] * tree.twigs.along
     balls = twig_balls(twigs, height, habit)
-    parts = zip(balls, wood_balls(vertices, height), strict=True)
+    parts = zip(balls, wood_balls(vertices, np.concatenate([twigs, limbs]), height), strict=True)
     slices = slices_of(Balls(*(np.concatenate(each) for each in parts)))
     radius = float(np.hypot(ends[:, 0], ends[:, 2]).max())
     top = float(ends[:, 1].max())
     half = MARGIN * max(0.5 * top, radius)  # a picture from above is as high as the tree is broad
     return Model(
-        habit, height, twigs, vertices, wood, 0.5 * top, half, *picture_size(MARGIN * radius / half), radius,
+        habit, height, twigs, limbs, vertices, wood, 0.5 * top, half, *picture_size(MARGIN * radius / half), radius,
         balls, blocks_of(balls, twigs["grouped"].astype(np.intp)), slices,
         trunk_hertz(height, habit.slender * height), float(area.sum()),
     )  # fmt: skip
 
 
-def _limbs(tree: Tree, seed: int) -> tuple[Doubles, Doubles]:
-    """Return each limb's foot (n, 3), and its random number and frequency (n, 2)."""
+def _limb_records(tree: Tree, seed: int) -> NDArray[np.void]:
+    """Return the limbs as records of `TWIG`."""
     limbs = tree.levels[1]
-    random = np.random.default_rng((seed, 43)).uniform(0.0, 1.0, len(limbs.at))
-    numbers = np.stack([random, [limb_hertz(each) for each in limbs.length]], axis=1)
-    foot, numbers = (each.astype(np.float16).astype(np.float64) for each in (limbs.spine[:, 0], numbers))
-    return foot, numbers  # rounded, as in vertices
+    records = np.zeros(len(limbs.at), TWIG)
+    records["pivot"] = limbs.spine[:, 0]
+    records["limb"] = np.random.default_rng((seed, 43)).uniform(0.0, 1.0, len(limbs.at))
+    records["hertz"] = [limb_hertz(each) for each in limbs.length]
+    return records
 
 
-def _twig_records(tree: Tree, area: Doubles, seed: int) -> NDArray[np.void]:
-    twigs, (pivot, limb) = tree.twigs, _limbs(tree, seed)
+def _twig_records(tree: Tree, area: Doubles, limbs: NDArray[np.void]) -> NDArray[np.void]:
+    twigs = tree.twigs
     records = np.zeros(len(twigs.foot), TWIG)
     for name in ("foot", "along", "face"):
         records[name] = getattr(twigs, name)
     records["span"] = twigs.length  # strict GLSL compilers take `length` for a method
-    records["pivot"] = pivot[twigs.limb]
-    records["limb"], records["hertz"] = limb[twigs.limb].T
+    for name in ("pivot", "limb", "hertz"):
+        records[name] = limbs[name][twigs.limb]
     middle = twigs.foot + 0.5 * twigs.length[:, None] * twigs.along.astype(np.float64)
     records["shading"] = shading(tree, area, middle)
     records["grouped"] = grouped(middle)

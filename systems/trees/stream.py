@@ -70,8 +70,9 @@ class GpuModel:
             "column": (ROW_SPACING * model.radius,), **ranges._asdict(),
         }  # fmt: skip
         """Uniforms of the model."""
-        self.twigs = Records(ctx, TWIG, ROW, rows=-(-len(model.twigs) // ROW))
-        self.twigs.write(model.twigs)
+        twigs = np.concatenate([model.twigs, model.limbs])
+        self.twigs = Records(ctx, TWIG, ROW, rows=-(-len(twigs) // ROW))
+        self.twigs.write(twigs)
         self.vertices = ctx.buffer(packed(model.vertices, ranges))
         self.triangles = ctx.buffer(np.concatenate([each.triangles for each in model.wood]))
         self.first_triangle: list[int] = np.cumsum([0, *(len(each.triangles) for each in model.wood)]).tolist()
@@ -103,7 +104,7 @@ class GpuModel:
 
     def bark(self, program: moderngl.Program) -> tuple[moderngl.Buffer | str, ...]:
         """Return the vertex buffer of its wood as content of a vertex array: the attributes that a program has."""
-        names, forms = list(PACKED.names or ()), ("4u2", "4f1", "4f2", "3f2 2x", "4f1")
+        names, forms = list(PACKED.names or ()), ("4u2", "4f1", "4f1", "2f2", "1u2 2x")
         ends = [*(PACKED.fields[name][1] for name in names), PACKED.itemsize] if PACKED.fields else []
         kept = [
             form if name in program else f"{end - start}x"

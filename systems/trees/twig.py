@@ -8,12 +8,13 @@ from .habit import Habit
 TWIG = np.dtype(
     [
         ("foot", "3f4"), ("span", "f4"),  # [m]
-        ("along", "3f4"), ("limb", "f4"),  # random number of its limb, 0 to 1
-        ("face", "3f4"), ("hertz", "f4"),  # frequency of its limb
-        ("pivot", "3f4"), ("grouped", "f4"),  # foot of its limb [m]; the twig at this place of the blocks
+        ("along", "3f4"), ("grouped", "f4"),  # the twig at this place of the blocks
+        ("face", "3f4"), ("limb", "f4"),  # random number of its limb, 0 to 1
+        ("pivot", "3f4"), ("hertz", "f4"),  # foot of its limb [m], and its frequency
         ("shading", "4f4"),  # optical depth outwards, linear in direction
     ]
 )  # fmt: skip
+"""A twig. After a model's twigs come its limbs, whose `limb`, `pivot` and `hertz` alone are read, for their wood."""
 
 BLOCK = 64
 """Twigs that are drawn together on their cards, as many as a wave of a graphics card has lanes."""

@@ -113,7 +113,7 @@ void main() {
     on = corner_of(gl_VertexID);
 #ifdef LEAVES
     vec3 values;
-    Twig twig = Twig(vec3(0.0), twig_length, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 1.0, vec3(0.0), 0.0, vec4(0.0));
+    Twig twig = Twig(vec3(0.0), twig_length, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 1.0, vec4(0.0));
     shape = corner_on(0, number, on, 0.0, normal, values);
     inside = vec4(values, 0.0);
     float size = 1.0;

@@ -6,14 +6,15 @@
 #include "systems/trees/far.py"
 #include "systems/trees/leaf_light.glsl"
 #include "systems/trees/pigment.glsl"
+#include "systems/trees/twig.py"
 #include "systems/trees/wood.py"
 
 in uvec4 stem;   // middle of the model's stem; its radius; 0 to STEM_SCALE within their ranges
 in vec4 side;    // direction of the vertex from the middle, a unit vector, and outset of a flat-sided tube's corners; or a ribbon's tangent, and
                  // -1 or 1 on its edge
-in vec4 surface; // position around the stem and along it [m]; random number and frequency of its limb
-in vec3 pivot;   // foot of its limb
 in vec4 shading; // optical depth, linear in direction about 0.5 and in the mean, relative to the greatest
+in vec2 surface; // position around the stem and along it [m]
+in uint limb_row; // its limb, among the twigs; 0 on the trunk
 
 uniform vec4 stem_least;    // ranges, as in bark.py
 uniform vec4 stem_range;
@@ -53,7 +54,7 @@ vec3 outward(vec3 middle_at) {
 }
 
 void main() {
-    bark_at = surface.xy;
+    bark_at = surface;
     vec4 stem_at = stem_least + stem_range * (vec4(stem) / STEM_SCALE), depths = vec4(2.0 * shading.xyz - 1.0, shading.w) * most_shading.xxxy;
 #ifdef BAKED
     inside = depths;
@@ -66,7 +67,8 @@ void main() {
     grass_here = vec2(0.0);
     gl_Position = baked * vec4(seen_at, 1.0);
 #else
-    vec3 middle_at = swayed(stem_at.xyz, pivot, surface.z, surface.w, message);
+    Twig limb = twig_of(int(limb_row));
+    vec3 middle_at = swayed(stem_at.xyz, limb_row > 0u ? limb.pivot : stem_at.xyz, limb.limb, limb.hertz, message);
     facing = outward(middle_at);
     vec4 projected = clip * vec4(middle_at, 1.0);
     float pixel_width = THINNEST * max(projected.w, AWAY) / pixels_per_metre(), half_width = scale * stem_at.w;
