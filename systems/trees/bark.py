@@ -1,5 +1,6 @@
 """The bark of a tree: tubes around its stems, and camera-facing ribbons in place of thin ones."""
 
+from math import log
 from typing import NamedTuple
 
 import numpy as np
@@ -61,6 +62,9 @@ BUTTRESSES, BUTTRESS = 5, 0.6
 FOOT_RINGS = -1.2, 0.0, 0.8, 1.8, 3.2
 """Heights of rings around a trunk's foot, relative to its radius: on a slope, some are under the ground."""
 
+FOOT_ENDS = FLARE_HEIGHT * log(FLARE * (1.0 + BUTTRESS) / 0.05)
+"""Height from which on a trunk is widened by less than a twentieth, relative to its radius."""
+
 WHOLE_BEND = 1.5
 """Length of bark across a ribbon, relative to its width: half a circumference over a diameter."""
 
@@ -78,8 +82,8 @@ class Ranges(NamedTuple):
     """Greatest absolute values of `shading`: of its directional parts, and of its mean."""
 
 
-class Wood(NamedTuple):
-    """Triangles of bark that are drawn at some distance."""
+class Faces(NamedTuple):
+    """Triangles of bark that a pass draws at some distance."""
 
     triangles: NDArray[np.uint32]
     """Shape (n, 3), the thickest first; next to the eye, where none is thinner than a pixel, the lowest first."""
@@ -91,6 +95,16 @@ class Wood(NamedTuple):
     """Least height from each triangle on, (n,) [m]."""
 
 
+class Wood(NamedTuple):
+    """Bark that is drawn at some distance."""
+
+    whole: Faces
+    """With tubes of thick stems."""
+
+    edges: Faces
+    """For soft edges, which are the same on a ribbon: all is ribbons but the trunk's foot."""
+
+
 class _Part(NamedTuple):
     """Stems whose triangles are drawn stem by stem."""
 
@@ -98,10 +112,10 @@ class _Part(NamedTuple):
     """Shape (stems, n, 3)."""
 
     radius_at_foot: Doubles
-    """Radius of each stem at its foot, shape (stems,) [m]."""
+    """Radius of each stem at its foot, shape (stems,) [m]; infinite for a trunk, which is never thin."""
 
     ribbon: bool | None
-    """True for ribbons, which stand for thin stems; False for tubes of thick ones; None for both."""
+    """True for ribbons, which stand for thin stems; False for tubes of thick ones; None for what is always drawn."""
 
     straight: NDArray[np.intp]
     """The triangles of fewer points, down to the ends of a short stem."""
@@ -122,18 +136,20 @@ def bark_of(tree: Tree, area: Doubles, first_limb: int, /) -> tuple[NDArray[np.v
     bark: list[NDArray[np.void]] = []
     parts: list[_Part] = []
     for stems, sides, shade, limbs in zip(levels, SIDES, shades, limb_of, strict=True):
-        variants = [_flared(_tubes(stems, sides))] if limbs is None else [_tubes(stems, sides), _ribbons(stems)]
-        for ribbon, vertices in enumerate(variants):
+        tubes, of_trunk = _tubes(stems, sides), limbs is None
+        foot = _rings_of_foot(stems) if of_trunk else 0
+        for ribbon, vertices in enumerate((_flared(tubes) if of_trunk else tubes, _ribbons(stems))):
             vertices["shading"] = shade.reshape(*stems.spine.shape[:2], 1, 4)
             if limbs is not None:
                 vertices["limb_row"] = (first_limb + limbs)[:, None, None]
             first = sum(len(each) for each in bark)
             step = max(vertices.shape[1] // 4, 3)
             fine, straight = (_faces(*vertices.shape, step=each) + first for each in (1, step))
-            of_trunk = limbs is None
-            parts.append(
-                _Part(fine, stems.radius[:, 0], None if of_trunk else bool(ribbon), straight, _bends(stems.spine, step))
-            )
+            at_foot = np.full(len(stems.at), np.inf) if of_trunk else stems.radius[:, 0]
+            below = 2 * foot * (vertices.shape[2] - 1)
+            if foot and not ribbon:
+                parts.append(_Part(fine[:, :below], at_foot, None, fine[:, :below], at_foot))
+            parts.append(_Part(fine[:, below:], at_foot, bool(ribbon), straight, _bends(stems.spine, step)))
             bark.append(vertices.reshape(-1))
     vertices = np.concatenate(bark)
     stem = vertices["stem"].astype(np.float64)
@@ -142,22 +158,31 @@ def bark_of(tree: Tree, area: Doubles, first_limb: int, /) -> tuple[NDArray[np.v
 
 def _wood(parts: list[_Part], stem: Doubles, pixel: float) -> Wood:
     """Return the wood where a stem of radius `pixel` [m] is a pixel wide; `stem` is that of each vertex, (n, 4)."""
-    triangles = np.concatenate([_triangles(part, pixel) for part in parts]).astype(np.uint32)
+    passes = (np.concatenate([_triangles(part, pixel, edges=edges) for part in parts]) for edges in (False, True))
+    return Wood(*(_sorted(triangles, stem, near=not pixel) for triangles in passes))
+
+
+def _sorted(triangles: NDArray[np.intp], stem: Doubles, *, near: bool) -> Faces:
+    """Return triangles in the order in which they are drawn, with `near` next to the eye."""
     around, low = stem[triangles, 3], stem[triangles, 1].min(axis=1)
     most = around.max(axis=1)
     # Rounding keeps triangles of one stem together: they share vertices.
     thickness = np.round(np.log(around.min(axis=1) + most) / np.log(ALIKE))
-    order = np.argsort(-thickness if pixel else np.floor(low), kind="stable")
+    order = np.argsort(np.floor(low) if near else -thickness, kind="stable")
     radii, lows = np.maximum.accumulate(most[order[::-1]]), np.minimum.accumulate(low[order[::-1]])[::-1]
-    return Wood(np.asarray(triangles[order], np.uint32), radii, lows)
+    return Faces(np.asarray(triangles[order], np.uint32), radii, lows)
 
 
-def _triangles(part: _Part, pixel: float) -> NDArray[np.intp]:
-    """Return a part's triangles (n, 3) where a stem of radius `pixel` [m] is a pixel wide."""
+def _triangles(part: _Part, pixel: float, *, edges: bool) -> NDArray[np.intp]:
+    """Return a part's triangles (n, 3) where a stem of radius `pixel` [m] is a pixel wide, of `Wood.whole` or `edges`.
+
+    Edges of a tube have all its points, so that they lie along it.
+    """
     if part.ribbon is None:
         return part.triangles.reshape(-1, 3)
-    drawn = (part.radius_at_foot < ROUND * pixel) == part.ribbon
-    straight = part.ribbon & ((part.bend < BENT * 2.0 * pixel) | (pixel >= STRAIGHT))
+    thin = part.radius_at_foot < ROUND * pixel
+    drawn = np.full(len(thin), part.ribbon) if edges else thin == part.ribbon
+    straight = part.ribbon & thin & ((part.bend < BENT * 2.0 * pixel) | (pixel >= STRAIGHT))
     fine, coarse = part.triangles[drawn & ~straight], part.straight[drawn & straight]
     return np.concatenate([fine.reshape(-1, 3), coarse.reshape(-1, 3)])
 
@@ -181,6 +206,11 @@ def _with_foot(trunk: Stems) -> Stems:
     thick = np.interp(high, spine[:, 1], radius)
     spine, radius = np.concatenate([foot, spine[above]]), np.concatenate([thick, radius[above]])
     return Stems(spine[None], trunk.parent, trunk.at, radius[None])
+
+
+def _rings_of_foot(trunk: Stems) -> int:
+    """Return the number of rings of a trunk that are widened, and so not round."""
+    return int((trunk.spine[0, :, 1] < FOOT_ENDS * trunk.radius[0, 0]).sum())
 
 
 def _flared(vertices: NDArray[np.void]) -> NDArray[np.void]:

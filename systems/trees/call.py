@@ -175,5 +175,5 @@ def uniforms_of(
 def wood_vertices(model: GpuModel, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:
     """Return the first vertex and the number of vertices that are drawn of a stream's wood."""
     drawn, wood_class = model.wood[name], model.wood_class[name]
-    end = len(model.model.wood[wood_class].triangles) if whole else drawn.soft if soft else drawn.solid
-    return 3 * model.first_triangle[wood_class], 3 * end
+    end = len(model.model.wood[wood_class].whole.triangles) if whole else drawn.soft if soft else drawn.solid
+    return 3 * model.first_triangle[2 * wood_class + soft], 3 * end

@@ -142,7 +142,7 @@ class GpuKind:
         def draw_tree(number: int) -> None:
             matrix = view_matrix(number, model.model.middle, model.model.half, model.model.aspect)
             for array, count in (
-                (wood, 3 * len(model.model.wood[0].triangles)),
+                (wood, 3 * len(model.model.wood[0].whole.triangles)),
                 (cards, QUAD * len(model.model.twigs)),
             ):
                 self.set_uniforms(array.program, model, {}, noise=array is wood)

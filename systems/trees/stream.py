@@ -74,9 +74,10 @@ class GpuModel:
         self.twigs = Records(ctx, TWIG, ROW, rows=-(-len(twigs) // ROW))
         self.twigs.write(twigs)
         self.vertices = ctx.buffer(packed(model.vertices, ranges))
-        self.triangles = ctx.buffer(np.concatenate([each.triangles for each in model.wood]))
-        self.first_triangle: list[int] = np.cumsum([0, *(len(each.triangles) for each in model.wood)]).tolist()
-        """First triangle of each of `PIXEL_RADII`."""
+        triangles = [faces.triangles for wood in model.wood for faces in wood]
+        self.triangles = ctx.buffer(np.concatenate(triangles))
+        self.first_triangle: list[int] = np.cumsum([0, *map(len, triangles)]).tolist()
+        """First triangle of the faces of each of `PIXEL_RADII`: of the whole wood, then of its edges."""
         self.bare = Stream(ctx, INSTANCE)
         self._alone = np.zeros(1, INSTANCE)
         for name in ("twig_share", "columns", "opacity", "scale", "foliage", "tint"):
@@ -128,9 +129,9 @@ class GpuModel:
         """Choose the triangles that a stream of wood draws, as `parts` returns them, up to a height [m]."""
         self.wood_class[name] = wood_class = int(np.searchsorted(PIXEL_RADII, pixel_radius))
         wood = self.model.wood[wood_class]
-        solid, soft = parts(wood.radii, pixel_radius, foliage)
-        low = int(np.searchsorted(wood.lows, top))
-        self.wood[name] = Parts(min(solid, low), min(soft, low))
+        drawn = parts(wood.whole.radii, wood.edges.radii, pixel_radius, foliage)
+        low = (int(np.searchsorted(faces.lows, top)) for faces in wood)
+        self.wood[name] = Parts(*map(min, drawn, low))
 
     def rehearse(self) -> list[str]:
         """Put a tree into each empty stream, to draw it once; return these streams' names."""

@@ -51,10 +51,10 @@ class Parts(NamedTuple):
     """Numbers of leading triangles of `Wood` that are drawn."""
 
     solid: int
-    """Number of leading triangles that may cover whole pixels."""
+    """Number of leading triangles of `whole` that may cover whole pixels."""
 
     soft: int
-    """Number of leading triangles that may cover a part of a pixel, at their edges."""
+    """Number of leading triangles of `edges` that may cover a part of a pixel."""
 
 
 def nearest_ahead(clip: Doubles, middle: Doubles, eye: Doubles, reach: Doubles, /) -> Doubles:
@@ -90,14 +90,15 @@ def _faintest_stems() -> list[float]:
 FAINTEST_STEM = _faintest_stems()
 
 
-def parts(radii: Doubles, pixel_radius: float, foliage: float, /) -> Parts:
+def parts(whole: Doubles, edges: Doubles, pixel_radius: float, foliage: float, /) -> Parts:
     """Return the triangles drawn of trees with at least a share of `foliage` of their leaves.
 
-    `radii` are those of `Wood`; `pixel_radius` is that of a stem a pixel wide at the nearest tree [m of the model].
+    `whole` and `edges` are the `radii` of these faces of `Wood`; `pixel_radius` is that of a stem a pixel wide at the
+    nearest tree [m of the model].
     """
 
-    def count(radius: float) -> int:
+    def count(radii: Doubles, radius: float) -> int:
         return len(radii) - int(np.searchsorted(radii, radius))
 
     faintest = FAINTEST_STEM[int(FOLIAGES * min(foliage, 1.0))]
-    return Parts(count(OPAQUE * pixel_radius), count(faintest * pixel_radius))
+    return Parts(count(whole, OPAQUE * pixel_radius), count(edges, faintest * pixel_radius))

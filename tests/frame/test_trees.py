@@ -286,7 +286,7 @@ def test_wood_that_is_left_out_of_a_pass_would_cover_no_pixel_in_it(
     seen = []
     for whole in (False, True):
         if whole:
-            monkeypatch.setattr(stream, "parts", lambda radii, *_: Parts(len(radii), len(radii)))
+            monkeypatch.setattr(stream, "parts", lambda whole, edges, *_: Parts(len(whole), len(edges)))
         tree = plant(0.0, away)
         seen.append(stage.shot(prairie, AHEAD))
         esper.delete_entity(tree, immediate=True)

@@ -55,12 +55,13 @@ def test_a_tree_is_in_the_picture_up_to_the_highest_of_its_parts_there(model: Mo
 
 
 def test_next_to_the_eye_wood_is_drawn_from_the_ground_up(model: Model) -> None:
-    near, height = model.wood[0], model.vertices["stem"][:, 1]
-    assert np.all(np.diff(near.lows) >= 0.0)
-    for top in (1.0, 4.0, 8.0):
-        left_out = height[near.triangles[np.searchsorted(near.lows, top) :]]
-        assert left_out.size
-        assert left_out.min() >= top
+    height = model.vertices["stem"][:, 1]
+    for near in model.wood[0]:
+        assert np.all(np.diff(near.lows) >= 0.0)
+        for top in (1.0, 4.0, 8.0):
+            left_out = height[near.triangles[np.searchsorted(near.lows, top) :]]
+            assert left_out.size
+            assert left_out.min() >= top
     assert len(model.wood) == len(PIXEL_RADII) + 1
 
 
@@ -96,3 +97,11 @@ def test_a_tree_without_leaves_has_no_blocks(model: Model) -> None:
     trees["foliage"] = 0.0
     whose, first = blocks_shown(blocks_of_models([model]), np.zeros(len(trees), int), trees, EYE, SIDES)
     assert len(whose) == len(first) == 0
+
+
+@pytest.mark.parametrize("wood_class", [0, 3, len(PIXEL_RADII)])
+def test_soft_edges_lie_along_all_that_is_drawn_of_stems_with_fewer_triangles(model: Model, wood_class: int) -> None:
+    whole, edges = model.wood[wood_class]
+    places = [np.unique(model.vertices["stem"][each.triangles.ravel(), :3], axis=0) for each in (whole, edges)]
+    assert np.array_equal(*places)
+    assert len(edges.triangles) < (0.4 if wood_class == 0 else 1.0) * len(whole.triangles)

@@ -13,6 +13,6 @@ RADII = np.array([0.1, 0.3, 0.5, 0.7, 0.9, 1.5])
 def test_a_stem_thinner_than_a_pixel_is_drawn_in_part_and_among_leaves_the_thinnest_not_at_all(
     foliage: float, soft: int
 ) -> None:
-    drawn = parts(RADII, 1.0, foliage)
+    drawn = parts(RADII, RADII, 1.0, foliage)
     assert drawn.solid == 2  # those that cover nearly all of a pixel
     assert drawn.soft == soft
