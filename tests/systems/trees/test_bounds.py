@@ -103,5 +103,5 @@ def test_a_tree_without_leaves_has_no_blocks(model: Model) -> None:
 def test_soft_edges_lie_along_all_that_is_drawn_of_stems_with_fewer_triangles(model: Model, wood_class: int) -> None:
     whole, edges = model.wood[wood_class]
     places = [np.unique(model.vertices["stem"][each.triangles.ravel(), :3], axis=0) for each in (whole, edges)]
-    assert np.array_equal(*places)
+    assert np.array_equal(places[0], places[1])
     assert len(edges.triangles) < (0.4 if wood_class == 0 else 1.0) * len(whole.triangles)
