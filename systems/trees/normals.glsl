@@ -14,21 +14,25 @@ struct LeafMean {
     vec3 normal_mean; // mean normal in its picture
 };
 
-// Return that of a card or a tree with the axes `own`, under light from above and below.
+// Return that of a card or a tree with the axes `own`, under light from above and below. Brightness is linear in light, so it is summed
+// up for each normal from that of a leaf under each light alone: the sun on either side, and the sky below and above.
 LeafMean leaf_mean(mat3 own, vec3 ray, Light above, vec3 below) {
-    vec3 to_sun = sun * own, to_eye = -ray * own, random_leaves = random_leaf_radiance(ray);
-    vec3 pigment = pigment_of(0.5, 0.0, 0.0), albedo = pigment * pigment;
+    vec3 to_sun = sun * own, to_eye = -ray * own, to_zenith = vec3(own[0].y, own[1].y, own[2].y), random_leaves = random_leaf_radiance(ray);
+    vec3 pigment = pigment_of(0.5, 0.0, 0.0), albedo = pigment * pigment, in_sun = albedo * above.sun;
+    vec2 sunned = FACED * vec2(brightness(in_sun), brightness(in_sun * TRANSMITTED)), lit_sides = vec2(0.0);
+    vec2 skied = vec2(brightness(albedo * below), brightness(albedo * above.sky));
+    float always = RANDOM_SHARE * brightness(in_sun * random_leaves) + brightness(above.haze);
     float side = to_eye.z < 0.0 ? -1.0 : 1.0, visible = LEAST_PART, picture_area = LEAST_PART, brightness_sum = 0.0;
     LeafMean leaves = LeafMean(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0));
     vec2 mean = vec2(0.0), spread = vec2(0.0);
     for (int each = 0; each < NORMALS; each++) {
         vec3 normal = leaf_normals[each].xyz;
         float to = dot(normal, to_eye), lit = dot(normal, to_sun), area = leaf_normals[each].w, facing = area * abs(to), part = area * normal.z;
-        vec3 radiance = leaf_radiance(lit * sign(to), random_leaves);
-        float up = (own * normal).y * sign(to);
-        float bright = sqrt(brightness(albedo * (above.sun * radiance + mix(below, above.sky, 0.5 + 0.5 * up)) + above.haze));
+        float up = dot(normal, to_zenith) * sign(to);
+        vec2 sides = max(lit * sign(to) * vec2(1.0, -1.0), 0.0);  // the lit one, if it is seen; or else the other one
+        float bright = sqrt(dot(sunned, sides) + mix(skied.x, skied.y, 0.5 + 0.5 * up) + always);
         visible += facing;
-        leaves.radiance += facing * radiance;
+        lit_sides += facing * sides;
         leaves.up += facing * up;
         brightness_sum += facing * bright;
         picture_area += part;
@@ -36,7 +40,8 @@ LeafMean leaf_mean(mat3 own, vec3 ray, Light above, vec3 below) {
         mean += part * vec2(side * lit, bright);
         spread += part * side * lit * vec2(side * lit, bright);
     }
-    leaves.radiance /= visible;
+    lit_sides /= visible;
+    leaves.radiance = FACED * (lit_sides.x + lit_sides.y * TRANSMITTED) + RANDOM_SHARE * random_leaves;
     leaves.up /= visible;
     leaves.normal_mean /= picture_area;
     mean /= picture_area;
