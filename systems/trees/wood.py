@@ -30,6 +30,10 @@ AWAY = 0.15
 THINS = 0.35, 0.65
 """Coverage below which a stem among leaves is left out, and from which on it is drawn in full."""
 
+LEAFY_FAINTEST, CROWN_DEPTH = 0.25, 4.0
+"""Coverage below which a stem of a tree in full leaf is left out where it is nearest to the eye, and the optical depth
+of its leaves: all other stems are fainter, and leaves hide them. Without leaves it is `FAINTEST`."""
+
 FADES = 2.0, 4.0
 """Width from which on a stem's edges are soft, and from which on they are soft over a whole pixel [pixels]."""
 
@@ -76,14 +80,15 @@ def nearest_ahead(clip: Doubles, middle: Doubles, eye: Doubles, reach: Doubles, 
 
 
 def _faintest_stems() -> list[float]:
-    """Return the coverage of a stem below which `wood.vert` makes it fainter than `FAINTEST`, by the share of leaves.
+    """Return the coverage of a stem below which `wood.vert` makes it too faint to be drawn, by the share of leaves.
 
     There are `FOLIAGES` equal steps from 0 to 1.
     """
     cover, foliage = np.linspace(0.0, 1.0, 513), np.linspace(0.0, 1.0, FOLIAGES + 1)[:, None]
     part = np.clip((cover - THINS[0]) / (THINS[1] - THINS[0]), 0.0, 1.0)
     drawn = cover * (1.0 - foliage + foliage * part * part * (3.0 - 2.0 * part))
-    faint: list[int] = (drawn < FAINTEST).sum(axis=1).tolist()
+    least = np.maximum(LEAFY_FAINTEST * np.exp(CROWN_DEPTH * (foliage - 1.0)), FAINTEST)
+    faint: list[int] = (drawn < least).sum(axis=1).tolist()
     return [float(cover[max(count - 1, 0)]) for count in faint]
 
 
