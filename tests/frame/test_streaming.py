@@ -43,7 +43,11 @@ def prairies(ctx: moderngl.Context) -> Iterator[Any]:
     loaded = list[Prairie]()
 
     def load(
-        about: tuple[float, float] = (0.0, 0.0), window: float = 512.0, trees: Any = None, grass: Any = None, **options: Any
+        about: tuple[float, float] = (0.0, 0.0),
+        window: float = 512.0,
+        trees: Any = None,
+        grass: Any = None,
+        **options: Any,
     ) -> Prairie:
         scene = {
             "tallgrass": 2,
