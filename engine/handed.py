@@ -125,6 +125,11 @@ def must_be_known(what: str, name: str | None, known: Iterable[str], /) -> None:
         raise ValueError(f"unknown {what} '{name}'; there are {', '.join(there)}")
 
 
+def to_microseconds(time: float, /) -> float:
+    """Return a time to the nearest microsecond [s]: so it does not depend on the steps that it is a sum of."""
+    return round(time, 6)
+
+
 def must_be_seconds(thing: object, what: str, at: str, /) -> None:
     """Raise TypeError for a time that is no number, ValueError for one out of range; `what` begins the message."""
     if not isinstance(thing, NUMBER_TYPES):

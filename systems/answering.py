@@ -13,7 +13,7 @@ from ..components.grass_at import GrassAt
 from ..components.sun import Sun
 from ..engine.declared.light import Light
 from ..engine.declared.scene import Scene
-from ..engine.handed import as_rays, must_be_seconds, must_be_viewer
+from ..engine.handed import as_rays, must_be_seconds, must_be_viewer, to_microseconds
 from ..engine.terrain.pick import pick
 from ..engine.terrain.sample import density_at, height_at, natural_at, normal_at
 from ..engine.underflow import Underflowing
@@ -79,7 +79,7 @@ class Answering(Underflowing):
         You may set it: everything that the scene declares is then as at that time. If you go back, the trails of your
         own pressers are forgotten; cut grass stays cut. Raises ValueError and TypeError for anything but a time.
         """
-        return round(self._clock, 6)
+        return to_microseconds(self._clock)
 
     @time.setter
     def time(self, time: float) -> None:

@@ -315,7 +315,7 @@ class Prairie(Tending):
     def state(self) -> bytes:
         """Return all changes of a game as bytes for `restore`; ValueError for a wind whose class is not registered."""
         self._must_be_there("save it")
-        return self._saving.state(self.site, time=self.time)
+        return self._saving.state(self.site, time=self._clock)  # exactly, or sums of steps would differ later
 
     def restore(self, state: bytes, entities: Mapping[int, int] | None = None) -> dict[int, int]:
         """Restore what `state` returned, and return a mapping from each of your entities in it to its entity now.

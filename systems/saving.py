@@ -16,7 +16,7 @@ from ..components.tree import Tree
 from ..components.wind import WindPrimitive, WindSource, with_course
 from ..components.words import errors_in_words
 from ..engine.declared.scene import Reading
-from ..engine.handed import is_somewhere, must_be_a
+from ..engine.handed import is_somewhere, must_be_a, to_microseconds
 from ..engine.plugins import wind_kinds
 from ..engine.scene import LoadedScene
 from ..engine.terrain.change import Squares, changed_squares, restore_squares
@@ -175,14 +175,15 @@ class Saving:
 
         `became` maps entities of the state to those that they may be now.
         """
-        self.winds.set_clock(state.time)
+        time = to_microseconds(state.time)
+        self.winds.set_clock(time)
         entities = self._restore_winds(state, made, became)
         trees = {each.entity for each in state.things if each.kind == "tree"}
         self.trees.fell(*made.felled, trees)
         self._restore_things(state.things, made.things, entities, became)
         self.pressers.resume(made.treading, entities)
         self.clearings.resume(made.cleared)
-        self.shining.resume(state.light, since=state.light_since, time=state.time, way=state.light_way)
+        self.shining.resume(state.light, since=state.light_since, time=time, way=state.light_way)
         return entities
 
     def _restore_things(

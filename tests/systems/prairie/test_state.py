@@ -356,3 +356,17 @@ def test_what_a_game_has_deleted_is_not_saved_even_if_esper_still_defers_that(wo
     assert [len(esper.get_component(each)) for each in (WindSource, Presser)] == counts
     assert (len(esper.get_component(Tree)), esper.get_component(Lamp)) == (1, [])
     again.release()
+
+
+def test_f4_time_that_goes_on_after_a_state_is_the_same_to_the_microsecond(world: World) -> None:
+    del world
+    steps = 0.1234564, 3e-7  # their sum is rounded up, and the first alone is rounded down
+    made, again = Prairie.load(SCENE), Prairie.load(SCENE)
+    made.advance(steps[0])
+    again.restore(made.state())
+    assert again.time == made.time == 0.123456
+    for each in (made, again):
+        each.advance(steps[1])
+    assert again.time == made.time == 0.123457
+    for each in (made, again):
+        each.release()
