@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import count
 from operator import itemgetter
-from typing import TypeVar
+from typing import Any, TypeVar
 from weakref import WeakSet, ref
 
 import esper
@@ -17,6 +17,7 @@ from .handed import NUMBER_TYPES, SOMEWHERE, is_somewhere
 
 Component = TypeVar("Component")
 Other = TypeVar("Other")
+Row = TypeVar("Row", bound=tuple[Any, ...])
 
 PRIORITY = 100
 """Priority of the processor that `install` adds. Those of lower priority, 0 by default, run after it."""
@@ -166,11 +167,11 @@ class World:
         order.
         """
         self._must_be_current()
-        rows = esper.get_component(kind)
-        if not rows:
-            return []
-        mine, component_of, found = self._mine, esper.try_component, list[tuple[int, Component]]()
-        exists = esper.entity_exists
+        return self.own(esper.get_component(kind))
+
+    def own(self, rows: Sequence[Row], /) -> list[Row]:
+        """Return those rows that begin with an entity of `all`, by rising entity number."""
+        mine, component_of, exists, found = self._mine, esper.try_component, esper.entity_exists, list[Row]()
         for row in rows:
             mark = component_of(row[0], Resident)
             if (mark is None or mark.owner is mine) and exists(row[0]):  # the game's, and our own

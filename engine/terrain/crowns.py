@@ -14,6 +14,8 @@ CELL = 8.0
 MOST_CELLS = 1024
 """Greatest number of these cells along x and z."""
 
+NO_DISCS = np.zeros((0, 4))
+
 GLSL = {"SHADE_KEEPS": SHADE_KEEPS}
 
 
@@ -26,19 +28,22 @@ class Crowns:
     """
 
     def __init__(self) -> None:
-        self.discs: Doubles = np.zeros((0, 4))
+        self.discs: Doubles = NO_DISCS
         """Each crown's trunk (x, z) [m], radius of its shade [m] and optical depth at the trunk, shape (n, 4)."""
+        self._lasting = 0
+        """Number of leading ones that last."""
         self._corner, self._cell = np.zeros(2), CELL
         self._shape = 0, 0
         self._first: NDArray[np.intp] = np.zeros(1, np.intp)
         self._listed: NDArray[np.intp] = np.zeros(0, np.intp)
 
-    def stand(self, discs: Doubles, /) -> Doubles:
-        """Replace all crowns by `discs` (n, 4), as in the field; return those that were added or removed, (m, 4)."""
-        both = np.concatenate([self.discs, discs])
+    def stand(self, discs: Doubles, fading: Doubles = NO_DISCS, /) -> Doubles:
+        """Replace all crowns by `discs` (n, 4), as in the field, and those that fade; return what differs, (m, 4)."""
+        lasting, others = self.discs[: self._lasting], self.discs[self._lasting :]
+        both = np.concatenate([*_without_same_ends(lasting, discs), others, fading])
         _, back, count = np.unique(both, axis=0, return_inverse=True, return_counts=True)
-        self.discs = discs
-        if len(discs):
+        self.discs, self._lasting = np.concatenate([discs, fading]), len(discs)
+        if len(self.discs):
             self._sort()
         return np.asarray(both[count[back.reshape(-1)] == 1])
 
@@ -77,3 +82,18 @@ class Crowns:
         distance = ((place[below] - disc[:, :2]) ** 2).sum(axis=1) / disc[:, 2] ** 2
         depth = np.bincount(below, disc[:, 3] * np.maximum(1.0 - distance, 0.0) ** 2, minlength=len(place))
         return np.asarray(SHADE_KEEPS + (1.0 - SHADE_KEEPS) * np.exp(-depth), np.float32)
+
+
+def _without_same_ends(before: Doubles, now: Doubles) -> tuple[Doubles, Doubles]:
+    """Return the rows of both from the first difference to the last: few where little has changed."""
+    first = _same(before, now)
+    before, now = before[first:], now[first:]
+    last = _same(before[::-1], now[::-1])
+    return before[: len(before) - last], now[: len(now) - last]
+
+
+def _same(a: Doubles, b: Doubles) -> int:
+    """Return the number of rows at the start that are the same."""
+    count = min(len(a), len(b))
+    differ = np.flatnonzero((a[:count] != b[:count]).any(axis=1))
+    return int(differ[0]) if len(differ) else count

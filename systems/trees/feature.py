@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Mapping, Sequence
+from functools import partial
 from itertools import compress
 from typing import Self
 
@@ -28,11 +29,10 @@ from .model import models_of
 from .place import placed
 from .scatter import SQUARE
 from .standing import STANDING, Standing, individualise
+from .tree_rows import Posed, TreeRows
 from .wild import Felled, Seedling, Wild, seedlings
 
 NO_PLACES = np.zeros((0, 2), np.float32)
-
-Posed = list[tuple[int, Tree, Pose]]
 
 log = logging.getLogger("tallgrass")
 
@@ -56,11 +56,9 @@ class Trees(Feature):
         self._generation = world.check()
         self._unknown: set[str] = set()
         """Kinds without a declaration that were already reported."""
-        self._rows: Rows = np.zeros(0, STANDING)
-        self.standing = self.shading = Standing(self._rows)
+        self._taken = TreeRows()
+        self.standing = self.shading = Standing(self._taken.rows)
         """Trees of this frame; `shading` has those felled just now, too, as their shade fades."""
-        self._row_entities: list[int] = []
-        """Entities of the rows."""
         self._fading = FadingShade()
         self._shading_of: object = None
         self._plant()
@@ -86,7 +84,7 @@ class Trees(Feature):
         """Make an entity of each tree of the scene, unless they are too many."""
         scene, terrain = self._grown.scene, self._grown.ground.terrain
         self._seedlings, self._terrain_version, self.wild = [], -1, None
-        self._rows, self._row_entities = self._rows[:0], []  # none counts as felled
+        self._taken.forget()  # none counts as felled
         self._fading.forget()
         self._unknown.clear()
         fixed = list[Floats]()
@@ -108,18 +106,21 @@ class Trees(Feature):
             self.wild.follow(viewer, eye)
         self.note(time)
         if self.wild is not None:
-            self.standing = self.wild.standing(viewer, eye, self._rows)
-        elif self.standing.rows is not self._rows:
-            self.standing = Standing(self._rows)
+            self.standing = self.wild.standing(viewer, eye, self._taken.rows)
+        elif self.standing.rows is not self._taken.rows:
+            self.standing = Standing(self._taken.rows)
         self._update_shading(self.standing)
 
     def note(self, time: float) -> None:
         """Take over changed trees at a time [s], and the grass density below them."""
         self._revive()
         changes = self._grown.ground.terrain.changes.count
+        if changes != self._terrain_version:
+            self._taken.make_all_anew()  # at other heights
         if self._have_changed() or changes != self._terrain_version:
             self._terrain_version = changes
-            self._update_rows(time)
+            with uncollected():
+                self._update_rows(time)
         if self._fading.step(time):
             self._shade_grass()
 
@@ -138,8 +139,8 @@ class Trees(Feature):
         if self._generation == self._world.check():
             return
         self._generation = self._world.generation
-        stood = {*self._row_entities} if self._terrain_version >= 0 else {*self.entities}
-        self._rows, self._row_entities = self._rows[:0], []  # none counts as felled
+        stood = {*self._taken.entities} if self._terrain_version >= 0 else {*self.entities}
+        self._taken.forget()  # none counts as felled
         for number in [number for number, entity in enumerate(self.entities) if entity in stood]:
             self._replant(number)
 
@@ -153,32 +154,26 @@ class Trees(Feature):
 
     def _update_rows(self, time: float) -> None:
         """Take over which entities stand where."""
-        posed = self._world.both(Tree, Pose)
-        if len(self._last_seen[0]) > len(posed):  # some have no pose, or are another prairie's
-            placed = {entity for entity, _, _ in posed}
-            self._world.standing(
-                [(entity, None) for entity, _ in self._world.all(Tree) if entity not in placed], "the tree"
-            )
-        found = [each for each in posed if self._knows(each[1])]
-        there = [*compress(found, self._world.standing([(entity, pose) for entity, _, pose in found], "the tree"))]
-        self._fade_removed({entity for entity, _, _ in found}, time)
-        self._rows, self._row_entities = _rows(there, self._grown), [entity for entity, _, _ in there]
+        other, kept = self._taken.changed(*self._last_seen)
+        found = [each for each in self._world.own(other) if self._knows(each[1])]
+        stand = self._world.standing([(entity, pose) for entity, _, pose in found], "the tree")
+        self._fade_removed(self._taken.gone(kept, {entity for entity, _, pose in found if pose is not None}), time)
+        there = [(entity, tree, pose) for entity, tree, pose in compress(found, stand) if pose is not None]
+        self._taken.take(kept, there, partial(_rows, self._grown))
         self._shade_grass()
 
-    def _fade_removed(self, there: set[int], time: float) -> None:
+    def _fade_removed(self, gone: list[int], time: float) -> None:
         """Begin to fade the shade of removed trees, but not of those removed as a viewer went away."""
         departed = self.wild.departed if self.wild is not None else set[int]()
-        gone = [
-            number for number, entity in enumerate(self._row_entities) if entity not in there and entity not in departed
-        ]
+        gone = [row for row in gone if self._taken.entities[row] not in departed]
         departed.clear()
         if gone:
-            self._fading.fell(self._rows[gone], time=time)
+            self._fading.fell(self._taken.rows[gone], time=time)
 
     def _shade_grass(self) -> None:
         """Lower the grass density below the trees that stand."""
         density = self._grown.ground.density
-        changed = density.crowns.stand(_discs(np.concatenate([self._rows, self._fading.rows()]), self._grown))
+        changed = density.crowns.stand(*(_discs(rows, self._grown) for rows in (self._taken.rows, self._fading.rows())))
         if len(changed):
             density.sown.touch(_boxes(changed))
 
@@ -242,7 +237,7 @@ class Trees(Feature):
 
         Trees that a game has changed stay if they are among the entities `kept`.
         """
-        self._rows, self._row_entities = self._rows[:0], []  # trees missing in a saved game do not fade
+        self._taken.forget()  # trees missing in a saved game do not fade
         self._terrain_version = -1  # forces an update, though entities may be unchanged
         self._fading.forget()
         if self.wild is not None:
@@ -313,11 +308,11 @@ def _discs(rows: NDArray[np.void], grown: Grown) -> Doubles:
             discs[mask, 3] = rows["foliage"][mask] * leaves * (scale / reach) ** 2
             feet[mask, :2], feet[mask, 2] = discs[mask, :2], FOOT
             feet[mask, 3] = rows["foliage"][mask] * np.minimum(foot * scale, FOOT_MEETS_MOST)
-    discs = np.concatenate([discs, feet])
-    return discs[discs[:, 3] > 0.0]
+    each = np.stack([discs, feet], axis=1).reshape(-1, 4)
+    return each[each[:, 3] > 0.0]
 
 
-def _rows(found: Posed, grown: Grown) -> NDArray[np.void]:
+def _rows(grown: Grown, found: Posed) -> Rows:
     """Return entities as records of `STANDING`."""
     names = list(grown.scene.trees)
     rows = np.zeros(len(found), STANDING)
