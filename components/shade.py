@@ -53,11 +53,13 @@ class Shade:
             self._must_be_a_box()
 
     def _must_be_round(self) -> None:
+        if self.radius is None:
+            raise ValueError("a shade has a radius, or the size of a box")
         if not _is_length(self.radius):
             raise ValueError(f"a shade's radius is above 0 m, not {self.radius!r}")
         if self.height is not None and not _is_length(self.height):
             raise ValueError(f"a shade's height is above 0 m, not {self.height!r}")
-        if self.capsule and (self.height is None or self.height < 2.0 * self.radius):  # type: ignore[operator]
+        if self.capsule and (self.height is None or self.height < 2.0 * self.radius):
             raise ValueError(f"a capsule's height is at least twice its radius, {self.radius!r}, not {self.height!r}")
 
     def _must_be_a_box(self) -> None:

@@ -76,7 +76,7 @@ def test_a_shade_that_is_nowhere_is_refused(wrong: object) -> None:
 @pytest.mark.parametrize(
     ("keys", "why"),
     [
-        ({}, "a shade's radius is above 0 m, not None"),
+        ({}, "a shade has a radius, or the size of a box"),
         ({"radius": 1.0, "capsule": True}, "a capsule's height is at least twice its radius, 1.0, not None"),
         (
             {"radius": 1.0, "height": 1.9, "capsule": True},
