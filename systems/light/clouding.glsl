@@ -40,9 +40,10 @@ CloudPoint cloud_at(Way way, float along) {
     vec2 uv = way.start + way.span * along;
     vec3 map = textureLod(heaps, uv, 0.0).rgb;
     vec4 billow = textureLod(billows, BLOCK * vec3(uv.x, along * (CLOUD_TALLEST / CLOUDS_SIDE), uv.y), way.mip_level);
-    float squared = along * along, flattening = max(CLOUD_HIGHEST - CLOUD_DOME - cloud_edge, 0.0) * squared * squared * squared;
-    float column = map.x - cloud_edge, dome = column - (CLOUD_DOME + flattening) * squared, relief = clamp(CLOUD_RELIEF * along, 0.0, 1.0);
-    float strength = mix(1.0, clamp(CLOUD_SUPPORT * column, 0.0, 1.0), relief);
+    float squared = along * along, high = squared * squared * squared;
+    float column = map.x - cloud_edge, dome = column - (CLOUD_DOME + max(CLOUD_DENSEST - CLOUD_DOME - cloud_edge, 0.0) * high) * squared;
+    float relief = clamp(CLOUD_RELIEF * along, 0.0, 1.0);
+    float strength = clamp(CLOUD_SUPPORT * column + 1.0 - relief, 0.0, 1.0);
     float excess = dome + CLOUD_BILLOWED * strength * (billow.x - 0.5);
     excess *= excess > 0.0 ? clamp(CLOUD_BASE_DEPTH + CLOUD_BASE_DEPTH_RISE * along, 0.0, 1.0) : 1.0;
     return CloudPoint(along, excess, dome, column, relief, map, billow);

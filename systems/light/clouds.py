@@ -1,7 +1,7 @@
 """Clouds: constants of a drifting layer of clouds, and its mean effect on the light of the sky and the ground.
 
 A cloud stands on a level base. Its height is the root of its excess density: how much the cloud map exceeds its value
-at the edge. Billows stand out from its sides. `cloudscape.frag` marches through the layer and accumulates optical depth
+at the edge. The highest ones level off, as below an inversion. Billows stand out from its sides. `cloudscape.frag` marches through the layer and accumulates optical depth
 and two sorts of light: sunlight from lit sides, and from sides in shade what is scattered through the cloud many times.
 So bases are flat and grey, tops are heaped and bright towards the sun, edges are soft.
 """
@@ -35,12 +35,19 @@ FARTHEST_ASIDE = 540.0
 With more, samples at successive heights would belong to different heaps."""
 
 DOME = 0.3
-"""Excess density at which a cloud reaches the highest tops. With the fraction x of it, a cloud has sqrt(x) of that
-height: a dome."""
+"""Excess density at which a dome would reach the highest tops: with the fraction x of it, it has sqrt(x) of that height.
+
+Denser clouds level off, by a term of the eighth power of the height, so that none is cut off at the highest tops."""
 
 BILLOWED = 0.36
 """Difference in map density between the highest billows and the deepest creases. It is centred on the map's value, so
 that billows do not change the mean cover."""
+
+DENSEST = 1.0 + 0.5 * BILLOWED
+"""Largest density of the map, with the highest billows: there a cloud just reaches the highest tops.
+
+So tops are rounded by a function of the height, as is usual (Schneider, The Real-Time Volumetric Cloudscapes of
+Horizon: Zero Dawn, 2015)."""
 
 DEPTH = 45.0
 """Vertical optical depth per unit of excess density, for a cloud's shadow and the mean of the sky."""
@@ -62,9 +69,9 @@ billows are lit and shaded one by one: at bases they are not, as light comes to 
 CREASE_SHADING = 0.6
 """Difference in shading density between the deepest creases and the highest billows."""
 
-SUPPORT = 10.0
-"""Strength of billows high above a base per unit of excess density there, up to 1: so no puffs float where there is
-none."""
+SUPPORT = 2.0 / BILLOWED
+"""Strength of billows per unit of excess density, up to 1: they at most double it, so that they float nowhere far above
+a cloud. At a base it is larger by 1, so that billows reach out there too."""
 
 SUNLIT, SILVER = 1.25, 1.0
 """Radiance of a sunlit cloud relative to a leaf in the sun: a cloud reflects all light, a leaf gets 0.8 of it. And
@@ -113,7 +120,7 @@ GLSL = {
     "CLOUD_TALLEST_RATIO": TALLEST / BASE_HEIGHT,
     "CLOUD_FARTHEST_ASIDE": FARTHEST_ASIDE / CLOUDS_SIDE,
     "CLOUD_DOME": DOME,
-    "CLOUD_HIGHEST": 1.0 + 0.5 * BILLOWED,
+    "CLOUD_DENSEST": DENSEST,
     "CLOUD_BILLOWED": BILLOWED,
     "CLOUD_DEPTH": DEPTH,
     "CLOUD_MAP_ASIDE": MAP_ASIDE,
