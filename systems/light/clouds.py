@@ -1,9 +1,10 @@
 """Clouds: constants of a drifting layer of clouds, and its mean effect on the light of the sky and the ground.
 
 A cloud stands on a level base. Its height is the root of its excess density: how much the cloud map exceeds its value
-at the edge. The highest ones level off, as below an inversion. Billows stand out from its sides. `cloudscape.frag` marches through the layer and accumulates optical depth
-and two sorts of light: sunlight from lit sides, and from sides in shade what is scattered through the cloud many times.
-So bases are flat and grey, tops are heaped and bright towards the sun, edges are soft.
+at the edge. The highest ones level off, as below an inversion. Billows stand out from its sides. `cloudscape.frag`
+marches through the layer and accumulates optical depth and two sorts of light: sunlight from lit sides, and from sides
+in shade what is scattered through the cloud many times. So bases are flat and grey, tops are heaped and bright towards
+the sun, edges are soft.
 """
 
 import math
@@ -35,7 +36,7 @@ FARTHEST_ASIDE = 540.0
 With more, samples at successive heights would belong to different heaps."""
 
 DOME = 0.3
-"""Excess density at which a dome would reach the highest tops: with the fraction x of it, it has sqrt(x) of that height.
+"""Excess density at which a dome would reach the highest tops; of the fraction x of it, sqrt(x) of that height.
 
 Denser clouds level off, by a term of the eighth power of the height, so that none is cut off at the highest tops."""
 
