@@ -39,7 +39,7 @@ def test_f4_grass_that_is_given_up_half_way_leaves_nothing_behind_in_gl(
     before, ctx.gc_mode = ctx.gc_mode, "context_gc"
     ctx.objects.clear()
     try:
-        for pieces in range(6):
+        for pieces in (0, 2, 5):
             prairie.change_kind("tall", height=[0.5, 1.0 + 0.02 * pieces], over=1000.0, **keys)
             play_until_staged(stage, prairie)
             for _ in range(pieces):
