@@ -209,7 +209,7 @@ class Choice:
         pixels[ring > 1] = 0.0
         instances, along = self._instances.take(number), np.hypot(*(middle - look.eye)[:, ::2].T)
         in_order = look.patch * distance_in_order(cell_of(middle[:, ::2], patch=look.patch), look.centre)
-        set_detail(instances, pixels, pixels * pictured)
+        set_detail(instances, pixels * pictured)
         instances["opacity"] = ring_opacity(ring, along)
         ahead = nearest_ahead(look.clip, middle, look.eye, self._reach.take(number, axis=0))
         pixel_radius = THINNEST * np.maximum(ahead, AWAY) / (look.focal * scale)

@@ -57,12 +57,12 @@ HUNG = np.dtype([("hung_at", "4f4"), ("hung_axes", "4u4"), ("hung_light", "4u4")
 HUNG_LEAVES = np.dtype([*HUNG.descr, ("hung_haze", "2u4")])
 """Output of `hang.vert`, once a twig drawn leaf by leaf."""
 
-ALL_TWIGS_FROM, TWIG_POWER = 620.0, 1.4
-"""Height from which all twigs of a tree are drawn [pixels], and the power of the height that their share follows below
-it.
+TWIG_POWER = 1.4
+"""Power of the height of a tree's picture that its share of twigs follows, below `FADES_BELOW`.
 
 Those left stand for several, so that they hide as much (Cook and others, Stochastic Simplification of Aggregate Detail,
-2007)."""
+2007). Larger trees have all their twigs, as their pictures do: fewer and larger ones would reach beyond the crown and
+leave gaps in it."""
 
 FEWEST_TWIGS = 0.08
 """Least share of its twigs that is drawn of a tree."""
@@ -149,14 +149,13 @@ def far_instances(
     return instances
 
 
-def set_detail(instances: NDArray[np.void], pixels: Doubles, pictured: Doubles, /) -> None:
+def set_detail(instances: NDArray[np.void], pictured: Doubles, /) -> None:
     """Write the share of twigs and the fade to the picture into records of `INSTANCE`.
 
-    `pixels` is the height of each tree in the picture, and `pictured` that of its own picture there, shape (n,)
-    [pixels].
+    `pictured` is the height of each tree's own picture, shape (n,) [pixels].
     """
     foliage = np.maximum(instances["foliage"], BAREST)
-    instances["twig_share"] = np.clip((pixels / ALL_TWIGS_FROM) ** TWIG_POWER / foliage, FEWEST_TWIGS, 1.0)
+    instances["twig_share"] = np.clip((pictured / FADES_BELOW) ** TWIG_POWER / foliage, FEWEST_TWIGS, 1.0)
     instances["far_fade"] = np.clip((FADES_BELOW - pictured) / (FADES_BELOW - PICTURE_BELOW), 0.0, 1.0)
 
 
