@@ -234,7 +234,8 @@ def test_however_far_off_it_covers_as_much_of_the_sky_as_with_every_leaf(
 def test_n3_held_a_tree_is_shown_as_in_the_frame_before_from_wherever_it_is_seen(
     stage: Stage, prairie: Prairie, plant: Plant, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    seen_far(monkeypatch, 1.0)
+    monkeypatch.setattr(standing, "FADES_BELOW", 400.0)  # so that its twigs are fewer
+    monkeypatch.setattr(standing, "PICTURE_BELOW", 1.0)
 
     def told() -> Any:
         assert prairie.painter is not None
