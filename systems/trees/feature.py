@@ -155,10 +155,11 @@ class Trees(Feature):
     def _update_rows(self, time: float) -> None:
         """Take over which entities stand where."""
         other, kept = self._taken.changed(*self._last_seen)
-        found = [each for each in self._world.own(other) if self._knows(each[1])]
-        stand = self._world.standing([(entity, pose) for entity, _, pose in found], "the tree")
-        self._fade_removed(self._taken.gone(kept, {entity for entity, _, pose in found if pose is not None}), time)
-        there = [(entity, tree, pose) for entity, tree, pose in compress(found, stand) if pose is not None]
+        own = self._world.own(other)
+        self._world.standing([(entity, None) for entity, _, pose in own if pose is None], "the tree")
+        found = [(entity, tree, pose) for entity, tree, pose in own if pose is not None and self._knows(tree)]
+        there = [*compress(found, self._world.standing([(entity, pose) for entity, _, pose in found], "the tree"))]
+        self._fade_removed(self._taken.gone(kept, {entity for entity, _, _ in found}), time)
         self._taken.take(kept, there, partial(_rows, self._grown))
         self._shade_grass()
 
