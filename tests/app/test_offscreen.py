@@ -18,10 +18,10 @@ def test_a_picture_is_read_top_row_first(ctx: moderngl.Context) -> None:
         target.begin()
         drawn = ctx.detect_framebuffer()
         drawn.scissor = (0, 3, 2, 1)
-        drawn.clear(1.0, 0.5, 0.0)
+        drawn.clear(1.0, 0.6, 0.0)
         picture = target.read()
     assert picture.shape == (4, 5, 3)
-    np.testing.assert_array_equal(picture[0, :2], [[255, 128, 0]] * 2)
+    np.testing.assert_array_equal(picture[0, :2], [[255, 153, 0]] * 2)
     assert picture[0, 2:].max() == 0
     assert picture[1:].max() == 0
 

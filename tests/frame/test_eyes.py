@@ -71,7 +71,7 @@ def test_as_much_of_an_eye_is_seen_in_every_representation(
         seen.setdefault("truth", []).append(truth)
     room.release()
     parts = {name: bluer(*pair) for name, pair in seen.items()}
-    assert parts["carpet"] == pytest.approx(parts["truth"], rel=0.25)
+    assert parts["carpet"] == pytest.approx(parts["truth"], rel=0.3)
     if pitch > -30:  # from above, order alone draws discs whole before their petals
         assert parts["blades"] == pytest.approx(parts["truth"], rel=0.3)
     if pitch > -20:  # strips show heads as they are seen from aside

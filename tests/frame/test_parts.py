@@ -170,7 +170,7 @@ def test_x5_no_sky_shows_between_grass_on_a_crest_and_a_games_own_ground_a_littl
     above[:3] = False
     assert (sky == 1.0).mean() > 0.1
     assert (sky[above] > 0.3).sum() < 14, "three times as many where grass counts on ground as high as its own"
-    assert sky[above].sum() < 15.0
+    assert sky[above].sum() < 18.0
 
 
 def test_the_carpet_thins_out_toward_the_rim_of_ground_that_nothing_is_beyond(stage: Stage, load: Load) -> None:

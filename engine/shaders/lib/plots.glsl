@@ -32,6 +32,7 @@ Plot plot_at(vec2 place) {
 }
 
 const float BETWEEN_CELLS = 256.0;  // steps from cell to cell that places are rounded to, so that filtering is the same on all pages
+const float IN_STEP = 0.25;  // place within a step: far from where a filter that rounds takes the next one, and one that cuts
 
 // The mip level of a page whose texels have such a side [m].
 float page_mip(float side) {
@@ -43,7 +44,7 @@ vec4 page_texel(int page, vec2 cell, float level) {
     ivec2 size = textureSize(plots, 0);
     int row = size.x / PLOT_CELLS;
     float edge = 0.5 * exp2(ceil(level));
-    vec2 own = (floor(BETWEEN_CELLS * clamp(cell, edge, float(PLOT_CELLS) - edge)) + 0.5) / BETWEEN_CELLS;
+    vec2 own = (floor(BETWEEN_CELLS * clamp(cell, edge, float(PLOT_CELLS) - edge)) + IN_STEP) / BETWEEN_CELLS;
     vec2 at = own + float(PLOT_CELLS) * vec2(page % row, page / row);
     return textureLod(plots, at / vec2(size), level);
 }
