@@ -23,10 +23,11 @@ float threshold_of(float random) {
 
 const float OWN_ORDER = 0.618034;  // golden section: successive multiples are evenly spread
 
-// Discards what the other pass draws.
+// Discards what is not drawn in this pass. Opaque pixels hide their soft ones by depth: where both were told apart by coverage, which cards
+// interpolate in the last digit differently within each pass's outline, some pixels were drawn in neither.
 void discard_uncovered(float cover) {
 #ifdef SOFT
-    if (cover >= solid_from || cover < FAINTEST)
+    if (cover < FAINTEST)
         discard;
 #elif defined(SAMPLED)
     if (cover <= threshold_of(OWN_ORDER * float(gl_PrimitiveID / 2)))

@@ -105,12 +105,7 @@ void main() {
     float worn = bark_brightness();
     vec3 ray = normalize(seen_at - eye);
     float cover = stem_cover * edge_cover(ray);
-#ifdef SOFT
-    if (cover < FAINTEST)  // opaque pixels hide what has more coverage, up to where a tube's flat sides lie within the round stem
-        discard;
-#else
     discard_uncovered(cover);
-#endif
     vec3 out_to = facing - ray * (ribbon * sqrt(max(1.0 - dot(facing, facing), 0.0)));
     float lit = max(dot(out_to, sun), 0.0) * inversesqrt(dot(out_to, out_to));
     vec2 seen = transmittance(vec2(grass_here.y, OPEN_SKY) * leaf_area_above(grass_height, vec2(0.0, grass_here.x)));
