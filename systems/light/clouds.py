@@ -110,6 +110,12 @@ quarters of the light in usual air (Preetham, Shirley and Smits, 1999, turbidity
 LONE_CLOUD = 0.35
 """Fraction of sunlight that a lone cloud before the sun scatters on; with many clouds it is part of the skylight."""
 
+GROUND_ALBEDO = 0.19
+"""Albedo of the ground below clouds: luminance that meadow, grove and hedgerow send straight up, as they are drawn from
+above under a clear sky, relative to white level ground.
+
+It is grey: bases of clouds tell of all the land around, with its soil and straw, and eyes are adapted to its colour."""
+
 OVERCAST, OVERCAST_POWER = 0.6, 9.0
 """Excess density at the thinnest place of an overcast; and the power of the cover by which it is added."""
 
@@ -190,6 +196,18 @@ def sent_down(sun: Doubles, high: float, shaded: Doubles, clouds: Clouds, /) -> 
     """Return the mean radiance of clouds times their cover, (3,): `shaded` is that of `in_shade`."""
     lit = clouds.lit - sun_scattered(high, clouds.edge) * clouds.both
     return SUNLIT * lit * sun + clouds.scattered * shaded
+
+
+def from_below(sun: Doubles, high: float, down: Doubles, clouds: Clouds, /) -> Doubles:
+    """Return the mean radiance of the ground below clouds, (3,).
+
+    `sun` and `high` are as in `in_shade`; `down` is the irradiance of sky and clouds as radiance, without what comes
+    from the ground. Of light from below, clouds reflect what they do not let through, and all of it goes to and fro, as
+    a geometric series (Barker and Davies, Solar Radiative Fluxes for Broken Cloud Fields above Reflecting Surfaces,
+    1992).
+    """
+    level = SUNLIT * max(high, 0.0) * clouds.past * sun + down
+    return np.asarray(GROUND_ALBEDO * level / (1.0 - GROUND_ALBEDO * (clouds.hidden - clouds.scattered)))
 
 
 @lru_cache(maxsize=64)

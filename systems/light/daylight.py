@@ -75,7 +75,7 @@ def daylight_under(light: Light, clear: Doubles, /) -> Daylight:
     sun = SUN / pi * LEAF * light.strength * transmitted(sun_at(light)[1], light.turbidity) * linear(light.sun)
     sky = sky_of(light, clear, sun)
     exposure = exposure_of(light, sun * clouds_of(light.clouds).past, sky.down)
-    shown = Sky(sky.map * exposure, sky.horizon * exposure, sky.down * exposure, sky.clouds * exposure)
+    shown = Sky(*(getattr(sky, each.name) * exposure for each in fields(Sky)))
     down = shown.down + BOUNCED * sun * exposure
     dark_factor = max(USUAL_LUMINANCE / max(_leaf_luminance(sun, sky.down), NIGHT_LUMINANCE), 1.0) ** NIGHT_LAMPS
     return Daylight(to_sun(light), sun * exposure, down, shown.clouds, shown, exposure, exposure * dark_factor)

@@ -128,6 +128,7 @@ def write_light(record: NDArray[np.void], declared: Light, light: Daylight, kind
     row["sun"], row["sunlight"], row["skylight"] = light.direction, light.sun, light.down
     row["cloud_edge"], row["haze_density"] = clouds_of(declared.clouds).edge, 1.0 / declared.haze
     row["exposure"], row["lamplight"], row["cloudlight"] = light.exposure, light.lamplight, light.clouds
+    row["groundlight"] = light.sky.ground
     row["zenith"] = light.sky.map[-1].mean(axis=0)
     row["horizon"][:, :3] = light.sky.horizon
     row["toward_sun"] = toward_sun(declared)

@@ -26,7 +26,7 @@ void main() {
     float sunny = ray.w > 0.0 ? glow(ray.xyz) : 0.0;
     if (cloud_edge <= 1.0) {
         vec4 cloud = textureLod(clouds, uv, 0.0);
-        seen = seen - cloud.x * seen + cloudlight * cloud.z;
+        seen = seen + cloud.x * (groundlight - seen) + cloud.z * (cloudlight - groundlight);
         sunny = cloud.y + sunny * max(1.0 - cloud.w - mean_opacity, 0.0);  // a low sun is dimmed by the clouds' mean opacity
     }
     seen += sunlight * sunny;

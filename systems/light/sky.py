@@ -10,7 +10,7 @@ import numpy as np
 from ...components.arrays import Doubles
 from ...engine.declared.light import Light
 from .air import FORWARD, HEIGHTS, multiple_scattering, sky_radiance
-from .clouds import Clouds, clouds_of, in_shade, sent_down
+from .clouds import Clouds, clouds_of, from_below, in_shade, sent_down
 from .color import luminance, shown_as, srgb
 from .sun import sun_at
 
@@ -84,6 +84,9 @@ class Sky:
     clouds: Doubles
     """Radiance of a thin cloud in full shade, shape (3,)."""
 
+    ground: Doubles
+    """Mean radiance of the ground, which lights clouds from below, shape (3,)."""
+
 
 def sky_of(light: Light, clear: Doubles, sun: Doubles, /) -> Sky:
     """Return the sky of a scene's light: the radiance `clear` of `clear_air`, or the scene's own colours, with clouds.
@@ -94,12 +97,14 @@ def sky_of(light: Light, clear: Doubles, sun: Doubles, /) -> Sky:
     clouds = clouds_of(light.clouds)
     up, clear_down = radians(sun_at(light)[1]), _irradiance(map_)
     shaded = in_shade(sun, sin(up), clear_down, clouds)
-    grey = sent_down(sun, sin(up), shaded, clouds)
+    grey, gaps = sent_down(sun, sin(up), shaded, clouds), clear_down * (1.0 - clouds.hidden)
+    ground = from_below(sun, sin(up), gaps + grey, clouds)
+    grey = grey + ground * (clouds.hidden - clouds.scattered)
     map_ = _clouded(map_, grey, clouds)
     basis = scattered(np.cos(_AZIMUTH) * cos(up))
     horizon = _horizon(map_[0], basis)
     map_ = map_ * (1.0 - _LOW) + basis @ horizon * _LOW
-    return Sky(map_, horizon, clear_down * (1.0 - clouds.hidden) + grey, shaded)
+    return Sky(map_, horizon, gaps + grey, shaded, ground)
 
 
 def scattered(cosine: Doubles, /) -> Doubles:

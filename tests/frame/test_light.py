@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 
 from tallgrass import Shade
 from tallgrass.engine.camera import Camera
+from tallgrass.engine.declared.light import Light
 from tallgrass.systems.light.color import display, shown_as
+from tallgrass.systems.light.daylight import daylight
 from tallgrass.systems.light.repeating import CLOUDS_SIDE
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import Stage
@@ -195,6 +197,18 @@ def test_f5_an_overcast_sky_is_grey_all_over_down_to_the_horizon(room: Stage, lo
         sky, clear = sky_over(room, load, 1.0, up=up), sky_over(room, load, 0.0, up=up)
         assert np.ptp(sky, axis=1).max() < 0.35 * np.ptp(clear, axis=1).max()
         assert np.ptp(bright(sky[None])) < 90.0
+
+
+@pytest.mark.parametrize("elevation", [15.0, 45.0])
+def test_f5_an_overcast_sky_is_as_bright_as_the_ground_below_is_lit(room: Stage, load: Load, elevation: float) -> None:
+    """An eighth of that light has come up from the ground."""
+    prairie, seen = load(f"{SCENE}light: {{ elevation: {elevation}, clouds: 1 }}"), []
+    for x in np.arange(3) * CLOUDS_SIDE / 3.0:
+        up = Camera((float(x), 2.0, 0.0), 0.0, 1.5, np.radians(60.0))
+        seen.append(shown_as(room.shot(prairie, up) / 255.0).mean(axis=(0, 1)))
+    sky = daylight(Light(elevation=elevation, clouds=1.0)).sky
+    np.testing.assert_allclose(np.mean(seen, axis=0), sky.down, rtol=0.02)
+    assert sky.ground.mean() > 0.15 * sky.down.mean()
 
 
 def test_f5_clouds_are_brighter_on_the_side_of_the_sun(room: Stage, load: Load) -> None:

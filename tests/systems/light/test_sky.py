@@ -18,8 +18,10 @@ from tallgrass.systems.light.clouds import (
     DIFFUSION,
     FADE,
     FARTHEST_ASIDE,
+    GROUND_ALBEDO,
     SUNLIT,
     clouds_of,
+    from_below,
     in_shade,
     sent_down,
     sun_scattered,
@@ -239,3 +241,15 @@ def test_clouds_send_no_more_sunlight_than_they_get(cover: float, high: float) -
     sent = sent_down(sun, high, in_shade(sun, high, np.zeros(3), clouds), clouds)
     assert (sent > 0.0).all() or high < 0.01
     assert (sent <= SUNLIT * clouds.hidden).all()
+
+
+@settings(max_examples=40)
+@given(st.floats(0.01, 1.0), st.floats(0.0, 1.0))
+def test_ground_below_clouds_takes_no_more_light_than_there_is(cover: float, high: float) -> None:
+    sun, sky, clouds = np.ones(3), np.full(3, 0.2), clouds_of(cover)
+    down = sky * (1.0 - clouds.hidden) + sent_down(sun, high, in_shade(sun, high, sky, clouds), clouds)
+    ground = from_below(sun, high, down, clouds)
+    due = SUNLIT * high * clouds.past * sun + down + ground * (clouds.hidden - clouds.scattered)
+    np.testing.assert_allclose(ground, GROUND_ALBEDO * due)
+    if clouds.edge <= 0.0:  # lone clouds gather light with their sides, too
+        assert (due - ground <= SUNLIT * high * sun + sky).all()
