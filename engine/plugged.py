@@ -1,7 +1,7 @@
 """Systems of installed packages, found by entry points and imported when a prairie is made."""
 
 import logging
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
@@ -51,14 +51,15 @@ class SystemPlugins:
         rows = [ProvidedSystem(entry.name, *owner(entry), installed.status(entry)) for entry in installed.all()]
         return sorted(rows, key=lambda row: (row.system, row.status, row.distribution))
 
-    def bring(self, prairie: object, /) -> None:
+    def bring(self, prairie: object, /, come_back: Callable[[], str] = lambda: "") -> None:
         """Let every package add its systems to a prairie, in alphabetical order of their names.
 
         A package that fails, or a name that two packages claim, is logged and left out. What a package had added before
-        it failed stays. The same message is logged once, for all prairies together.
+        it failed stays. `come_back` undoes a change that no package may leave behind, and returns what was done, or "".
+        The same message is logged once, for all prairies together.
         """
         for name, entries in sorted(self._installed.used.items()):
-            why = _bring(prairie, name, entries)
+            why = _bring(prairie, name, entries, come_back)
             if why is not None and why not in self._logged:
                 self._logged.add(why)
                 log.warning("%s", why)
@@ -70,12 +71,12 @@ def system_plugins() -> SystemPlugins:
     return SystemPlugins(entry_points(group=SYSTEMS), chosen=chosen_names())
 
 
-def bring_systems(prairie: object, /) -> None:
+def bring_systems(prairie: object, /, come_back: Callable[[], str] = lambda: "") -> None:
     """Let every installed package add its systems to a prairie that is being made; it has its `systems` already."""
-    system_plugins().bring(prairie)
+    system_plugins().bring(prairie, come_back)
 
 
-def _bring(prairie: object, name: str, entries: list[EntryPoint]) -> str | None:
+def _bring(prairie: object, name: str, entries: list[EntryPoint], come_back: Callable[[], str]) -> str | None:
     """Let a package add its system; return why it cannot, or None."""
     if len(entries) > 1:
         twice = claimed(f"system '{name}'", entries)
@@ -91,5 +92,7 @@ def _bring(prairie: object, name: str, entries: list[EntryPoint]) -> str | None:
         bring(prairie)
     except (Exception, SystemExit) as error:  # a plugin may do anything
         log.debug("%s", name, exc_info=error)
+        come_back()
         return f"{what} cannot be added: {said(error)}; it is left out"
-    return None
+    left = come_back()
+    return f"{what} {left}; the prairie's own is current again" if left else None

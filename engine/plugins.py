@@ -168,6 +168,8 @@ def _must_be_primitive(thing: object, what: str) -> type[WindPrimitive]:
         raise PluginError(f"{what} must be a class that derives from WindPrimitive")
     if isabstract(thing):
         raise PluginError(f"{what} lacks {' and '.join(sorted(thing.__abstractmethods__))}")
+    if not isinstance(thing.interface, int):
+        raise PluginError(f"{what} has the interface {thing.interface!r}, which is no whole number")
     if thing.interface != INTERFACE:
         refusal = NewerError if thing.interface > INTERFACE else PluginError
         raise refusal(f"{what} is written for interface {thing.interface} of winds; this tallgrass has {INTERFACE}")

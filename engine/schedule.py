@@ -106,7 +106,7 @@ class Schedule:
     """Whether a system that often waits is left out, as in a game; otherwise it is only logged."""
 
     come_back: Callable[[], str] = lambda: ""
-    """Undoes a change that no system may leave behind; returns a description of the change, or ""."""
+    """Undoes a change that no system may leave behind; returns what was done, as "left ...", or ""."""
 
     milliseconds: dict[str, float] = field(init=False, default_factory=dict)
     """Duration of each system when its phase was last run [ms]; only of systems that ran then without an error."""
@@ -270,7 +270,7 @@ class Schedule:
                 if not system.trusted:
                     self._judge(system, took, thread_time() - spent)
             if not system.trusted and (left := self.come_back()):
-                self._leave_out(system, left)
+                self._leave_out(system, f"run {left}")
 
     def _judge(self, system: System, took: float, busy: float) -> None:
         """Log a system that waits, and in a live schedule leave it out when it waits often."""

@@ -252,12 +252,12 @@ class World:
         _worlds.discard(self)
 
     def come_back(self) -> str:
-        """Make this world current again if a system left another one current; return a description of that, or ""."""
+        """Make this world current again if other code left another one current; return what it did, or ""."""
         left = esper.current_world
         if left == self.name or self.name not in esper.list_worlds():
             return ""
         esper.switch_world(self.name)
-        return f"run left esper world '{left}' current in place of '{self.name}'"
+        return f"left esper world '{left}' current in place of '{self.name}'"
 
     def _must_be_current(self) -> None:
         if esper.current_world != self.name:

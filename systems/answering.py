@@ -54,7 +54,7 @@ class Answering(Underflowing):
         self.site: Site = site
         self.world = world
         self.viewers, self.clearings = Outlooks(world), Clearings()
-        self.features = begin_all(Start(world, site, Quarantine(live=live), live))
+        self.features = begin_all(Start(world, site, Quarantine(live=live, come_back=world.come_back), live))
         self.winds, self.pressers = feature_of(Winds, self.features), feature_of(Pressers, self.features)
         self._mown, self._shining = feature_of(Mowing, self.features).mown, feature_of(Lighting, self.features).shining
         self._clock, self._never_drawn = 0.0, set[str]()

@@ -91,7 +91,7 @@ class Prairie(Tending):
         self._built = self._assembly.on(self.site)
         for phase, name, system in self._built:
             self.systems.add(phase, name, system, trusted=True)
-        bring_systems(self)
+        bring_systems(self, self.world.come_back)
 
     @classmethod
     def load(

@@ -70,6 +70,9 @@ class Quarantine:
     live: bool = True
     """Whether a wind that takes too long is left out for a while; otherwise it is kept, with a warning."""
 
+    come_back: Callable[[], str] = lambda: ""
+    """Undoes a change that no wind may leave behind; returns what was done, as "left ...", or ""."""
+
     _timed: dict[type[WindPrimitive], bool] = field(default_factory=dict)
     """Whether each class of winds is timed; the built-in ones are not."""
 
@@ -102,8 +105,11 @@ class Quarantine:
             answer = ask()
         except Exception as error:  # a plugin may raise anything
             log.debug("%s", source.name, exc_info=error)
+            self.come_back()
             raise self.leave_out(source, f"{what} raised {said(error)}") from error
         if is_timed:
+            if left := self.come_back():
+                raise self.leave_out(source, f"{what} {left}")
             took = thread_time() - start
             self._judge(source, what, took, receivers)
             self._judge_waiting(source, what, perf_counter() - begun, took)

@@ -106,6 +106,19 @@ def test_each_broken_one_is_one_warning_with_its_distribution_however_many_prair
     ]
 
 
+def test_a_package_that_leaves_a_change_behind_is_named_once(
+    toys: list[EntryPoint], caplog: pytest.LogCaptureFixture
+) -> None:
+    plugins = SystemPlugins([entry for entry in toys if entry.name == "ball"])
+    for _ in range(2):
+        made = prairie()
+        plugins.bring(made, lambda: "left esper world 'there' current in place of 'here'")
+        assert "ball" in made.systems
+    (told,) = caplog.messages
+    place = "left esper world 'there' current in place of 'here'; the prairie's own is current again"
+    assert told == f"system 'ball' of tallgrass-toys 0.3.1 {place}"
+
+
 @pytest.mark.usefixtures("toys")
 def test_of_two_packages_with_one_system_neither_is_used_until_one_is_chosen(
     tmp_path: Path, caplog: pytest.LogCaptureFixture

@@ -64,13 +64,16 @@ def dust(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> WindKinds:
         "text": "dust_vortex:__name__",
         "half": "tallgrass.components.wind:WindPrimitive",
         "later": "dust_later:Vortex",
+        "worded": "dust_worded:Vortex",
         "leaving": "dust_leaving:Vortex",
     }
     later = f"{VORTEX}    interface = 2\n"
+    worded = f"{VORTEX}    interface = 'two'\n"
     modules = {
         "dust_vortex": VORTEX,
         "dust_faulty": "1 / 0",
         "dust_later": later,
+        "dust_worded": worded,
         "dust_leaving": "raise SystemExit(7)",
     }
     entries = install(tmp_path, "tallgrass-dust", kinds, modules)
@@ -128,7 +131,7 @@ def test_d5_an_installed_kind_is_imported_when_first_asked_for(dust: WindKinds) 
 def test_an_unknown_kind_names_the_one_it_resembles(dust: WindKinds) -> None:
     with pytest.raises(PluginError) as refusal:
         dust.find("vortx")
-    known = "faulty, gone, half, later, leaving, text, vortex"
+    known = "faulty, gone, half, later, leaving, text, vortex, worded"
     assert str(refusal.value) == f"unknown kind 'vortx', did you mean 'vortex'? known: {known}"
     with pytest.raises(PluginError, match="unknown kind 'zzz'; known: faulty, gone"):
         dust.find("zzz")
@@ -142,6 +145,7 @@ def test_an_unknown_kind_names_the_one_it_resembles(dust: WindKinds) -> None:
         ("leaving", "cannot be loaded: SystemExit: 7"),
         ("text", "must be a class that derives from WindPrimitive"),
         ("half", "lacks action and mask"),
+        ("worded", "has the interface 'two', which is no whole number"),
         ("later", "is written for interface 2 of winds; this tallgrass has 1"),
     ],
 )

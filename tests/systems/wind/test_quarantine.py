@@ -162,6 +162,17 @@ def test_a_failing_wind_is_one_named_warning_and_leaves_no_trace(
     assert quarantine.reasons == {failing: f"wind[1] failing: {why}"}
 
 
+def test_a_wind_that_leaves_a_change_behind_is_left_out(caplog: pytest.LogCaptureFixture) -> None:
+    changes = ["left esper world 'there' current in place of 'here'"]
+    quarantine = Quarantine(come_back=lambda: changes.pop() if changes else "")
+    failing = WindSource(Failing(), "wind[1] failing")
+    for _ in range(2):
+        told([BREEZE, failing], quarantine)
+    (said,) = caplog.messages
+    assert "left esper world 'there' current in place of 'here'; this wind is left out from now on" in said
+    assert list(quarantine.reasons) == [failing]
+
+
 def test_a_wind_that_does_not_fail_is_kept_and_heard(caplog: pytest.LogCaptureFixture) -> None:
     for where, part in [("action", "fine"), ("extent", "everywhere")]:
         message = told([BREEZE, WindSource(Failing(where=where, part=part, swing=0.0), "fine")], Quarantine())
