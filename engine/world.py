@@ -67,6 +67,8 @@ class World:
         self._changes, self._cached = 0, esper.get_component(_Never)
         self._logged: set[int] = set()
         """Entities whose unusable pose has been logged."""
+        self.warned: set[str] = set()
+        """Warnings about a prairie's entities that are logged once for all of them, and have been."""
         _worlds.add(self)
 
     def create(self, *components: object) -> int:

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator, Sequence
 from functools import partial
+from itertools import chain
 from math import inf
 from types import UnionType
 from typing import Any, Union, get_args, get_origin
@@ -189,11 +190,23 @@ def _of_field(primitive: type[WindPrimitive], name: str, declared: FieldInfo) ->
         limits = [*declared.metadata, *_inner_limits(declared.annotation)]
         missing = [end for end, names in _BOUNDS.items() if not any(_sets(limit, names) for limit in limits)]
         if missing:
-            yield f"has no {' and no '.join(missing)} bound: write Field(..., ge=..., le=...)"
+            yield f"has no {' and no '.join(missing)} bound: write Field(..., {_bounds_before(primitive, name)})"
     if declared.is_required():
         yield "has no default"
     else:
         yield from _of_default(primitive, name, declared)
+
+
+def _bounds_before(primitive: type[WindPrimitive], name: str) -> str:
+    """Return the bounds that a base gives a field which a class declares again, as they are written."""
+    for base in primitive.__mro__[1:]:
+        declared = base.model_fields.get(name) if issubclass(base, WindPrimitive) else None
+        limits = [*declared.metadata, *_inner_limits(declared.annotation)] if declared is not None else []
+        names = [*chain.from_iterable(_BOUNDS.values())]
+        ends = (f"{end}={getattr(limit, end):g}" for limit in limits for end in names if hasattr(limit, end))
+        if found := ", ".join(ends):
+            return found
+    return "ge=..., le=..."
 
 
 def _is_number(annotation: Any) -> bool:

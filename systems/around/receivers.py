@@ -15,6 +15,8 @@ from ...components.receivers import Receivers
 from ...engine.world import World
 from .patches import PatchTable
 
+NOT_FINITE = "messages of receivers must be finite numbers; those that are not were taken for no wind"
+
 log = logging.getLogger("tallgrass")
 
 
@@ -79,7 +81,8 @@ class PoolMessages:
         self._by_slot: dict[int, SlotMessages] = {}
         """Messages of the slots that a game has asked for."""
         self._prefetched: dict[int, Floats] = {}
-        self._has_warned = False
+        self.warned: set[str] = set()
+        """Warnings logged so far; once there are entities, those of their world."""
         self.shown: Rows = np.zeros(0, np.int64)
         """Slots of the patches that are shown in this frame, shape (m,)."""
 
@@ -157,9 +160,9 @@ class PoolMessages:
     def _valid(self, message: Floats) -> Floats:
         """Return messages with non-finite numbers set to 0, which is warned of once, and lengths clamped to 1."""
         if not np.isfinite(message).all():
-            if not self._has_warned:
-                log.warning("messages of receivers must be finite numbers; those that are not were taken for no wind")
-            self._has_warned = True
+            if NOT_FINITE not in self.warned:
+                log.warning(NOT_FINITE)
+            self.warned.add(NOT_FINITE)
             message = np.where(np.isfinite(message), message, np.float32(0.0))
         index = np.hypot(*message.T.astype(np.float64))
         # A length that exceeds 1 by rounding alone is kept: reading messages must not change a picture.
@@ -230,6 +233,7 @@ class Receiving:
             self.messages.forget(slot)
         self._owner[changed] = self._entity[changed] = 0
         fresh = changed[owner[changed] != 0][: self.BATCH]
+        self.messages.warned = world.warned
         self._owner[fresh] = owner[fresh]
         self._owned = int(np.count_nonzero(self._owner))
         with world.exchanging():

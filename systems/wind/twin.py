@@ -44,6 +44,7 @@ _MACRO = re.compile(r"^\s*#\s*define\s+(\w+)")
 _NUMBER, _SHEET = (re.compile(rf"\b{name}\s*\(\s*[\w.]+\s*,\s*(\d+)\b") for name in ("value", "(?:sheet|smooth_noise)"))
 _ACTION = re.compile(r"\bvec2\s+action\s*\(\s*(?:in\s+)?vec2\s+\w+\s*,\s*(?:in\s+)?(\w+)\s+\w+\s*\)")
 _COMMENT = re.compile(r"//.*")
+_INCLUDE = re.compile(r"^\s*#\s*include\b")
 _VECTOR = ("", "float", "vec2", "vec3", "vec4")
 
 
@@ -136,6 +137,7 @@ class Layout:
 
     def packed(self, wind: WindPrimitive, values: TwinValues, /) -> TwinValues:
         """Return the numbers of a wind's record in this layout; raises TwinError where a size has changed."""
+        _must_be_values(values)
         if self.record is None:
             numbers = values.numbers
             named = [_as_list(number) for number in numbers.values()] if isinstance(numbers, Mapping) else [numbers]
@@ -165,7 +167,12 @@ class Layout:
 
 
 def layout_of(twin: Twin, wind: WindPrimitive, values: TwinValues, /) -> Layout:
-    """Return the layout of a twin's record, with the sizes of a wind's values; raises TwinError for unknown names."""
+    """Return the layout of a twin's record, with the sizes of a wind's values.
+
+    Raises TwinError for a twin that lacks a function or includes a file, for unknown names, and for invalid values.
+    """
+    _must_be_whole(twin)
+    _must_be_values(values)
     if twin.record is None:
         return Layout()
     if twin.numbers:
@@ -286,6 +293,21 @@ def _own_names(twin: Twin) -> list[str]:
 def _texels(first: int, size: int) -> str:
     """Return the GLSL of `size` numbers from the `first` on, as components of fetched texels."""
     return ", ".join(f"texel{k // 4}.{'xyzw'[k % 4]}" for k in range(first, first + size))
+
+
+def _must_be_whole(twin: Twin) -> None:
+    """Raise TwinError for a twin that lacks one of its functions or includes a file."""
+    for number, text in enumerate(twin.text, 1):
+        if _INCLUDE.match(text):
+            raise TwinError(f"{twin.file}:{number} includes a file, which a twin cannot")
+    for head in ("float mask", "vec2 action"):
+        if head.partition(" ")[2] not in _own_names(twin):
+            raise TwinError(f"{twin.file} has no line that begins with '{head}(vec2 place, '")
+
+
+def _must_be_values(values: object) -> None:
+    if not isinstance(values, TwinValues):
+        raise TwinError(f"twin_values returned {type(values).__name__}, not TwinValues")
 
 
 def _read_of(record: str, text: str) -> tuple[str, ...]:

@@ -277,6 +277,17 @@ def test_d2_what_is_no_number_is_refused_with_one_warning(
     assert len(caplog.messages) == 1
 
 
+def test_d2_what_is_no_number_in_every_representation_is_one_warning(
+    world: World, game: Game, caplog: pytest.LogCaptureFixture
+) -> None:
+    game.frame()
+    for name in ("blades", "strips", "carpet"):
+        of(world, name)[0][1].message[:] = np.nan
+    game.frame()
+    (told,) = caplog.messages
+    assert told.startswith("messages of receivers must be finite numbers")
+
+
 @pytest.mark.parametrize("late", [False, True], ids=["between frames", "after the wind"])
 @pytest.mark.parametrize("length", [1.5, 40.0, 1e30])
 def test_d2_a_message_that_is_longer_than_1_is_shortened(

@@ -205,6 +205,9 @@ class Plain(Even):
     endless: float = 1.0
     """How long it lasts [s]."""
 
+    priority: int = 7
+    """The highest priority at a place counts."""
+
     half: float | None = Field(None, ge=0.0)
     """How long half of it lasts [s]."""
 
@@ -226,6 +229,7 @@ class Plain(Even):
 
 def test_d5_fields_that_are_declared_badly_are_named() -> None:
     assert wind_problems(Plain) == [
+        "the field 'priority' has no lower and no upper bound: write Field(..., ge=-1000, le=1000)",
         "the field 'silent' has no sentence: write a docstring below it",
         "the field 'endless' has no lower and no upper bound: write Field(..., ge=..., le=...)",
         "the field 'half' has no upper bound: write Field(..., ge=..., le=...)",

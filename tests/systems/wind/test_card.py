@@ -241,7 +241,9 @@ def test_d5_a_record_whose_names_have_other_sizes_later_is_told_of_and_numpy_is_
     ("text", "values", "why"),
     [
         (DRAUGHT.replace("0.6", "oops"), (5.0,), "oops"),
-        (DRAUGHT.replace("vec2 action", "vec2 deed"), (5.0,), "action_"),
+        (DRAUGHT.replace("vec2 action", "vec2 deed"), (5.0,), "has no line that begins with 'vec2 action(vec2 place, '"),
+        (DRAUGHT.replace("float mask", "float hat"), (5.0,), "has no line that begins with 'float mask(vec2 place, '"),
+        ('#include "lib/tone.glsl"\n' + DRAUGHT, (5.0,), ":1 includes a file, which a twin cannot"),
         (DRAUGHT, (), "0 numbers where 1 are read"),
         (DRAUGHT, (5.0,) * 65, "65 numbers where 64 is the most"),
         (DRAUGHT, (float("nan"),), "numbers that are not finite"),
@@ -274,6 +276,16 @@ def test_d5_twin_values_that_raise_are_no_more_than_a_twin_that_fails(
     written(monkeypatch, Draught, DRAUGHT)
     agrees(ear, now_of(Draught(), Breeze()))
     assert "ZeroDivisionError" in caplog.text
+
+
+@pytest.mark.parametrize("values", [None, {"share": 2.0}, (5.0,)])
+def test_d5_twin_values_of_another_type_are_told_of(
+    ear: CardEar, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture, values: object
+) -> None:
+    monkeypatch.setattr(Draught, "twin_values", lambda *_, **__: values)
+    written(monkeypatch, Draught, DRAUGHT)
+    agrees(ear, now_of(Draught(), Breeze()))
+    assert f"cannot be used: twin_values returned {type(values).__name__}, not TwinValues" in caplog.text
 
 
 def test_a_twin_that_is_not_there_is_named(ear: CardEar, caplog: pytest.LogCaptureFixture) -> None:
