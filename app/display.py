@@ -2,6 +2,7 @@
 
 import importlib
 import os
+import sys
 
 import moderngl
 import pyglet
@@ -13,6 +14,9 @@ from .studio.errors import MachineError
 
 CARD_RATE, SOFTWARE_RATE = 60.0, 20.0
 """Frame rates that are held with a graphics card, and without one [1/s]."""
+
+DISPLAYS = "DISPLAY", "WAYLAND_DISPLAY"
+"""Variables of the environment that name a Linux desktop's display."""
 
 SOFTWARE_PRESET = "low"
 """Preset of a walk without a graphics card, in place of finer presets of scenes."""
@@ -33,8 +37,13 @@ def need_display() -> None:
 
 def no_window(error: Exception, /) -> str:
     """Return a sentence on why no window can be opened, and on the alternatives."""
-    why = str(error).replace('Cannot connect to "None"', "there is no display")
+    why = "there is no display" if lacks_display() else error
     return f"no window can be opened here ({why}); tallgrass shot and tallgrass film need none"
+
+
+def lacks_display() -> bool:
+    """Return whether this is a Linux without a display; without one, libraries say all sorts of other things."""
+    return sys.platform.startswith("linux") and not any(os.environ.get(name) for name in DISPLAYS)
 
 
 def suited_rate(ctx: moderngl.Context, /) -> float:
