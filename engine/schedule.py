@@ -124,6 +124,7 @@ class Schedule:
     """Names of the systems whose waits have been logged."""
 
     _numbers: Iterator[int] = field(init=False, default_factory=count)
+    _closed: bool = field(init=False, default=False)
     _runs: bool = field(init=False, default=False)
     """Whether systems are running now."""
 
@@ -159,8 +160,11 @@ class Schedule:
         `phase` may be a name in any case, as "blow". `after` only checks that the system of that name runs earlier.
         Other systems keep their order. Errors of a `trusted` system are raised to the caller: that is for the engine's
         own. Raises ValueError for a name that is empty or taken, an unknown phase, and an impossible order;
-        UnknownSystemError where `before` or `after` names no system; TypeError for a `run` that cannot be called.
+        UnknownSystemError where `before` or `after` names no system; TypeError for a `run` that cannot be called;
+        RuntimeError after `Prairie.release`.
         """
+        if self._closed:
+            raise RuntimeError("this prairie has been released: load it again to add a system")
         if not (isinstance(name, str) and name.strip()):
             raise ValueError(f"a system's name is a text that is not empty, unlike {name!r}")
         if name in self._systems:
@@ -194,6 +198,11 @@ class Schedule:
         for system in self:
             self.remove(system.name)
 
+    def close(self) -> None:
+        """Remove every system, and refuse others from now on."""
+        self.clear()
+        self._closed = True
+
     def enable(self, name: str) -> None:
         """Let a system run again, also one that has failed or waited; raises UnknownSystemError."""
         self._systems[name] = changed(self[name], enabled=True)
@@ -222,10 +231,13 @@ class Schedule:
         finally:
             self._runs = False
 
-    def must_be_idle(self) -> None:
-        """Raise RuntimeError while systems run: a system that draws the prairie would run all of them recursively."""
+    def must_be_idle(self, purpose: str, /) -> None:
+        """Raise RuntimeError while systems run: they cannot draw the prairie, which would run all of them recursively.
+
+        Nor can they change what they are made for. `purpose` says what they cannot do, as "draw it".
+        """
         if self._runs:
-            raise RuntimeError("this prairie is being drawn: its systems cannot draw it; do so before or after")
+            raise RuntimeError(f"this prairie is being drawn: its systems cannot {purpose}; do so before or after")
 
     def step(self, which: Phase | str, /) -> None:
         """Run once, outside of a frame, one system by its name, or the enabled ones of a phase.

@@ -159,7 +159,7 @@ class Prairie(Tending):
         or without a window. A viewport without pixels draws nothing.
         """
         self._must_be_there("draw it")
-        self.systems.must_be_idle()
+        self.systems.must_be_idle("draw it")
         must_be_viewer(viewer)
         must_be_known("depth", str(depth), DEPTHS)
         chosen = as_parts(self.scene.parts if parts is None else parts)
@@ -245,7 +245,7 @@ class Prairie(Tending):
         middle. Matrices and errors are those of `draw`.
         """
         self._must_be_there("follow a viewer")
-        self.systems.must_be_idle()
+        self.systems.must_be_idle("draw it")
         must_be_viewer(viewer)
         seen = view_of(view, projection, self._origin)
         self._advance_kinds()
@@ -282,9 +282,10 @@ class Prairie(Tending):
         the terrain is the same. With the `site` that `finding`'s function returned nothing has to grow here; the scene
         is then the one that the site was made for. Raises `SceneError` with every problem, and then nothing has
         changed; ValueError if there is no scene to read; TypeError for another `site`; RuntimeError after `release`,
-        and while another esper world is current.
+        in a system, and while another esper world is current.
         """
         self._must_be_there("read it again")
+        self.systems.must_be_idle("read it again")
         if site is not None:
             must_be_a(Site, site, "site is what finding(...)() returned")
         self.winds.sources()
@@ -343,7 +344,7 @@ class Prairie(Tending):
             feature.release()
         self._assembly.screen.release()
         self.world.release()
-        self.systems.clear()
+        self.systems.close()
         self._built.clear()
 
     def _advance_kinds(self, stage: Stage = lambda *_: True) -> None:

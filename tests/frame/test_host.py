@@ -265,6 +265,16 @@ def test_a_system_that_draws_its_own_prairie_is_left_out_in_a_sentence(stage: St
     np.testing.assert_array_equal(stage.shot(prairie), seen)
 
 
+def test_a_system_that_reads_its_own_prairie_again_is_left_out_in_a_sentence(stage: Stage, load: Load) -> None:
+    prairie = load()
+    seen = stage.shot(prairie)
+    prairie.systems.add("see", "other", lambda: prairie.reload({"tallgrass": 2, "grass": {"other": {}}}))
+    np.testing.assert_array_equal(stage.shot(prairie), seen)
+    (told,) = prairie.systems.failures.values()
+    why = "this prairie is being drawn: its systems cannot read it again; do so before or after"
+    assert told.endswith(f"run raised RuntimeError: {why}")
+
+
 def test_d2_released_a_prairie_leaves_no_entity_behind(stage: Stage, load: Load) -> None:
     kept = load()
     theirs = esper.create_entity("a game's own")

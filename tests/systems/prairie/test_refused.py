@@ -322,6 +322,7 @@ def test_a_released_prairie_says_so_when_it_is_asked_for_more(prairie: Prairie) 
         ("put it into a batch", lambda: prairie.group(object(), lambda: (GOOD, GOOD))),  # type: ignore[arg-type]
         ("add a wind", lambda: prairie.add(Gust())),
         ("move a wind", lambda: prairie.move(handle, Pose())),
+        ("add a system", lambda: prairie.systems.add("input", "late", print)),
         ("move its time on", lambda: prairie.advance(0.1)),
         ("set its time", lambda: setattr(prairie, "time", 1.0)),
         *(
