@@ -2,7 +2,7 @@
 
 import gc
 import logging
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import count
 from operator import itemgetter
@@ -64,7 +64,7 @@ class World:
         """Number of times that all our entities were deleted at once, as by `esper.clear_database`."""
         self._home: ref[Resident] | None = None
         self._mine = Residents()
-        self._changes, self._cached = 0, esper.get_component(_Never)
+        self._changes, self._cached, self._deferred = 0, esper.get_component(_Never), 0
         self._logged: set[int] = set()
         """Entities whose unusable pose has been logged."""
         self.warned: set[str] = set()
@@ -98,11 +98,14 @@ class World:
         return self.generation
 
     def changes(self) -> int:
-        """Return a number that rises when entities or components have come or gone other than while `exchanging`."""
+        """Return a number that rises when entities or components have come or gone other than while `exchanging`.
+
+        It also rises when the game deletes an entity and esper defers that.
+        """
         self._must_be_current()
-        cached = esper.get_component(_Never)
-        if cached is not self._cached:
-            self._changes, self._cached = self._changes + 1, cached
+        cached, deferred = esper.get_component(_Never), len(_deferred())
+        if cached is not self._cached or deferred != self._deferred:
+            self._changes, self._cached, self._deferred = self._changes + 1, cached, deferred
         return self._changes
 
     @contextmanager
@@ -183,12 +186,13 @@ class World:
     def rows(self, kind: type[Component]) -> list[tuple[int, Component]]:
         """Return every entity with a component of exactly this type, in any order, those of other prairies too.
 
-        Deleted ones are among them as long as esper defers that. It caches the list until any entity comes or goes: ask
-        for `changes` first. Compare it with a kept one to see what has changed, and exchange many entities
+        Deleted ones are not among them, even if esper still defers that. It caches the list until any entity comes or
+        goes: ask for `changes` first. Compare it with a kept one to see what has changed, and exchange many entities
         `uncollected`.
         """
         self._must_be_current()
-        return esper.get_component(kind)
+        rows, deferred = esper.get_component(kind), _deferred()
+        return [row for row in rows if row[0] not in deferred] if deferred else rows
 
     def beside(self, rows: list[tuple[int, Component]], other: type[Other]) -> list[Other | None]:
         """Return the component of exactly the type `other` of each entity in some rows, None where it has none."""
@@ -296,6 +300,11 @@ def install() -> None:
     """
     if esper.get_processor(Advance) is None:
         esper.add_processor(Advance(), PRIORITY)
+
+
+def _deferred() -> Collection[int]:
+    """Return the entities whose deletion esper defers; esper tells of them only one by one, in `entity_exists`."""
+    return getattr(esper, "_dead_entities", ())
 
 
 def _residents(name: str, *, but: World | None = None) -> list[World]:

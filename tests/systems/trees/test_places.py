@@ -233,6 +233,20 @@ def test_trees_are_entities_that_a_game_reads_fells_moves_and_plants() -> None:
         assert standing(prairie) == [[-9.0, 3.0], [0.0, 12.0], [2.0, 0.0]]
 
 
+def test_a_tree_whose_deletion_esper_defers_is_felled_at_once() -> None:
+    with little_prairie(scene=WOOD) as prairie:
+        found = {(pose.x, pose.z): entity for entity, (_, pose) in esper.get_components(Tree, Pose)}
+        assert len(standing(prairie)) == 3
+        for place, left in (((9.0, 0.0), 2), ((0.0, 12.0), 1)):
+            esper.delete_entity(found[place])
+            assert len(standing(prairie)) == left
+        felled = prairie.state()
+        esper.process()
+        assert len(standing(prairie)) == 1
+        assert prairie.restore(felled) == {}
+        assert len(standing(prairie)) == 1
+
+
 def test_a_kind_of_trees_is_no_grass_to_be_changed() -> None:
     with little_prairie(scene=WOOD) as prairie, pytest.raises(ValueError, match=r"^'oak' are trees: give each another"):
         prairie.change_kind("oak", tip="#c86a1e")
