@@ -241,7 +241,11 @@ def test_d5_a_record_whose_names_have_other_sizes_later_is_told_of_and_numpy_is_
     ("text", "values", "why"),
     [
         (DRAUGHT.replace("0.6", "oops"), (5.0,), "oops"),
-        (DRAUGHT.replace("vec2 action", "vec2 deed"), (5.0,), "has no line that begins with 'vec2 action(vec2 place, '"),
+        (
+            DRAUGHT.replace("vec2 action", "vec2 deed"),
+            (5.0,),
+            "has no line that begins with 'vec2 action(vec2 place, '",
+        ),
         (DRAUGHT.replace("float mask", "float hat"), (5.0,), "has no line that begins with 'float mask(vec2 place, '"),
         ('#include "lib/tone.glsl"\n' + DRAUGHT, (5.0,), ":1 includes a file, which a twin cannot"),
         (DRAUGHT, (), "0 numbers where 1 are read"),
