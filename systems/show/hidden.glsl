@@ -40,10 +40,24 @@ float depth_before(Span spans[SPANS], float high, float slope, float stands) {
     return depth;
 }
 
+// Whether the eye is among stems. Right in front of it are too few of them to hide what their mean optical depth tells.
+bool eye_among_stems() {
+    float above_ground = eye.y - height_filtered(eye.xz);
+    if (above_ground > tallest_grass)
+        return false;
+    ByKind density = density_at(eye.xz);
+    float tallest = 0.0;
+    for (int group = 0; group < GROUPS; group++) {
+        vec4 tall = crown[group] * vec4(greaterThan(density[group], vec4(0.0)));
+        tallest = max(tallest, max(max(tall.x, tall.y), max(tall.z, tall.w)));
+    }
+    return above_ground < tallest;
+}
+
 // Height [m] up to which grass with this root is hidden, at most `tall`. `stands` is its height in the wind, of that at rest. It
-// is 0 in scenes with cut grass, or with grass missing where the density map has some.
+// is 0 in scenes with cut grass, or with grass missing where the density map has some, and for an eye among stems.
 float hidden_height(vec3 root, float tall, float stands) {
-    if (anything_is_cut() || anything_open > 0.5)
+    if (anything_is_cut() || anything_open > 0.5 || eye_among_stems())
         return 0.0;
     float away = max(distance(eye.xz, root.xz), TRAIL);
     Span spans[SPANS];

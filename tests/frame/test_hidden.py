@@ -31,12 +31,15 @@ quality:
 CAMERA = Camera((0.0, 1.1, 20.0), 0.0, -0.1, np.radians(30.0))
 
 
-def drawn(stage: Stage, prairie: Prairie) -> tuple[NDArray[np.float64], int]:
+IN_GRASS = Camera((0.0, 0.12, 20.0), 0.0, 0.05, np.radians(30.0))
+
+
+def drawn(stage: Stage, prairie: Prairie, camera: Camera = CAMERA) -> tuple[NDArray[np.float64], int]:
     """Return the picture, and the number of samples drawn."""
-    stage.shot(prairie, CAMERA)
+    stage.shot(prairie, camera)
     query = stage.ctx.query(samples=True)
     with query:
-        picture = stage.shot(prairie, CAMERA)
+        picture = stage.shot(prairie, camera)
     return picture, query.samples
 
 
@@ -56,6 +59,17 @@ def test_g5_what_leaves_hide_costs_nothing_and_nobody_misses_it(
     assert few < 0.9 * all_
     assert np.abs(seen - due).mean() < 0.2
     assert np.quantile(np.abs(seen - due), 0.999) < 8.0
+
+
+@pytest.mark.parametrize("lod", ["strips", "blades"])
+def test_g5_an_eye_among_stems_sees_no_sky_in_place_of_grass_that_others_hide(
+    room: Stage, load: Load, monkeypatch: pytest.MonkeyPatch, lod: str
+) -> None:
+    prairie = load(SCENE, lod=lod)
+    seen, _ = drawn(room, prairie, IN_GRASS)
+    monkeypatch.setattr(painter, "_is_open", lambda *_: True)
+    due, _ = drawn(room, prairie, IN_GRASS)
+    np.testing.assert_array_equal(seen, due)
 
 
 def test_where_blades_are_few_nobody_asks_what_hides_them(
