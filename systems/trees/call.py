@@ -10,7 +10,7 @@ from .choice import Batch
 from .kind import Binding, GpuKind
 from .outline import Outline
 from .programs import SAMPLED, SOFT, Programs
-from .stream import BACKS, CARDS, FAR, IN_ROWS, LEAVES, NEAR, QUAD, WOOD, GpuModel, Uniforms
+from .stream import BACKS, CARDS, FAR, IN_ROWS, LEAVES, NEAR, QUAD, SMALL_CARDS, WOOD, GpuModel, Uniforms
 from .wood import CLOSED, OPAQUE, SOLID
 
 
@@ -113,6 +113,8 @@ class Calls:
         sort = LEAVES if name == LEAVES else NEAR if name in CARDS else WOOD if name in model.wood else FAR
         whole = how.edges == SOFT or how.sampled or how.casts
         card, picture = (kind.outline, model.outline) if whole else (kind.solid_outline, model.solid_outline)
+        if name in SMALL_CARDS and not (how.sampled or how.casts):
+            card = kind.triangle if how.edges == SOFT else kind.solid_triangle
         corners, outline = card if sort == NEAR else [], picture if sort == FAR else None
         of_leaves = QUAD * kind.habit.leaf.quads if sort == LEAVES else 0
         drawn_as, edges = sort, SAMPLED if how.sampled and sort != FAR else how.edges

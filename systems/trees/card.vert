@@ -5,9 +5,10 @@
 #include "systems/trees/behind.glsl"
 #include "systems/trees/outline.py"
 
-in vec4 hung_at;      // outputs of hang.vert
-in uvec4 hung_axes;
-in uvec4 hung_light;
+in uvec4 hung_place;  // outputs of hang.vert
+in uvec4 hung_look;
+
+uniform vec3 hung_from;  // origin of its places [m]
 
 uniform vec2 corners[CARD_CORNERS]; // of its outline: across from -1 to 1, and up from 0 to 1, more beyond the card
 uniform vec4 card;                  // as in twig.glsl
@@ -20,11 +21,11 @@ flat out vec3 brightest;
 
 void main() {
     on = corners[gl_VertexID];
-    HungCard hung = unpack_card(hung_axes, hung_light);
+    HungCard hung = unpack_card(hung_place, hung_look);
     picture = hung.picture;
     relief = hung.relief;
     darkest = hung.darkest;
     brightest = hung.brightest;
-    vec3 place = hung_at.xyz + hung_at.w * (on.x * card.x * hung.aside + mix(card.y, card.z, on.y) * hung.along);
-    gl_Position = hung_at.w > 0.0 ? clip_position(place) : vec4(0.0, 0.0, 2.0, 1.0);
+    vec3 place = hung_from + hung.offset + hung.size * (on.x * card.x * hung.aside + mix(card.y, card.z, on.y) * hung.along);
+    gl_Position = hung.size > 0.0 ? clip_position(place) : vec4(0.0, 0.0, 2.0, 1.0);
 }

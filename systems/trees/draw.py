@@ -140,6 +140,7 @@ class TreePart(Part):
         self._uniforms = {
             "leaf_pixels": LEAF_PIXELS if self.leaves_from is None else EVERY_LEAF,
             "moment": (viewer.time % PERIOD,),
+            "hung_from": tuple(viewer.eye),
             "middle": tuple(((viewer.centre + 0.5) * patch).tolist()),
         }
         assert self._shade is not None

@@ -42,6 +42,9 @@ SWEEPS = 4
 SIDES = 24
 """Number of directions that a side of a card's outline may face."""
 
+TRIANGLE = 3
+"""Number of corners of a small card's outline: its triangles cost more than their area."""
+
 BOX = np.array([(-1.0, 0.0), (1.0, 0.0), (-1.0, 1.0), (1.0, 1.0)])
 """The outline of a whole card."""
 
@@ -155,19 +158,19 @@ def solid_above(cover: Bytes, /) -> float:
     return SOLID if solid == each.size else max(SOLID, float(each[solid]))
 
 
-def card_outline(covered: Mask, margin: int = MARGIN, /) -> Doubles:
-    """Return four corners about what a picture (n, n) covers, as a strip of two triangles, shape (4, 2).
+def card_outline(covered: Mask, margin: int = MARGIN, /, *, corners: int = len(BOX)) -> Doubles:
+    """Return three or four corners about what a picture (n, n) covers, as a strip of triangles, shape (corners, 2).
 
     They are across from -1 to 1 and up from 0 to 1, of about the least area, with a margin [texels]. They may lie
     beyond the card.
     """
     side = len(covered)
     if not covered.any():
-        return BOX
-    corners = _quads(*_support(covered, margin))
-    after = np.roll(corners, -1, axis=1)
-    area = (corners[..., 0] * after[..., 1] - corners[..., 1] * after[..., 0]).sum(axis=1)
-    least = corners[area.argmin()][[0, 1, 3, 2]] / side
+        return BOX[:corners]
+    found = _polygons(*_support(covered, margin), corners)
+    after = np.roll(found, -1, axis=1)
+    area = (found[..., 0] * after[..., 1] - found[..., 1] * after[..., 0]).sum(axis=1)
+    least = found[area.argmin()][[0, 1, -1, 2][:corners]] / side
     return np.asarray(least * (2.0, 1.0) - (1.0, 0.0))
 
 
@@ -187,9 +190,9 @@ def _support(covered: Mask, margin: int) -> tuple[Doubles, Doubles]:
     return to, (np.concatenate(ends) @ to.T).max(axis=0) + margin
 
 
-def _quads(to: Doubles, reach: Doubles) -> Doubles:
-    """Return the corners (n, 4, 2) of all quads whose sides face four of the directions at these extents."""
-    sides = np.array(list(combinations(range(SIDES), len(BOX))))
+def _polygons(to: Doubles, reach: Doubles, corners: int) -> Doubles:
+    """Return the corners (n, corners, 2) of all polygons whose sides face these directions at these extents."""
+    sides = np.array(list(combinations(range(SIDES), corners)))
     turn = np.diff(sides, axis=1, append=sides[:, :1] + SIDES)
     sides = sides[(2 * turn < SIDES).all(axis=1)]  # other sides do not meet
     (side, next_side), (a, b) = (

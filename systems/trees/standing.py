@@ -51,10 +51,10 @@ STOOD = np.dtype(
 )
 """Output of `stand.vert`, once a tree."""
 
-HUNG = np.dtype([("hung_at", "4f4"), ("hung_axes", "4u4"), ("hung_light", "4u4")])
+HUNG = np.dtype([("hung_place", "4u4"), ("hung_look", "4u4")])
 """Output of `hang.vert`, once a twig on its card."""
 
-HUNG_LEAVES = np.dtype([*HUNG.descr, ("hung_haze", "2u4")])
+HUNG_LEAVES = np.dtype([("hung_at", "4f4"), ("hung_axes", "4u4"), ("hung_light", "4u4"), ("hung_haze", "2u4")])
 """Output of `hang.vert`, once a twig drawn leaf by leaf."""
 
 TWIG_POWER = 1.4

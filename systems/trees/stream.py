@@ -37,6 +37,9 @@ WOOD_LIMITS = *PIXEL_RADII[:-1:2], *PIXEL_RADII[-2:]
 """Limits between radii of a stem a pixel wide [m]. The wood of trees between two is drawn together."""
 
 CARDS = tuple(f"{NEAR}{number}" for number in range(SHELLS + 1))
+SMALL_CARDS = CARDS[:3]
+"""Streams of cards so far off that triangles cost more than their area: beyond about half of the grass."""
+
 WOODS = tuple(f"{WOOD}{number}" for number in range(len(WOOD_LIMITS) + 1 + SHELLS))
 """Streams of cards and of wood: beyond the grass, of wood by `WOOD_LIMITS`, and by shells of grass."""
 

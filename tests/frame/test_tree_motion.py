@@ -51,6 +51,13 @@ def twigs(prairie: Prairie) -> NDArray[np.void]:
     )
 
 
+def offsets(told: NDArray[np.uint32]) -> NDArray[np.float64]:
+    """How far their feet are from the eye [m], as `pack_offset` of hung.glsl packs it into two numbers (n, 2)."""
+    low, high = told.T
+    whole = np.stack([low, low >> 19 | high << 13, high >> 6], axis=1) & 0x7FFFF
+    return np.asarray((2.0 * whole / 0x7FFFF - 1.0) * np.exp2((high >> 25).astype(np.float64) - 64.0)[:, None])
+
+
 def power(of: NDArray[np.float64]) -> tuple[NDArray[np.floating[Any]], NDArray[np.floating[Any]]]:
     """Frequencies [Hz], and the part of the power that each has, of series (time, n)."""
     window = np.hanning(len(of))[:, None]
@@ -70,10 +77,9 @@ def test_w4_an_oak_in_a_breeze_swings_with_the_frequencies_of_trunks_limbs_and_l
         stage.begin()
         prairie.draw(*matrices)
         rows = twigs(prairie)
-        shown = rows["hung_at"][:, 3] > 0.0
-        foot.append(rows["hung_at"][shown, :3].astype(np.float64))
-        told = rows["hung_axes"][shown]
-        axes.append(np.stack([told[:, 0] & 0xFFFF, told[:, 0] >> 16], axis=1) / 65535.0)
+        told = rows["hung_place"][rows["hung_look"].any(axis=1)]
+        foot.append(offsets(told[:, :2]))
+        axes.append(np.stack([told[:, 2] & 0x7FF, told[:, 2] >> 11 & 0x7FF], axis=1) / 2047.0)
         prairie.advance(1.0 / RATE)
     places, along = np.stack(foot), np.stack(axes)
     assert places.shape[1] > 200

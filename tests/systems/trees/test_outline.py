@@ -8,7 +8,7 @@ from tallgrass.engine.camera import View, projection_matrix, view_matrix
 from tallgrass.systems.space.frustum import picture_sides
 from tallgrass.systems.trees.choice import Choice
 from tallgrass.systems.trees.model import Model, models_of
-from tallgrass.systems.trees.outline import BOX, CORNERS, MARGIN, Outline, card_outline, picture_outline
+from tallgrass.systems.trees.outline import BOX, CORNERS, MARGIN, TRIANGLE, Outline, card_outline, picture_outline
 from tallgrass.systems.trees.standing import STANDING, Standing
 from tallgrass.testing import looking
 
@@ -48,18 +48,22 @@ def test_about_a_picture_that_covers_nothing_the_whole_of_it_is_drawn() -> None:
     assert empty.reaches == [(SLIM / SIDE,) * CORNERS] * 4
 
 
+@pytest.mark.parametrize(("corners", "most"), [(4, 4.4), (TRIANGLE, 5.6)])  # at least 4 and 5.2, of an ellipse
 @pytest.mark.parametrize("askew", [0.0, 0.3])
-def test_all_that_the_picture_of_a_twig_covers_lies_within_four_corners_and_little_else(askew: float) -> None:
+def test_all_that_the_picture_of_a_twig_covers_lies_within_its_corners_and_little_else(
+    askew: float, corners: int, most: float
+) -> None:
     up, across = np.mgrid[0:SIDE, 0:SIDE] + 0.5 - 0.5 * SIDE
     covered = ((across + askew * up) / 14.0) ** 2 + (up / 40.0) ** 2 < 1.0
-    one, two, four, three = card_outline(covered)
-    corners = np.array([one, two, three, four]) * (0.5 * SIDE, SIDE) + np.array([0.5 * SIDE, 0.0])
+    one, two, *rest = card_outline(covered, corners=corners)
+    around = np.array([one, two, *rest[::-1]]) * (0.5 * SIDE, SIDE) + np.array([0.5 * SIDE, 0.0])
+    assert len(around) == corners
     rows, columns = np.nonzero(covered)
-    for first, second in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+    for first, second in zip(around, np.roll(around, -1, axis=0), strict=True):
         inwards = np.array([first[1] - second[1], second[0] - first[0]]) / np.linalg.norm(second - first)
         assert ((np.stack([columns, rows], axis=1) + 0.5 - first) @ inwards).min() > MARGIN
-    x, y = corners.T
-    assert 0.5 * (x * np.roll(y, -1) - np.roll(x, -1) * y).sum() < 4.4 * (14.0 + MARGIN) * (40.0 + MARGIN)
+    x, y = around.T
+    assert 0.5 * (x * np.roll(y, -1) - np.roll(x, -1) * y).sum() < most * (14.0 + MARGIN) * (40.0 + MARGIN)
     assert np.array_equal(card_outline(np.zeros_like(covered)), BOX)
 
 
