@@ -26,6 +26,11 @@ Way way_toward(vec3 direction) {
     return Way(clouds_uv_over(eye.xz) + far * direction.xz, span, max(-log2(texel), 0.0), length_ratio);
 }
 
+// Excess density at the base below the highest tops. Where there are many clouds, it is the map's largest one.
+float tallest_column() {
+    return max(CLOUD_DENSEST - cloud_edge, CLOUD_DOME);
+}
+
 struct CloudPoint {
     float along;   // position on the way, 0 to 1
     float excess;  // excess density, negative outside clouds
@@ -40,8 +45,7 @@ CloudPoint cloud_at(Way way, float along) {
     vec2 uv = way.start + way.span * along;
     vec3 map = textureLod(heaps, uv, 0.0).rgb;
     vec4 billow = textureLod(billows, BLOCK * vec3(uv.x, along * (CLOUD_TALLEST / CLOUDS_SIDE), uv.y), way.mip_level);
-    float squared = along * along, high = squared * squared * squared;
-    float column = map.x - cloud_edge, dome = column - (CLOUD_DOME + max(CLOUD_DENSEST - CLOUD_DOME - cloud_edge, 0.0) * high) * squared;
+    float column = map.x - cloud_edge, dome = column - tallest_column() * along * along;
     float relief = clamp(CLOUD_RELIEF * along, 0.0, 1.0);
     float strength = clamp(CLOUD_SUPPORT * column + 1.0 - relief, 0.0, 1.0);
     float excess = dome + CLOUD_BILLOWED * strength * (billow.x - 0.5);

@@ -1,10 +1,10 @@
 """Clouds: constants of a drifting layer of clouds, and its mean effect on the light of the sky and the ground.
 
 A cloud stands on a level base. Its height is the root of its excess density: how much the cloud map exceeds its value
-at the edge. The highest ones level off, as below an inversion. Billows stand out from its sides. `cloudscape.frag`
-marches through the layer and accumulates optical depth and two sorts of light: sunlight from lit sides, and from sides
-in shade what is scattered through the cloud many times. So bases are flat and grey, tops are heaped and bright towards
-the sun, edges are soft.
+at the edge, relative to the most that it does anywhere. So sides lean inwards, up to round tops. Billows stand out from
+them. `cloudscape.frag` marches through the layer and accumulates optical depth and two sorts of light: sunlight from
+lit sides, and from sides in shade what is scattered through the cloud many times. So bases are flat and grey, tops are
+heaped and bright towards the sun, edges are soft.
 """
 
 import math
@@ -36,19 +36,16 @@ FARTHEST_ASIDE = 540.0
 With more, samples at successive heights would belong to different heaps."""
 
 DOME = 0.3
-"""Excess density at which a dome would reach the highest tops; of the fraction x of it, sqrt(x) of that height.
-
-Denser clouds level off, by a term of the eighth power of the height, so that none is cut off at the highest tops."""
+"""Excess density whose column weakens light as a cloud of the height of the highest tops; of the fraction x of it, one of
+sqrt(x) of that height. Where few clouds are left, it is also what reaches so high: others stay lower."""
 
 BILLOWED = 0.36
 """Difference in map density between the highest billows and the deepest creases. It is centred on the map's value, so
 that billows do not change the mean cover."""
 
 DENSEST = 1.0 + 0.5 * BILLOWED
-"""Largest density of the map, with the highest billows: there a cloud just reaches the highest tops.
-
-So tops are rounded by a function of the height, as is usual (Schneider, The Real-Time Volumetric Cloudscapes of
-Horizon: Zero Dawn, 2015)."""
+"""Largest density of the map, with the highest billows: there a cloud just reaches the highest tops, and none is cut
+off."""
 
 DEPTH = 45.0
 """Vertical optical depth per unit of excess density, for a cloud's shadow and the mean of the sky."""

@@ -28,7 +28,7 @@ float shade_odds(CloudPoint point) {
 // Factor by which light is weakened that is scattered to a point through the cloud above, with the billows that hang from its base.
 float weakening(CloudPoint point) {
     float column = point.column + CLOUD_BILLOWED * (1.0 - point.relief) * (point.billow.x - 0.5);
-    return 1.0 + CLOUD_DIFFUSION * max(sqrt(max(column, 0.0) * (1.0 / CLOUD_DOME)) - point.along, 0.0);
+    return 1.0 + CLOUD_DIFFUSION * inversesqrt(CLOUD_DOME) * max(sqrt(max(column, 0.0)) - sqrt(tallest_column()) * point.along, 0.0);
 }
 
 // Add a step of the march up to a point: `way` is its length relative to the whole way straight up; the excess density changes linearly

@@ -18,7 +18,7 @@ void main() {
     ray = ray_ahead + corner.x * ray_across + corner.y * ray_up;
     vec2 slope = CLOUD_MAP_ASIDE * HEAPS_STEEPEST / CLOUDS_SIDE * sun.xz;
     float up = CLOUD_MAP_ASIDE / CLOUD_TALLEST * sun.y;
-    map_toward_sun = vec4(2.0 * slope, -CLOUD_DOME * up * vec2(2.0, up));
+    map_toward_sun = vec4(2.0 * slope, -tallest_column() * up * vec2(2.0, up));
     map_toward_sun.w -= slope.x + slope.y;
     vec3 gradient = CLOUD_BILLOWED * BILLOWS_STEEPEST * CLOUD_BILLOWS_ASIDE / CLOUDS_SIDE * (BLOCK * sun);
     billows_toward_sun = vec4(2.0 * gradient, -(gradient.x + gradient.y + gradient.z));

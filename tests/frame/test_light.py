@@ -207,7 +207,7 @@ def test_f5_an_overcast_sky_is_as_bright_as_the_ground_below_is_lit(room: Stage,
         up = Camera((float(x), 2.0, 0.0), 0.0, 1.5, np.radians(60.0))
         seen.append(shown_as(room.shot(prairie, up) / 255.0).mean(axis=(0, 1)))
     sky = daylight(Light(elevation=elevation, clouds=1.0)).sky
-    np.testing.assert_allclose(np.mean(seen, axis=0), sky.down, rtol=0.02)
+    np.testing.assert_allclose(np.mean(seen, axis=0), sky.down, rtol=0.04)
     assert sky.ground.mean() > 0.15 * sky.down.mean()
 
 
