@@ -36,8 +36,8 @@ FARTHEST_ASIDE = 540.0
 With more, samples at successive heights would belong to different heaps."""
 
 DOME = 0.3
-"""Excess density whose column weakens light as a cloud of the height of the highest tops; of the fraction x of it, one of
-sqrt(x) of that height. Where few clouds are left, it is also what reaches so high: others stay lower."""
+"""Excess density whose column weakens light as a cloud of the height of the highest tops does; of the fraction x of it,
+as one of sqrt(x) of that height. Where few clouds are left, it is also what reaches so high: others stay lower."""
 
 BILLOWED = 0.36
 """Difference in map density between the highest billows and the deepest creases. It is centred on the map's value, so
