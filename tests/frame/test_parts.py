@@ -156,6 +156,22 @@ def test_grass_over_a_games_own_ground_is_neither_cut_by_it_nor_hidden(
         assert abs(np.mean(exact[both] - other[both])) < (0.02 if lod == "carpet" else 0.15), (cell, higher)
 
 
+@pytest.mark.parametrize("preset", ["medium", "high"])
+def test_where_strips_give_way_to_the_carpet_no_line_of_a_games_own_ground_shows(
+    ctx: moderngl.Context, load: Load, camera: Aim, mesh: Mesh, preset: str
+) -> None:
+    thin = "tallgrass: 2\nseed: 5\nterrain: { noise: flat, size: [200, 200] }\n"
+    thin += "grass: { thin: { height: [0.2, 0.4] } }\n"
+    prairie = load(thin, preset=preset)
+    with testing.stage(ctx, (96, 270)) as tall:
+        ground = over(tall, prairie, camera(0.0, 2.2, 19.0, pitch=-20), mesh(prairie, 5.0, 0.0))
+    rows = np.nanmean(ground[24:110], axis=1)
+    about = np.array([np.median(rows[max(row - 9, 0) : row + 10]) for row in range(len(rows))])
+    assert about[0] < 0.1
+    assert about[-1] > 0.3
+    assert (rows - about).max() < 0.12, "without strips' feet the carpet alone covers half as much"
+
+
 def test_x5_no_sky_shows_between_grass_on_a_crest_and_a_games_own_ground_a_little_lower(
     ctx: moderngl.Context, load: Load, camera: Aim, mesh: Mesh
 ) -> None:

@@ -221,7 +221,7 @@ bool draw_pixel(float slope, float ahead, float cut_height, float share, float h
     if (covered < max(part == 1 ? HALF : NOTHING, STANDING * (1.0 - share)))
         return false;
 #ifdef EDGED
-    vec3 before = over_hosts > 0.0 ? before_hosts(place, mesh_share * tall, slope) : place;
+    vec3 before = over_hosts > 0.0 ? before_hosts(place, mesh_share * tall, slope, mesh_share) : place;
     gl_FragDepth = gl_FragCoord.z + depth_beyond(before, mesh_place);
 #endif
     if (share > 0.0) {

@@ -225,7 +225,7 @@ void main() {
 #endif
 #ifndef EDGED  // there, pixels compute their depth
     if (over_hosts > 0.0) {
-        vec4 before = clip * vec4(before_hosts(place, place.y - laid.ground, slope), 1.0);
+        vec4 before = clip * vec4(before_hosts(place, place.y - laid.ground, slope, laid.share), 1.0);
         gl_Position.z = before.z * gl_Position.w / before.w;
     }
 #endif

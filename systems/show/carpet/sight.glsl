@@ -101,9 +101,10 @@ vec3 leaf_place(vec3 place, float slope, float tall, float leaf_area) {
 const float HOSTS_OFF = 0.15, NEAREST_HOSTS = 1.2, MOST_NEARER = 25.0;
 
 // The point on the line of sight whose depth a place `high` [m] over the ground takes, so that a game's own ground, which is about as
-// high as this one, does not hide it. `slope` is that of the line of sight to the ground.
-vec3 before_hosts(vec3 place, float high, float slope) {
+// high as this one, does not hide it. `slope` is that of the line of sight to the ground. The smaller the carpet's `share`, the nearer
+// it stays to its own place: else it would hide the strips that stand there, and show the game's ground in a line.
+vec3 before_hosts(vec3 place, float high, float slope, float share) {
     float off = max(NEAREST_HOSTS * HOSTS_OFF - high, 0.0);
     float over = max(slope, TINY) * distance(place.xz, eye.xz);  // height of the eye above the plane of the ground there
-    return place + (eye - place) * min(off / max(over, off), min(MOST_NEARER / distance(place, eye), 0.5));
+    return place + (eye - place) * (share * min(off / max(over, off), min(MOST_NEARER / distance(place, eye), 0.5)));
 }
