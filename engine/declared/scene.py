@@ -153,6 +153,13 @@ class Scene(Declaration):
         return self
 
     @model_validator(mode="after")
+    def _kinds_have_names(self) -> "Scene":
+        for key, kinds in (("grass", self.grass), ("trees", self.trees)):
+            if any(not name.strip() for name in kinds):
+                raise DeclarationError("a kind has a name that is not empty", key)
+        return self
+
+    @model_validator(mode="after")
     def _trees_grow_on_its_grass(self) -> "Scene":
         for name, kind in self.trees.items():
             if kind.among is not None and kind.among not in self.grass:

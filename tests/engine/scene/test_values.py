@@ -86,6 +86,13 @@ def test_a_value_is_refused_in_the_words_of_files(keys: dict[str, Any], sentence
     assert told(**keys) == sentence
 
 
+@pytest.mark.parametrize("key", ["grass", "trees"])
+@pytest.mark.parametrize("name", ["", "  "])
+def test_a_kind_without_a_name_is_refused(key: str, name: str) -> None:
+    kinds = {"grass": {**GREEN, name: {}}, "trees": {name: {"habit": "oak"}}}
+    assert told(**{key: kinds[key]}) == f"{key}: a kind has a name that is not empty"
+
+
 def test_a_mapping_without_a_version_and_one_with_other_keys_than_texts_are_refused() -> None:
     with pytest.raises(SceneError, match=r"^the scene: a scene begins with 'tallgrass: 2'"):
         read_scene({"grass": GREEN})
