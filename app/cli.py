@@ -77,7 +77,8 @@ def run(arguments: list[str], /) -> int:
         status = typer.main.get_command(app).main(arguments, prog_name="tallgrass", standalone_mode=False)
         return int(status or 0)
     except typer.TyperException as error:
-        return _tell(error.format_message().replace("Value error, ", ""), status=2)
+        # typer has the words of pydantic, which speaks of an input
+        return _tell(error.format_message().replace("Value error, ", "").replace("Input should", "it has to"), status=2)
     except typer.Abort:
         return _tell("stopped", status=130)
     except InputError as error:

@@ -73,7 +73,7 @@ def test_the_version_is_told(capsys: pytest.CaptureFixture[str]) -> None:
         ("shot -o a.png --reference --size 8000x10", "--size: 8000x10: with --reference"),
         ("shot -o a.png --camera 1,2,3", "--camera: '1,2,3' is not five numbers"),
         ("shot -o a.png --camera -1,x,3,4,5", "--camera: 'x' is not a number"),
-        ("shot -o a.png --time -1", "'--time'"),
+        ("shot -o a.png --time -1", "'--time': it has to be greater than or equal to 0"),
         ("shot -o a.png --time nan", "'--time'"),
         ("shot -o a.png --time inf", "'--time'"),
         ("shot -o a.png --time soon", "'--time'"),
