@@ -61,7 +61,7 @@ class Fineness:
     """Fractions of pixels and distances that are drawn."""
 
     scale: float = 1.0
-    """Fraction of the pixels, across and up."""
+    """Fraction of the pixels, across and up, of those that the preset draws."""
 
     range: float = 1.0
     """Fraction of the distances up to which representations are due."""
