@@ -1,12 +1,14 @@
 """Draw calls of trees: the state of each stream is kept, and the batches of a frame say which are drawn."""
 
 from collections.abc import Sequence
+from math import inf, nextafter
 from typing import NamedTuple
 
 import moderngl
 
 from ...engine.gl.shaders import PackedUniforms, pack, pack_array, set_packed, set_used_uniforms
 from .choice import Batch
+from .habit import NEEDLES
 from .kind import Binding, GpuKind
 from .outline import Outline
 from .programs import SAMPLED, SOFT, Programs
@@ -105,8 +107,19 @@ class Calls:
         first, vertices, instances = 0, state.vertices, model.hung.get(name, model.streams[name]).count
         if name in model.wood:
             first, vertices = wood_vertices(model, name, soft=soft, whole=how.casts or how.sampled)
-        order = -batch.mean if soft else batch.nearest
+        order = self._order(batch) if soft else batch.nearest
         return DrawCall(batch.far, order, state, first, vertices, instances) if vertices and instances else None
+
+    def _order(self, batch: Batch) -> float:
+        """Return the order of a batch's soft edges: the farthest come first, and stems before the needles on them.
+
+        Hardly a needle covers a pixel wholly. So needles hide stems only by being blended over them, as leaves' opaque
+        pixels do by their depth.
+        """
+        kind, model = self._models[batch.model]
+        if batch.name not in model.wood or kind.habit.leaf.form != NEEDLES:
+            return -batch.mean
+        return nextafter(-max(each.mean for each in self._batches if each.model == batch.model), -inf)
 
     def _state(self, number: int, name: str, how: Pass) -> State:
         kind, model = self._models[number]

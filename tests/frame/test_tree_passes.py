@@ -11,8 +11,8 @@ from tallgrass.engine.camera import Camera
 from tallgrass.systems.trees import call
 from tallgrass.systems.trees.call import DrawCall, Pass, draw
 from tallgrass.systems.trees.draw import TreePart
-from tallgrass.systems.trees.programs import HARD
-from tallgrass.systems.trees.stream import Uniforms
+from tallgrass.systems.trees.programs import HARD, SOFT
+from tallgrass.systems.trees.stream import CARDS, Uniforms
 from tallgrass.systems.trees.wood import CLOSED
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 from tallgrass.testing.little import SPARSE
@@ -29,6 +29,7 @@ trees:
 light: { azimuth: 130, elevation: 40, haze: 1e6, clouds: 0 }
 """
 )
+PINE = SCENE[: SCENE.index("trees:")] + "trees: { pine: { habit: pine, positions: [[0, 0]] } }\n"
 SIZE = 96
 FAR_OFF = looking(0.0, 2.0, 34.0, pitch=3.0, view=20.0)
 NEAR_BY = looking(0.0, 1.7, 6.0, pitch=4.0, view=50.0)
@@ -120,6 +121,22 @@ def test_soft_edges_are_blended_from_far_to_near_whichever_kind_is_told_first(st
     calls.choose(sorted(batches, key=lambda batch: -batch.model))
     np.testing.assert_array_equal(stage.shot(prairie, FAR_OFF), first)
     calls.choose(batches)
+
+
+def test_needles_are_blended_over_the_stems_that_bear_them(ctx: moderngl.Context, stage: Stage) -> None:
+    with private_world(), little_prairie(scene=PINE, ctx=ctx) as pines:
+        stage.shot(pines, NEAR_BY)
+        assert pines.painter is not None
+        calls = vars(pines.painter.part(TreePart))["_calls"]
+        stems, needles = list[float](), list[float]()
+        for batch in vars(calls)["_batches"]:
+            _, model = vars(calls)["_models"][batch.model]
+            ordered = stems if batch.name in model.wood else needles if batch.name in CARDS else None
+            drawn = vars(call.Calls)["_call"](calls, batch, Pass(SOFT))
+            if ordered is not None and drawn is not None:
+                ordered.append(drawn.order)
+    assert stems
+    assert max(stems) < min(needles)
 
 
 def test_nothing_of_trees_is_made_in_a_scene_without_any(ctx: moderngl.Context, stage: Stage) -> None:
