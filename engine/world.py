@@ -116,10 +116,11 @@ class World:
         self._cached = esper.get_component(_Never)
 
     def lost(self) -> list[int]:
-        """Return our entities that the game has deleted one by one since the last call."""
+        """Return our entities that the game has deleted one by one since the last call, even if esper defers that."""
         self.check()
-        lost = self._mine.lost.copy()
-        self._mine.lost.clear()
+        mine = self._mine
+        lost = mine.lost + [entity for entity in sorted(_deferred()) if mine.marks.pop(entity, None) is not None]
+        mine.lost.clear()
         return lost
 
     def delete(self, entity: int) -> None:
