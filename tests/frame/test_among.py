@@ -106,13 +106,14 @@ def test_n3_no_edges_of_trees_change_as_the_viewer_enters_another_patch(
 def test_n3_before_edges_of_a_tree_come_the_strips_of_its_own_patch_and_of_all_that_the_order_has_beyond(
     ctx: moderngl.Context, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    stage = Stage(ctx, SIZE)
+    prairie.draw(*stage.matrices(FAR_OFF))
     assert prairie.painter is not None
     painter = prairie.painter.painters["strips"]
     assert isinstance(painter, StripsPainter)
     drawing, placements, numbers, drawn = painter.strips, list[Array](), list[Array](), list[int]()
     for name, kept in ("write", placements), ("write_strips", numbers):
         monkeypatch.setattr(drawing, name, partial(_noting, kept, getattr(drawing, name)))
-    stage = Stage(ctx, SIZE)
     prairie.draw(*stage.matrices(looking(-14.7, 6.0, 15.3, yaw=44.0, pitch=-10.0, view=14.0)))
     cell = placements[-1]["cell"][numbers[-1] // drawing.stride].astype(np.int32)
     away = distance_in_order(cell, prairie.viewers["main"].viewer.centre) * drawing.patch
