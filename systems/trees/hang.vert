@@ -60,7 +60,7 @@ void write_card(vec4 at, vec3 along, vec3 aside, vec3 facing, vec4 chance, float
     light.sun *= leaves.radiance;
     light.sky = mix(below, light.sky, 0.5 + 0.5 * leaves.up);
     vec3 towards = sun * own * (dot(facing, ray) > 0.0 ? -leaves.sun_gain : leaves.sun_gain);
-    vec4 relief = leaves.darkening * vec4(towards, 1.0 - dot(towards, leaves.normal_mean));
+    vec4 relief = leaves.darkening * vec4(towards, 1.0 - dot(towards, pictured_normal.xyz));
     vec3 darkest = card_colour(0.0, light), brightest = card_colour(CARD_TONES.x + CARD_TONES.y * chance.z, light);
     pack(HungCard(at.xyz - hung_from, at.w, along, aside, relief, darkest, brightest, picture), hung_place, hung_look);
 }

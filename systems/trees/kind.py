@@ -30,7 +30,7 @@ from .habit import HABITS, NEEDLES, Leaf
 from .kept import keep_pictures, kept_pictures, kind_key
 from .model import models_of
 from .noise import bark_noise
-from .normals import Normals, card_normals, tree_normals
+from .normals import Normals, card_normals, pictured, tree_normals
 from .outline import (
     BOX,
     CLOSE_MARGIN,
@@ -182,7 +182,8 @@ class GpuKind:
         if key not in program.extra:  # the entry keeps the model alive, so its id is not reused
             uniforms = pack(program, self._uniforms, model.numbers)
             normals = model.normals if "tree_far" in set_used_uniforms(program) else self._normals
-            uniforms += pack(program, {"picture_cover": self._picture_cover, "behind": (self._behind,)})
+            own = {"picture_cover": self._picture_cover, "behind": (self._behind,), "pictured_normal": pictured(normals)}
+            uniforms += pack(program, own)
             uniforms += pack_array(program, parameter.NAME, self._vectors[key]) + pack_array(
                 program, "leaf_normals", normals
             )

@@ -4,6 +4,7 @@
 #include "systems/trees/pigment.glsl"
 
 uniform vec4 leaf_normals[NORMALS];  // as in normals.py
+uniform vec4 pictured_normal;        // their mean in a picture, and their area there
 
 // What is seen of such leaves.
 struct LeafMean {
@@ -11,7 +12,6 @@ struct LeafMean {
     float up;         // mean of the normals' y, towards the eye
     float darkening;  // mean of the displayed colours, relative to that of the mean radiance: a dark and a bright leaf together look darker
     float sun_gain;   // relative gain in brightness of leaves that face the sun, by how much they do
-    vec3 normal_mean; // mean normal in its picture
 };
 
 // Return that of a card or a tree with the axes `own`, under light from above and below. Brightness is linear in light, so it is summed
@@ -20,32 +20,29 @@ LeafMean leaf_mean(mat3 own, vec3 ray, Light above, vec3 below) {
     vec3 to_sun = sun * own, to_eye = -ray * own, to_zenith = vec3(own[0].y, own[1].y, own[2].y), random_leaves = random_leaf_radiance(ray);
     vec3 pigment = pigment_of(0.5, 0.0, 0.0), albedo = pigment * pigment, in_sun = albedo * above.sun;
     vec2 sunned = FACED * vec2(brightness(in_sun), brightness(in_sun * TRANSMITTED)), lit_sides = vec2(0.0);
-    vec2 skied = vec2(brightness(albedo * below), brightness(albedo * above.sky));
-    float always = RANDOM_SHARE * brightness(in_sun * random_leaves) + brightness(above.haze);
-    float side = to_eye.z < 0.0 ? -1.0 : 1.0, visible = LEAST_PART, picture_area = LEAST_PART, brightness_sum = 0.0;
-    LeafMean leaves = LeafMean(vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0));
-    vec2 mean = vec2(0.0), spread = vec2(0.0);
+    float from_below = 0.5 * brightness(albedo * below), from_above = 0.5 * brightness(albedo * above.sky), gain = from_above - from_below;
+    float always = RANDOM_SHARE * brightness(in_sun * random_leaves) + brightness(above.haze) + from_below + from_above;
+    float side = to_eye.z < 0.0 ? -1.0 : 1.0, visible = LEAST_PART, brightness_sum = 0.0;
+    LeafMean leaves = LeafMean(vec3(0.0), 0.0, 0.0, 0.0);
+    vec2 mean = vec2(side * dot(pictured_normal.xyz, to_sun), 0.0), spread = vec2(0.0);
     for (int each = 0; each < NORMALS; each++) {
         vec3 normal = leaf_normals[each].xyz;
-        float to = dot(normal, to_eye), lit = dot(normal, to_sun), area = leaf_normals[each].w, facing = area * abs(to), part = area * normal.z;
-        float up = dot(normal, to_zenith) * sign(to);
-        vec2 sides = max(lit * sign(to) * vec2(1.0, -1.0), 0.0);  // the lit one, if it is seen; or else the other one
-        float bright = sqrt(dot(sunned, sides) + mix(skied.x, skied.y, 0.5 + 0.5 * up) + always);
+        float to = dot(normal, to_eye), lit = dot(normal, to_sun), area = leaf_normals[each].w, part = area * normal.z;
+        float seen = to < 0.0 ? -1.0 : 1.0, facing = area * abs(to), up = seen * dot(normal, to_zenith);
+        vec2 sides = max(seen * lit * vec2(1.0, -1.0), 0.0);  // the lit one, if it is seen; or else the other one
+        float bright = sqrt(dot(sunned, sides) + gain * up + always);
         visible += facing;
         lit_sides += facing * sides;
         leaves.up += facing * up;
         brightness_sum += facing * bright;
-        picture_area += part;
-        leaves.normal_mean += part * normal;
-        mean += part * vec2(side * lit, bright);
-        spread += part * side * lit * vec2(side * lit, bright);
+        mean.y += part * bright;
+        spread += part * lit * vec2(lit, bright);
     }
     lit_sides /= visible;
     leaves.radiance = FACED * (lit_sides.x + lit_sides.y * TRANSMITTED) + RANDOM_SHARE * random_leaves;
     leaves.up /= visible;
-    leaves.normal_mean /= picture_area;
-    mean /= picture_area;
-    spread = spread / picture_area - mean.x * mean;
+    mean.y /= pictured_normal.w;
+    spread = spread * vec2(1.0, side) / pictured_normal.w - mean.x * mean;
     leaves.sun_gain = spread.y / (max(spread.x, LEAST_PART) * max(mean.y, LEAST_PART));
     vec3 all = albedo * (above.sun * leaves.radiance + mix(below, above.sky, 0.5 + 0.5 * leaves.up)) + above.haze;
     leaves.darkening = brightness_sum / (visible * sqrt(max(brightness(all), DARKEST)));

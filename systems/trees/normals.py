@@ -18,6 +18,9 @@ LEAST_COVER = 128
 LEAST_FACING = 0.2
 """Least facing of a leaf in its area's estimate: one texel edge-on must not count for all."""
 
+LEAST_AREA = 1e-3
+"""Part of the leaf area added to that in a picture, as that is a divisor."""
+
 GLSL = {"NORMALS": NORMALS}
 
 
@@ -61,6 +64,14 @@ def tree_normals(twigs: NDArray[np.void], card: Normals, /, *, turn: bool) -> No
     normals_of_twigs[normals_of_twigs[:, 2] < 0.0] *= -1.0  # a leaf has two sides
     area = card_values[:, 3, None] * twigs["span"].astype(np.float64) ** 2
     return [(x, up, z, share) for x, z, up, share in _clustered(normals_of_twigs, np.tile(area.ravel(), len(normal)))]
+
+
+def pictured(normals: Normals, /) -> tuple[float, ...]:
+    """Return the mean of normals in a picture that looks along the third axis, and their area there."""
+    each = np.array(normals).reshape(-1, 4)
+    part = each[:, 3] * each[:, 2]
+    area = LEAST_AREA + float(part.sum())
+    return *(part @ each[:, :3] / area).tolist(), area
 
 
 def _clustered(normal: Doubles, area: Doubles) -> Normals:
