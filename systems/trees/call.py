@@ -7,6 +7,7 @@ from typing import NamedTuple
 import moderngl
 
 from ...engine.gl.shaders import PackedUniforms, pack, pack_array, set_packed, set_used_uniforms
+from ...engine.gl.stream import Stream
 from .choice import Batch
 from .habit import NEEDLES
 from .kind import Binding, GpuKind
@@ -14,6 +15,9 @@ from .outline import Outline
 from .programs import SAMPLED, SOFT, Programs
 from .stream import BACKS, CARDS, FAR, IN_ROWS, LEAVES, NEAR, QUAD, SMALL_CARDS, WOOD, GpuModel, Uniforms
 from .wood import CLOSED, OPAQUE, SOLID
+
+SENT = object()
+"""Key in a program's `extra` of the numbers that it was last drawn with: each frame has its own."""
 
 
 class Pass(NamedTuple):
@@ -36,6 +40,12 @@ class State(NamedTuple):
     """Draw state of a model's stream, whichever trees are in it."""
 
     array: moderngl.VertexArray
+    instances: Stream
+    """The stream's instances, or what `hang.vert` made of them."""
+
+    wood: GpuModel | None
+    """The model whose wood it draws, if any."""
+
     mode: int
     """How vertices make triangles."""
 
@@ -66,13 +76,17 @@ class DrawCall(NamedTuple):
     instances: int
 
 
+States = dict[tuple[int, str], State | None]
+"""States by model and stream."""
+
+
 class Calls:
     """The draw calls of the trees in a picture."""
 
     def __init__(self, models: Sequence[tuple[GpuKind, GpuModel]], programs: Programs) -> None:
         self._models, self._programs = models, programs
         self._batches: Sequence[Batch] = ()
-        self._states: dict[Pass, dict[tuple[int, str], State]] = {}
+        self._states: dict[Pass, States] = {}
         self._calls: dict[Pass, list[DrawCall]] = {}
 
     def choose(self, batches: Sequence[Batch], /) -> None:
@@ -95,18 +109,16 @@ class Calls:
         return self._calls[how]
 
     def _call(self, batch: Batch, how: Pass) -> DrawCall | None:
-        """Return the draw call of a batch in a pass, or None; of far pictures, soft edges have streams of their own."""
-        name, soft = batch.name, how.edges == SOFT
-        if (name == FAR and soft) or (name in BACKS and not soft) or (soft and how.sampled and name not in BACKS):
-            return None
-        states = self._states.setdefault(how, {})
-        state = states.get((batch.model, name))
+        """Return the draw call of a batch in a pass, or None."""
+        key, soft, states = (batch.model, batch.name), how.edges == SOFT, self._states.setdefault(how, {})
+        if key not in states:
+            states[key] = self._state(*key, how)
+        state = states[key]
         if state is None:
-            state = states[batch.model, name] = self._state(batch.model, name, how)
-        _, model = self._models[batch.model]
-        first, vertices, instances = 0, state.vertices, model.hung.get(name, model.streams[name]).count
-        if name in model.wood:
-            first, vertices = wood_vertices(model, name, soft=soft, whole=how.casts or how.sampled)
+            return None
+        first, vertices, instances = 0, state.vertices, state.instances.count
+        if state.wood is not None:
+            first, vertices = wood_vertices(state.wood, batch.name, soft=soft, whole=how.casts or how.sampled)
         order = self._order(batch) if soft else batch.nearest
         return DrawCall(batch.far, order, state, first, vertices, instances) if vertices and instances else None
 
@@ -121,13 +133,17 @@ class Calls:
             return -batch.mean
         return nextafter(-max(each.mean for each in self._batches if each.model == batch.model), -inf)
 
-    def _state(self, number: int, name: str, how: Pass) -> State:
+    def _state(self, number: int, name: str, how: Pass) -> State | None:
+        """Return the state of a stream, or None where a pass does not draw it: far pictures have streams for each."""
+        soft = how.edges == SOFT
+        if (name == FAR and soft) or (name in BACKS and not soft) or (soft and how.sampled and name not in BACKS):
+            return None
         kind, model = self._models[number]
         sort = LEAVES if name == LEAVES else NEAR if name in CARDS else WOOD if name in model.wood else FAR
-        whole = how.edges == SOFT or how.sampled or how.casts
+        whole = soft or how.sampled or how.casts
         card, picture = (kind.outline, model.outline) if whole else (kind.solid_outline, model.solid_outline)
         if name in SMALL_CARDS and not (how.sampled or how.casts):
-            card = kind.triangle if how.edges == SOFT else kind.solid_triangle
+            card = kind.triangle if soft else kind.solid_triangle
         corners, outline = card if sort == NEAR else [], picture if sort == FAR else None
         of_leaves = QUAD * kind.habit.leaf.quads if sort == LEAVES else 0
         drawn_as, edges = sort, SAMPLED if how.sampled and sort != FAR else how.edges
@@ -142,6 +158,8 @@ class Calls:
         uniforms = {id(each[0]): each for each in kind.uniforms(array.program, model) + own_uniforms}
         return State(
             array,
+            stream,
+            model if sort == WOOD else None,
             moderngl.TRIANGLE_STRIP if sort in (NEAR, FAR) else moderngl.TRIANGLES,
             of_leaves + len(corners) + (0 if outline is None else 2 * len(outline.high)),
             [*uniforms.values()],
@@ -151,12 +169,12 @@ class Calls:
 
 def draw(calls: Sequence[DrawCall], numbers: Uniforms, /) -> int:
     """Make draw calls one after another, setting only what differs from the state before; return their number."""
-    bound, programs = dict[int, object](), set[int]()
+    bound = dict[int, object]()
     for call in calls:
         state = call.state
         program = state.array.program
-        if program.glo not in programs:
-            programs.add(program.glo)
+        if program.extra.get(SENT) is not numbers:  # soft edges come in many pieces
+            program.extra[SENT] = numbers
             set_used_uniforms(program, numbers)
         set_packed(state.uniforms)
         for texture, unit in state.textures:

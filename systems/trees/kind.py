@@ -182,7 +182,11 @@ class GpuKind:
         if key not in program.extra:  # the entry keeps the model alive, so its id is not reused
             uniforms = pack(program, self._uniforms, model.numbers)
             normals = model.normals if "tree_far" in set_used_uniforms(program) else self._normals
-            own = {"picture_cover": self._picture_cover, "behind": (self._behind,), "pictured_normal": pictured(normals)}
+            own = {
+                "picture_cover": self._picture_cover,
+                "behind": (self._behind,),
+                "pictured_normal": pictured(normals),
+            }
             uniforms += pack(program, own)
             uniforms += pack_array(program, parameter.NAME, self._vectors[key]) + pack_array(
                 program, "leaf_normals", normals

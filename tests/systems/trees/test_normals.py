@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tallgrass.components.arrays import Doubles
-from tallgrass.systems.trees.normals import NORMALS, tree_normals
+from tallgrass.systems.trees.normals import NORMALS, pictured, tree_normals
 from tallgrass.systems.trees.twig import TWIG
 
 
@@ -43,3 +43,9 @@ def test_needles_face_all_ways_around_their_twig() -> None:
     seen = found[found[:, 3] > 0.0]
     assert np.abs(seen[:, 1]).max() < 1e-6
     assert (seen[:, 3] * np.abs(seen[:, 0])).sum() == pytest.approx((seen[:, 3] * np.abs(seen[:, 2])).sum(), abs=0.05)
+
+
+def test_in_a_picture_a_leaf_counts_by_the_area_that_it_shows() -> None:
+    *mean, area = pictured([(0.6, 0.0, 0.8, 0.5), (-0.8, 0.0, 0.6, 0.25), (1.0, 0.0, 0.0, 0.25)])
+    assert area == pytest.approx(0.4 + 0.15, abs=0.002)
+    assert mean == pytest.approx(((0.4 * 0.6 - 0.15 * 0.8) / 0.55, 0.0, (0.4 * 0.8 + 0.15 * 0.6) / 0.55), abs=0.002)
