@@ -21,8 +21,8 @@ ROOT = Path(__file__).parents[2]
 DIST = ROOT / "dist"
 CHANGELOG, INIT = "CHANGELOG.md", "__init__.py"
 UNRELEASED = "## [Unreleased]\n"
-LARGEST = 1_200_000
-"""Size of the wheel [bytes]."""
+LARGEST = 1_300_000
+"""Greatest size of the wheel [bytes]: modules and shaders take 1.2 MB, and more would be there by mistake."""
 
 
 class ReleaseError(Exception):
