@@ -1,5 +1,6 @@
 """What each pass of trees draws, and what its calls are told (F3, N6)."""
 
+import dataclasses
 from collections.abc import Iterator, Sequence
 
 import moderngl
@@ -11,6 +12,7 @@ from tallgrass.engine.camera import Camera
 from tallgrass.systems.trees import call
 from tallgrass.systems.trees.call import DrawCall, Pass, draw
 from tallgrass.systems.trees.draw import TreePart
+from tallgrass.systems.trees.habit import NEEDLES
 from tallgrass.systems.trees.programs import HARD, SOFT
 from tallgrass.systems.trees.stream import CARDS, Uniforms
 from tallgrass.systems.trees.wood import CLOSED
@@ -29,9 +31,9 @@ trees:
 light: { azimuth: 130, elevation: 40, haze: 1e6, clouds: 0 }
 """
 )
-PINE = SCENE[: SCENE.index("trees:")] + "trees: { pine: { habit: pine, positions: [[0, 0]] } }\n"
 SIZE = 96
 FAR_OFF = looking(0.0, 2.0, 34.0, pitch=3.0, view=20.0)
+AS_CARDS = looking(0.0, 2.0, 20.0, pitch=3.0, view=10.0)
 NEAR_BY = looking(0.0, 1.7, 6.0, pitch=4.0, view=50.0)
 NOTHING_IS_OPAQUE = 2.0
 LIKE, MUCH = 8.0, 40.0  # of 255
@@ -123,20 +125,26 @@ def test_soft_edges_are_blended_from_far_to_near_whichever_kind_is_told_first(st
     calls.choose(batches)
 
 
-def test_needles_are_blended_over_the_stems_that_bear_them(ctx: moderngl.Context, stage: Stage) -> None:
-    with private_world(), little_prairie(scene=PINE, ctx=ctx) as pines:
-        stage.shot(pines, NEAR_BY)
-        assert pines.painter is not None
-        calls = vars(pines.painter.part(TreePart))["_calls"]
-        stems, needles = list[float](), list[float]()
-        for batch in vars(calls)["_batches"]:
-            _, model = vars(calls)["_models"][batch.model]
-            ordered = stems if batch.name in model.wood else needles if batch.name in CARDS else None
-            drawn = vars(call.Calls)["_call"](calls, batch, Pass(SOFT))
-            if ordered is not None and drawn is not None:
-                ordered.append(drawn.order)
-    assert stems
-    assert max(stems) < min(needles)
+def test_needles_are_blended_over_the_stems_that_bear_them(
+    stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stage.shot(prairie, AS_CARDS)
+    assert prairie.painter is not None
+    part = vars(prairie.painter.part(TreePart))
+    for kind in part["_kinds"]:
+        needles = dataclasses.replace(kind.habit.leaf, form=NEEDLES)
+        monkeypatch.setattr(kind, "habit", dataclasses.replace(kind.habit, leaf=needles))
+    of_stems, of_needles = dict[int, list[float]](), dict[int, list[float]]()
+    for batch in vars(part["_calls"])["_batches"]:
+        _, model = vars(part["_calls"])["_models"][batch.model]
+        ordered = of_stems if batch.name in model.wood else of_needles if batch.name in CARDS else None
+        drawn = vars(call.Calls)["_call"](part["_calls"], batch, Pass(SOFT))
+        if ordered is not None and drawn is not None:
+            ordered.setdefault(batch.model, []).append(drawn.order)
+    both = of_stems.keys() & of_needles.keys()
+    assert both
+    assert all(max(of_stems[model]) < min(of_needles[model]) for model in both)
+    part["_calls"].clear()
 
 
 def test_nothing_of_trees_is_made_in_a_scene_without_any(ctx: moderngl.Context, stage: Stage) -> None:
