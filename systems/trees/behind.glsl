@@ -31,8 +31,8 @@ vec4 clip_position_among_leaves(vec3 place, float leafy, float leaf, float high)
 #endif
 }
 
-// Depth offset of soft edges, relative to the usual depths: opaque pixels hide what soft ones would discard, before they are shaded. It is a
-// few steps of 24 bits.
+// Depth offset of soft edges, relative to the usual depths: opaque pixels hide their own soft ones before these are shaded. It is a few
+// steps of 24 bits.
 const float JUST_BEHIND = 4e-7;
 
 vec4 just_behind(vec4 at) {
