@@ -97,7 +97,7 @@ class Gui:
             texture.status = status.destroyed
 
     def _draw(self, data: imgui.ImDrawData, target: moderngl.Framebuffer) -> None:
-        scale, height = data.framebuffer_scale, target.size[1]
+        scale, height = data.framebuffer_scale, target.viewport[3]
         self.ctx.enable_only(moderngl.BLEND)
         self.ctx.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
         self._program["screen"] = data.display_size.x, data.display_size.y

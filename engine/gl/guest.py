@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import lru_cache
 
 import moderngl
 import numpy as np
@@ -12,7 +13,7 @@ from .current import current_functions, is_own, own_context
 from .functions import ENUMS, functions_of
 from .host import State, has_windows, is_hidden, loaded_gl, pyglet_context
 from .limits import limits_of
-from .outputs import is_not_plain_2d
+from .outputs import colour_attachments, is_not_plain_2d
 from .units import SCRATCH_UNIT
 
 _saved: list[State] = []
@@ -139,10 +140,11 @@ def farthest_depth() -> float:
 
 @contextmanager
 def aside(ctx: moderngl.Context, target: moderngl.Framebuffer, *, alike: bool = False) -> Iterator[None]:
-    """Draw into other framebuffers or buffers, while a guest in `target`; without blending and depth test.
+    """Draw into other framebuffers or buffers, while a guest in the bound `target`; without blending and depth test.
 
     Depth is not reversed there, unless it is in `target` and `alike` is set.
     """
+    is_boxed = _saved[-1].gl.glIsEnabled(ENUMS["SCISSOR_TEST"])
     viewport, scissor, was_reversed = target.viewport, target.scissor, _saved[-1].is_reversed
     ctx.enable_only(moderngl.NOTHING)
     _saved[-1].set_depth(is_reversed=was_reversed and alike)
@@ -154,7 +156,7 @@ def aside(ctx: moderngl.Context, target: moderngl.Framebuffer, *, alike: bool = 
         set_depth_test(ctx, "<=")
         target.use()
         target.viewport = viewport
-        target.scissor = scissor if scissor != (0, 0, *target.size) else None  # type: ignore[assignment]
+        target.scissor = scissor if is_boxed else None  # type: ignore[assignment]
         if target.glo == _saved[-1].framebuffer:
             _saved[-1].restrict_colour()
 
@@ -189,13 +191,24 @@ def _moderngl_restored(ctx: moderngl.Context, target: moderngl.Framebuffer, stat
 
 
 def _bound(ctx: moderngl.Context) -> moderngl.Framebuffer:
-    """Return the framebuffer that the host has bound.
+    """Return the framebuffer that the host has bound; its `size` may be out of date, where the host has resized it."""
+    gl = functions_of(ctx)
+    framebuffer = gl.number("DRAW_FRAMEBUFFER_BINDING")
+    return _detected(ctx, framebuffer, colour_attachments(gl) if framebuffer else 0)
 
-    moderngl binds its colour texture as 2D to query the size. Where that texture has several samples or layers, this
-    leaves a GL error, which the host would take for its own.
+
+@lru_cache(maxsize=256)
+def _detected(ctx: moderngl.Context, framebuffer: int, _attachments: int, /) -> moderngl.Framebuffer:
+    """Return moderngl's object of the bound framebuffer of this number, which draws into all colour attachments.
+
+    moderngl never frees such an object, so that one a frame would fill the memory. Viewport and scissor box are set
+    whenever it is drawn into, so it serves until the host gives its number to one with more or fewer attachments.
+
+    moderngl binds the first colour texture as 2D to query the size. Where that texture has several samples or layers,
+    this leaves a GL error, which the host would take for its own.
     """
     found = ctx.detect_framebuffer()
-    if found.glo and is_not_plain_2d(functions_of(ctx)):
+    if framebuffer and is_not_plain_2d(functions_of(ctx)):
         _ = ctx.error
     return found
 

@@ -143,15 +143,20 @@ def on_ground(walk: "EditWalk", x: float, z: float) -> tuple[float, float]:
 
 
 def seen(walk: "EditWalk") -> NDArray[np.float64]:
-    """Draw the prairie without panel and notes, and return the window's picture beside the panel."""
-    from pyglet.image import get_buffer_manager
-
+    """Draw the prairie without panel and notes, and return the window's picture."""
     walk.window.switch_to()
     walk.window.clear()
     walk.prairie.draw(*walk.matrices(SIZE))
+    return shown()
+
+
+def shown() -> NDArray[np.float64]:
+    """Return the current window's picture (height, width, 3)."""
+    from pyglet.image import get_buffer_manager
+
     buffers: Any = get_buffer_manager()
-    shown = buffers.get_color_buffer().get_image_data()
-    picture = np.frombuffer(shown.get_data("RGBA"), np.uint8).reshape(shown.height, shown.width, 4)
+    image = buffers.get_color_buffer().get_image_data()
+    picture = np.frombuffer(image.get_data("RGBA"), np.uint8).reshape(image.height, image.width, 4)
     return picture[::-1, :, :3].astype(np.float64)
 
 
@@ -257,6 +262,15 @@ def test_the_panel_leaves_the_prairie_as_it_is_drawn_without_one(walk: "EditWalk
     walk.on_draw()
     assert (seen(walk) == alone).all()
     assert walk.ctx.error == "GL_NO_ERROR"
+
+
+def test_the_panel_is_whole_in_a_window_that_was_made_taller(walk: "EditWalk") -> None:
+    walk.on_draw()
+    bar = shown()[12:24, 370:700]
+    walk.window.set_size(SIZE[0], SIZE[1] + 200)
+    frames(walk, 2)
+    walk.on_draw()
+    np.testing.assert_array_equal(shown()[12:24, 370:700], bar)
 
 
 def test_n7_who_walks_stands_on_a_terrain_that_was_changed(walk: "EditWalk") -> None:
