@@ -10,7 +10,7 @@ import numpy as np
 from ...components.arrays import Doubles
 from ...engine.declared.light import Light
 from .air import FORWARD, HEIGHTS, multiple_scattering, sky_radiance
-from .clouds import Clouds, clouds_of, from_below, in_shade, sent_down
+from .clouds import FADE, Clouds, clouds_of, from_below, in_shade, sent_down
 from .color import luminance, shown_as, srgb
 from .sun import sun_at
 
@@ -164,10 +164,14 @@ def _with_own_colours(clear: Doubles, light: Light, /) -> Doubles:
 
 
 def _clouded(sky: Doubles, grey: Doubles, clouds: Clouds, /) -> Doubles:
-    """Return the sky map veiled by clouds of mean radiance `grey`: the lower, the more clouds stand in the haze."""
+    """Return the sky map veiled by clouds of mean radiance `grey`: the lower, the more clouds stand in the haze.
+
+    Where they fade into it, an overcast's map stands for the clouds themselves; above, it is what gaps show.
+    """
     if clouds.hidden == 0.0:
         return sky
-    part = clouds.hidden * (VEIL + (1.0 - VEIL) * np.maximum((1.0 - _SINE) ** 4, clouds.hidden**4))[:, None, None]
+    faded = clouds.hidden**4 * np.clip(2.0 - _SINE / FADE[1], 0.0, 1.0)
+    part = clouds.hidden * (VEIL + (1.0 - VEIL) * np.maximum((1.0 - _SINE) ** 4, faded))[:, None, None]
     return np.asarray(sky * (1.0 - part) + grey / clouds.hidden * part)
 
 

@@ -130,6 +130,14 @@ def test_a_clear_sky_is_blue_above_and_paler_below_and_brightest_about_the_sun()
     assert bright[8, 0] > bright[8, -1]
 
 
+def test_gaps_between_many_clouds_show_blue_sky_but_where_clouds_fade_into_the_haze() -> None:
+    sine = (np.arange(ROWS) / (ROWS - 1.0)) ** 2
+    clear, broken = (daylight(Light(elevation=30.0, clouds=cover)).sky.map for cover in (0.0, 0.85))
+    blue, left = (each[:, -1, 2] / each[:, -1, 0] - 1.0 for each in (clear, broken))  # away from the sun
+    assert (left > 0.1 * blue)[sine > 2.0 * FADE[1]].all()
+    assert (left < 0.0)[sine < FADE[1]].all()
+
+
 def test_a_setting_sun_colours_the_horizon_about_it() -> None:
     sky = the_sky(Light(elevation=1.0))
     assert sky.map[2, 0, 0] > 1.5 * sky.map[2, 0, 2]
