@@ -12,9 +12,10 @@ from ..space.cone import distance_in_order
 from ..space.frustum import outside_planes
 from ..space.window import cell_of
 from .bounds import highest_shown
+from .habit import NEEDLES
 from .leafy import GROUPED_FROM, blocks_of_models, blocks_shown, near_twigs
 from .model import MARGIN, Model
-from .shells import farthest_of, shells_of
+from .shells import SHELLS, farthest_of, rings_of, shells_of
 from .standing import BAREST, PLACED, WIDEST_ROW, Standing, columns_of, far_instances, ring_opacity, set_detail
 from .stream import BACKS, CARDS, FAR, FIRST_OF, LEAVES, SHELL_OF, STREAMS, WOOD_LIMITS, WOODS
 from .twig import LEAF_PIXELS
@@ -142,6 +143,8 @@ class Choice:
         rows, self._model = standing.by_model()
         self._models = models
         self._blocks = blocks_of_models(models)
+        self._needles = np.array([model.habit.leaf.form == NEEDLES for model in models], np.bool_)
+        """Models with needles: hardly one covers a pixel wholly, so that most of their pictures are soft edges."""
         self._slices = np.array([model.slices for model in models])
         """`Slices` of each model, shape (models, 3, SLICES) [m]."""
         numbers = np.array([_model_numbers(*pair) for pair in zip(models, variety, strict=True)])[self._model].T
@@ -189,7 +192,9 @@ class Choice:
         if len(shown) < len(number):
             seen, distance = _only(seen, shown), distance[shown]
         leafy, twigs = self._leafy(look, seen, distance), self._on_cards(look, seen)
-        stream, tree, first = _by_stream(seen, shells_of(seen.along, look.reach), leafy, twigs)
+        shell, ring = shells_of(seen.along, look.reach), rings_of(seen.along, look.reach)
+        back = np.where(self._needles[seen.model] & (shell == 0) & (ring > 0), SHELLS + ring, shell)
+        stream, tree, first = _by_stream(seen, shell, back, leafy, twigs)
         to_crown = self._crown.take(seen.number, axis=0) - look.eye
         batches = _batches(stream, tree, seen, np.linalg.norm(to_crown, axis=1))
         rows = seen.instances.take(tree)  # thirty times as fast as fancy indexing on structured arrays
@@ -283,7 +288,7 @@ def _only(seen: _Seen, rows: Indices) -> _Seen:
 
 
 def _by_stream(
-    seen: _Seen, shell: Indices, leafy: tuple[Indices, Doubles], cards: tuple[Indices, Doubles]
+    seen: _Seen, shell: Indices, back: Indices, leafy: tuple[Indices, Doubles], cards: tuple[Indices, Doubles]
 ) -> tuple[Indices, Indices, Doubles]:
     """Sort trees into streams; return the stream of each entry, its tree and its `first`, ordered by stream.
 
@@ -292,11 +297,10 @@ def _by_stream(
     """
     far_fade, (leafy_tree, twig), (card_tree, block) = seen.instances["far_fade"], leafy, cards
     near, far = np.flatnonzero(far_fade < 1.0), np.flatnonzero(far_fade > 0.0)
-    back = far[::-1]
-    tree = np.concatenate([leafy_tree, card_tree, near, far, back])
+    tree = np.concatenate([leafy_tree, card_tree, near, far, far[::-1]])
     within = [
         np.zeros(len(twig), np.intp), shell[card_tree], _wood_stream(seen, near, shell),
-        np.zeros(len(far), np.intp), shell[back],
+        np.zeros(len(far), np.intp), back[far[::-1]],
     ]  # fmt: skip
     first = [FIRST_OF[name] for name in (LEAVES, CARDS[0], WOODS[0], FAR, BACKS[0])]
     stream_of_model = np.concatenate([number + index for number, index in zip(first, within, strict=True)])

@@ -13,6 +13,9 @@ SHELL = 0.75
 SHELLS = 7
 """Number of shells among the grass. The nearest goes to the eye: up to a quarter of its reach, grass is blades."""
 
+RINGS = 4
+"""Rings beyond the grass. Each but the last reaches twice as far as the one before, or as the grass."""
+
 
 def shells_of(distance: Doubles, reach: float, /) -> NDArray[np.intp]:
     """Return the shells (n,) of trees at distances along the ground [m]; grass stands up to `reach` [m].
@@ -23,6 +26,11 @@ def shells_of(distance: Doubles, reach: float, /) -> NDArray[np.intp]:
     outmost = ceil(log(reach) / -log(SHELL)) if reach > 0.0 else 0
     ends = SHELL ** (np.arange(SHELLS) - outmost)
     return np.where(distance < reach, (distance[:, None] < ends).sum(axis=1), 0)
+
+
+def rings_of(distance: Doubles, reach: float, /) -> NDArray[np.intp]:
+    """Return the rings (n,), from near to far, of trees at distances of at least `reach` along the ground [m]."""
+    return np.log2(np.clip(distance / max(reach, 1.0), 1.0, 2.0 ** (RINGS - 1))).astype(np.intp)
 
 
 def farthest_of(shell: int, distance: float, /) -> float:

@@ -11,7 +11,7 @@ from .bark import PACKED, PIXEL_RADII, packed, ranges_of
 from .model import Model
 from .normals import Normals
 from .outline import NOWHERE
-from .shells import SHELLS
+from .shells import RINGS, SHELLS
 from .standing import HUNG, HUNG_LEAVES, INSTANCE, ROW_SPACING, STOOD
 from .twig import ROW, TWIG
 from .wood import Parts, parts
@@ -29,9 +29,9 @@ IN_ROWS = "in rows"
 QUAD = 6
 """Vertices of a quad as two triangles."""
 
-BACKS = tuple(f"back{number}" for number in range(SHELLS + 1))
-"""Streams of far pictures from far to near, as soft edges are blended: beyond the grass, and by its shells. The stream
-`FAR` has all pictures, from near to far."""
+BACKS = tuple(f"back{number}" for number in range(SHELLS + RINGS))
+"""Streams of far pictures from far to near, as soft edges are blended: beyond the grass, by its shells, and in rings
+beyond it but for the nearest. The stream `FAR` has all pictures, from near to far."""
 
 WOOD_LIMITS = *PIXEL_RADII[:-1:2], *PIXEL_RADII[-2:]
 """Limits between radii of a stem a pixel wide [m]. The wood of trees between two is drawn together."""
@@ -45,7 +45,7 @@ WOODS = tuple(f"{WOOD}{number}" for number in range(len(WOOD_LIMITS) + 1 + SHELL
 
 SHELL_OF = {
     FAR: 0, LEAVES: SHELLS + 1,
-    **{name: number for number, name in enumerate(BACKS)},
+    **{name: number if number <= SHELLS else 0 for number, name in enumerate(BACKS)},
     **{name: number for number, name in enumerate(CARDS)},
     **{name: max(number - len(WOOD_LIMITS), 0) for number, name in enumerate(WOODS)},
 }  # fmt: skip

@@ -1,5 +1,7 @@
 """Which trees a picture has, and in which streams those of all models are that are chosen in one go (F3, N6)."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -10,8 +12,9 @@ from tallgrass.systems.space.cone import distance_in_order
 from tallgrass.systems.space.frustum import picture_sides
 from tallgrass.systems.space.window import cell_of
 from tallgrass.systems.trees.choice import Choice, Chosen, Look
+from tallgrass.systems.trees.habit import NEEDLES
 from tallgrass.systems.trees.model import MODELS, Model, models_of
-from tallgrass.systems.trees.shells import SHELL
+from tallgrass.systems.trees.shells import RINGS, SHELL
 from tallgrass.systems.trees.standing import PICTURE_BELOW, STANDING, Standing
 from tallgrass.systems.trees.stream import BACKS, CARDS, FAR, LEAVES, WOODS
 from tallgrass.testing import looking
@@ -141,6 +144,20 @@ def test_trees_among_the_grass_are_in_streams_by_shells_of_it_and_all_beyond_it_
             assert off.max() < REACH or off.min() >= REACH
             shells |= {batch.name} if off.max() < REACH else set()
     assert all(shells.intersection(names) for names in (CARDS, WOODS, BACKS))
+
+
+def test_soft_edges_of_needles_beyond_the_grass_are_in_rings_which_overlap_by_less(models: list[Model]) -> None:
+    """Most of a picture of needles is soft edges: far ones of one model must not lie over near ones of another."""
+    habit, rings = models[0].habit, dict[int, list[float]]()
+    needles = replace(models[0], habit=replace(habit, leaf=replace(habit.leaf, form=NEEDLES)))
+    found = chosen(a_wood(models, count=3000), [needles, *models[1:]], reach=40.0)
+    for batch, rows in zip(found.batches, found.instances, strict=True):
+        off = np.hypot(rows["root"][:, 0], rows["root"][:, 2])
+        if batch.name in BACKS and off.min() >= 40.0:
+            assert batch.far == np.inf
+            rings.setdefault(batch.model, []).append(float(off.max() / off.min()))
+    assert [len(rings[number]) for number in range(len(models))] == [RINGS] + [1] * (len(models) - 1)
+    assert sorted(rings[0])[RINGS - 2] <= 2.0
 
 
 def test_soft_edges_come_after_the_patch_that_the_farthest_tree_of_a_stream_stands_on(models: list[Model]) -> None:
