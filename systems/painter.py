@@ -30,6 +30,9 @@ from .winds import Winds
 
 WHOLE = Asked()
 
+CRESTS_FROM = 100.0
+"""Distance from which soft edges are taken to be behind crests with thin grass [m]; nearer ones are before them."""
+
 REHEARSED_SCALE = 0.75
 """Fraction of the pixels, across and up, in the rehearsal of a frame whose time is held; any below 1 will do."""
 
@@ -243,17 +246,15 @@ class Painter(Holding):
         """Draw the carpet, and soft edges in front of it: all of them, or only those beyond standing grass."""
         target.depth_mask = False
         self._blend()
-        has_edges = any(part.soft_distance() is not None for part in self._parts_with["soft_distance"])
-        carpet = self.coarsest
-        self.draw_calls += self._draw_culled(view, partial(carpet.draw_dense if has_edges else carpet.draw, target))
+        edged = [part for part in self._parts_with["soft_distance"] if part.soft_distance() is not None]
+        carpet, limit = self.coarsest, nextafter(self._reach(), inf)
+        self.draw_calls += self._draw_culled(view, partial(carpet.draw_dense if edged else carpet.draw, target))
+        if edged:  # thin grass on a crest lets trees behind it show through, and most near ones stand in front of it
+            self.draw_calls += sum(part.draw_soft(CRESTS_FROM) for part in edged)
+            self.draw_calls += self._draw_culled(view, partial(carpet.draw_thin, target))
         target.depth_mask = True
         for part in self._parts_with["draw_soft"]:
-            among_grass = not all_soft and part.soft_distance() is not None
-            self.draw_calls += part.draw_soft(nextafter(self._reach(), inf) if among_grass else 0.0)
-        if has_edges:  # thin grass on a crest lets trees behind it show through
-            target.depth_mask = False
-            self.draw_calls += self._draw_culled(view, partial(carpet.draw_thin, target))
-            target.depth_mask = True
+            self.draw_calls += part.draw_soft(limit if part in edged and not all_soft else 0.0)
 
     def _draw_culled(self, view: View, draw: Callable[[], int]) -> int:
         """Draw with back faces culled, which hills hide anyway; return the number of draw calls."""

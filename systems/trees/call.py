@@ -63,8 +63,8 @@ class DrawCall(NamedTuple):
     """A draw call of one batch."""
 
     far: float
-    """Distance of its farthest tree along the ground [m]: infinite beyond the grass, and 0 in front of it. Soft edges
-    come after grass farther off."""
+    """Distance of its farthest tree along the ground [m], and 0 in front of the grass. Soft edges come after grass
+    farther off; beyond it, theirs is the mean distance."""
 
     order: float
     """Calls with a lower value are drawn first: distance of the nearest tree, or for soft edges the negative mean
@@ -120,7 +120,8 @@ class Calls:
         if state.wood is not None:
             first, vertices = wood_vertices(state.wood, batch.name, soft=soft, whole=how.casts or how.sampled)
         order = self._order(batch) if soft else batch.nearest
-        return DrawCall(batch.far, order, state, first, vertices, instances) if vertices and instances else None
+        far = -order if soft and batch.far == inf else batch.far
+        return DrawCall(far, order, state, first, vertices, instances) if vertices and instances else None
 
     def _order(self, batch: Batch) -> float:
         """Return the order of a batch's soft edges: the farthest come first, and stems before the needles on them.
@@ -131,7 +132,8 @@ class Calls:
         kind, model = self._models[batch.model]
         if batch.name not in model.wood or kind.habit.leaf.form != NEEDLES:
             return -batch.mean
-        return nextafter(-max(each.mean for each in self._batches if each.model == batch.model), -inf)
+        cards = [each.mean for each in self._batches if each.model == batch.model and each.name in CARDS]
+        return nextafter(-max(batch.mean, *cards), -inf)
 
     def _state(self, number: int, name: str, how: Pass) -> State | None:
         """Return the state of a stream, or None where a pass does not draw it: far pictures have streams for each."""

@@ -9,6 +9,8 @@ import pytest
 
 from tallgrass import Prairie
 from tallgrass.engine.camera import Camera
+from tallgrass.systems.painter import CRESTS_FROM
+from tallgrass.systems.show.carpet.painter import CarpetPainter
 from tallgrass.systems.trees import call
 from tallgrass.systems.trees.call import DrawCall, Pass, draw
 from tallgrass.systems.trees.draw import TreePart
@@ -113,6 +115,24 @@ def test_nothing_that_casts_a_shadow_is_told_that_it_is_farther_off_than_it_is(s
 
     assert behind(casts=False)
     assert behind(casts=True) == [(0.0,)] * len(behind(casts=False))
+
+
+@pytest.mark.parametrize(("off", "behind"), [(34.0, False), (2.0 * CRESTS_FROM, True)])
+def test_thin_grass_on_crests_is_drawn_over_edges_of_trees_far_off_and_under_those_nearer(
+    stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch, off: float, *, behind: bool
+) -> None:
+    stage.shot(prairie, eye := looking(0.0, 2.0, off, pitch=1.0, view=600.0 / off))
+    assert prairie.painter is not None
+    part, draw_thin, done = prairie.painter.part(TreePart), CarpetPainter.draw_thin, list[bool]()
+
+    def draw_thin_noting(painter: CarpetPainter, target: moderngl.Framebuffer) -> int:
+        done.append(part.soft_distance() is None)
+        return draw_thin(painter, target)
+
+    monkeypatch.setattr(CarpetPainter, "draw_thin", draw_thin_noting)
+    stage.shot(prairie, eye)
+    assert done == [behind]
+    assert part.soft_distance() is None
 
 
 def test_soft_edges_are_blended_from_far_to_near_whichever_kind_is_told_first(stage: Stage, prairie: Prairie) -> None:
