@@ -335,8 +335,10 @@ class Prairie(Tending):
         """Free everything: GL objects in every window, groups in batches, entities, and what `install` added.
 
         The processor of `install` goes with its world's last prairie. This prairie cannot be drawn afterwards. If one
-        of its systems calls this, the frame ends with that system, and nothing is drawn.
+        of its systems calls this, the frame ends with that system, and nothing is drawn. Raises RuntimeError in a
+        method of a wind.
         """
+        self.winds.quarantine.must_be_idle("release it")
         self._released = True
         self._ripening.release()
         self._looking.release()

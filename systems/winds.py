@@ -256,6 +256,7 @@ class Winds(Feature):
         """Return the new record of a source; `before` is the last one of the same entity."""
         wind = source.primitive
         try:
+            self.quarantine.ask_rates(source)
             if before is not None and type(before.wind) is type(wind):
                 continued = partial(on_course, wind, before.wind, time=self._clock)
                 wind = self.quarantine.ask(source, "rates", continued)

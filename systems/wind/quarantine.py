@@ -5,7 +5,7 @@ one exception is a game, which leaves out a wind that waits, because the game st
 """
 
 import logging
-from collections.abc import Callable, Iterable, MutableMapping
+from collections.abc import Callable, Iterable, MutableMapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from math import inf, isnan
@@ -73,6 +73,9 @@ class Quarantine:
     come_back: Callable[[], str] = lambda: ""
     """Undoes a change that no wind may leave behind; returns what was done, as "left ...", or ""."""
 
+    _asked: int = 0
+    """Number of answers of strangers' winds that are being waited for, one within the other."""
+
     _timed: dict[type[WindPrimitive], bool] = field(default_factory=dict)
     """Whether each class of winds is timed; the built-in ones are not."""
 
@@ -101,12 +104,15 @@ class Quarantine:
         kind = type(source.primitive)
         is_timed = self._timed[kind] if kind in self._timed else self._is_timed(kind)
         begun, start = (perf_counter(), thread_time()) if is_timed else (0.0, 0.0)
+        self._asked += is_timed
         try:
             answer = ask()
         except Exception as error:  # a plugin may raise anything
             log.debug("%s", source.name, exc_info=error)
             self.come_back()
             raise self.leave_out(source, f"{what} raised {said(error)}") from error
+        finally:
+            self._asked -= is_timed
         if is_timed:
             if left := self.come_back():
                 raise self.leave_out(source, f"{what} {left}")
@@ -114,6 +120,11 @@ class Quarantine:
             self._judge(source, what, took, receivers)
             self._judge_waiting(source, what, perf_counter() - begun, took)
         return answer
+
+    def must_be_idle(self, purpose: str, /) -> None:
+        """Raise RuntimeError while a wind is asked, which cannot do what `purpose` says, as "release it"."""
+        if self._asked:
+            raise RuntimeError(f"a wind of this prairie is being asked: it cannot {purpose}; do so before or after")
 
     def _is_timed(self, kind: type[WindPrimitive]) -> bool:
         self._timed[kind] = found = not wind_kinds().is_ours(kind)
@@ -143,6 +154,12 @@ class Quarantine:
         if max(abs(pose.x), abs(pose.z)) >= FARTHEST:
             raise self.leave_out(source, "pose returned numbers far beyond any prairie")
         return pose
+
+    def ask_rates(self, source: WindSource, /) -> None:
+        """Ask for a wind's rates, before other answers need them; raises QuarantinedError where they are no numbers."""
+        rates = self.ask(source, "rates", source.primitive.rates)
+        self.must_be(source, "rates", rates, Sequence, np.ndarray)
+        self._must_be_numbers(source, "rates", rates)
 
     def ask_end(self, source: WindSource, ends: Callable[[], float]) -> float:
         """Return the time when a wind is over for good [s], `inf` for never; raises QuarantinedError for no number."""

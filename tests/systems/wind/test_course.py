@@ -1,6 +1,7 @@
 """Winds that a game changes while they blow: their phases stay continuous (W5, W7, D6)."""
 
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import esper
 import moderngl
@@ -168,17 +169,26 @@ def test_gusts_that_a_game_added_are_gone_when_they_have_been_over_for_a_while(p
     assert not prairie.winds.sources()
 
 
-def test_n8_rates_that_are_none_leave_a_wind_out_when_a_game_changes_it(prairie: Prairie) -> None:
+@pytest.mark.parametrize(
+    ("rates", "why"),
+    [
+        (lambda: [1.0 / 0.0], "rates raised ZeroDivisionError: float division by zero"),
+        (lambda: None, "rates returned NoneType, not Sequence"),
+        (lambda: [float("nan")], "rates returned numbers that are not finite"),
+    ],
+    ids=["raised", "none", "not finite"],
+)
+def test_n8_a_wind_without_rates_is_left_out_for_its_rates_and_not_for_what_needs_them(
+    prairie: Prairie, rates: Callable[[], Any], why: str
+) -> None:
     class Odd(Swirl):
-        def rates(self) -> tuple[float]:
-            raise ArithmeticError("no rates")
+        def rates(self) -> Any:
+            return rates()
 
-    entity = esper.create_entity(WindSource(Odd(), "odd"))
-    esper.add_component(esper.create_entity(), WindSource(Breeze(), "breeze"))
-    prairie.wind_at(FIELD)
-    esper.add_component(entity, WindSource(Odd(beat=2.0), "odd"))
+    esper.create_entity(WindSource(Odd(), "odd"))
+    esper.create_entity(WindSource(Breeze(), "breeze"))
     assert prairie.wind_at(FIELD).any()
-    assert any("no rates" in why for why in prairie.winds.quarantine.reasons.values())
+    assert prairie.wind_failures == {"odd": f"odd: {why}"}
 
 
 @given(
