@@ -75,7 +75,7 @@ def stroke(
     page, which is faster.
     """
     parts = _reached_parts(plots, area, pose, max(beyond, least))
-    if isinstance(area, Footprint) and 1 < len(parts) <= _FEW_PLOTS:
+    if isinstance(area, Footprint) and 0 < len(parts) <= _FEW_PLOTS:
         _stroke_few_plots(plots, area, pose, change, untouched, [part for part, _ in parts], beyond, least)
         return
     for (part, near), distance in zip(parts, _middle_distances(area, pose, parts, least), strict=True):
