@@ -152,6 +152,11 @@ class WindPrimitive(Declaration, metaclass=Plain):
             raise DeclarationError(f"stop must be later than start, which is {self.start:g} s", "stop")
         return self
 
+    @model_validator(mode="after")
+    def _says_its_kind(self) -> Self:
+        self.__pydantic_fields_set__.add("kind")  # a file has to say it, so `exclude_unset` keeps it
+        return self
+
     def rates(self) -> Sequence[float]:
         """Return the rates of its phases [1/s], for all that would be a rate times the time.
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 
 from tallgrass.components.arrays import Floats
 from tallgrass.engine.declared.grass import GrassKind
@@ -54,6 +55,13 @@ def test_a_scene_is_taken_as_it_is_and_checked_once_more() -> None:
     assert read_scene(scene).scene == scene
     with pytest.raises(SceneError, match=r"^seed: seed must be between 0 and 2147483647, found -1$"):
         read_scene(scene.model_copy(update={"seed": -1}))
+
+
+def test_a_scene_can_be_written_to_a_file_with_the_keys_that_were_given() -> None:
+    scene = read(wind=[Gust(speed=4.0), {"kind": "breeze"}], quality="low").scene
+    keys = scene.model_dump(mode="json", exclude_unset=True)
+    assert keys["wind"] == [{"kind": "gust", "speed": 4.0}, {"kind": "breeze"}]
+    assert parse_scene(yaml.safe_dump(keys)) == scene
 
 
 def test_every_problem_is_told_by_the_path_of_its_key_in_the_order_of_the_values() -> None:
