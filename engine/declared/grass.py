@@ -183,5 +183,6 @@ class GrassKind(Declaration):
             raise DeclarationError(f"a {head.form} has no eye: discs and bells have one", "head", "eye")
         longest = (head.size or SIZES[head.form])[1]
         if head.form in ON_GRASS and longest > self.height[0]:
-            raise DeclarationError(f"a {head.form} of {longest} m is longer than the shortest stem", "head", "size")
+            stem = f"the shortest stem, {self.height[0]:g} m: give it a smaller `size`"
+            raise DeclarationError(f"a {head.form} of {longest:g} m is longer than {stem}", "head", "size")
         return self
