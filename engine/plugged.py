@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Callable, Collection, Iterable
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
@@ -14,6 +15,9 @@ SYSTEMS = "tallgrass.systems"
 
 The function adds systems to `prairie.systems`, and returns nothing.
 """
+
+Within = Callable[[str], AbstractContextManager[object]]
+"""Returns a context for the name of a system."""
 
 log = logging.getLogger("tallgrass")
 
@@ -51,15 +55,16 @@ class SystemPlugins:
         rows = [ProvidedSystem(entry.name, *owner(entry), installed.status(entry)) for entry in installed.all()]
         return sorted(rows, key=lambda row: (row.system, row.status, row.distribution))
 
-    def bring(self, prairie: object, /, come_back: Callable[[], str] = lambda: "") -> None:
+    def bring(self, prairie: object, /, come_back: Callable[[], str] = lambda: "", within: Within = nullcontext) -> None:
         """Let every package add its systems to a prairie, in alphabetical order of their names.
 
         A package that fails, or a name that two packages claim, is logged and left out. What a package had added before
         it failed stays. `come_back` undoes a change that no package may leave behind, and returns what was done, or "".
-        The same message is logged once, for all prairies together.
+        Each package runs inside the context that `within` returns for its name. The same message is logged once, for all prairies together.
         """
         for name, entries in sorted(self._installed.used.items()):
-            why = _bring(prairie, name, entries, come_back)
+            with within(name):
+                why = _bring(prairie, name, entries, come_back)
             if why is not None and why not in self._logged:
                 self._logged.add(why)
                 log.warning("%s", why)
@@ -71,9 +76,11 @@ def system_plugins() -> SystemPlugins:
     return SystemPlugins(entry_points(group=SYSTEMS), chosen=chosen_names())
 
 
-def bring_systems(prairie: object, /, come_back: Callable[[], str] = lambda: "") -> None:
+def bring_systems(
+    prairie: object, /, come_back: Callable[[], str] = lambda: "", within: Within = nullcontext
+) -> None:
     """Let every installed package add its systems to a prairie that is being made; it has its `systems` already."""
-    system_plugins().bring(prairie, come_back)
+    system_plugins().bring(prairie, come_back, within)
 
 
 def _bring(prairie: object, name: str, entries: list[EntryPoint], come_back: Callable[[], str]) -> str | None:

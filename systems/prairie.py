@@ -20,6 +20,7 @@ from ..engine.world import World
 from .around.asked import Frame
 from .around.transitions import SEAMLESS, Transitions
 from .assembly import Assembly, replace_built_in
+from .brought import Brought
 from .features import feature_of
 from .govern import Governor
 from .looking import Looking
@@ -83,7 +84,7 @@ class Prairie(Tending):
         screen = Screen(ctx, self.features, self.winds, linear=linear)
         self._saving = Saving(
             self.world, self.winds, self.pressers, self._mown, self.clearings, self._shining,
-            feature_of(Trees, self.features), self._seasons,
+            feature_of(Trees, self.features), self._seasons, brought := Brought(self.world),
         )  # fmt: skip
         self._assembly = Assembly(
             self.viewers, self.winds, self.pressers, screen, self.governor, self._entities, self._messages_to
@@ -91,7 +92,7 @@ class Prairie(Tending):
         self._built = self._assembly.on(self.site)
         for phase, name, system in self._built:
             self.systems.add(phase, name, system, trusted=True)
-        bring_systems(self, self.world.come_back)
+        bring_systems(self, self.world.come_back, brought.by)
 
     @classmethod
     def load(

@@ -202,6 +202,9 @@ class State(Declaration):
     things: list[SavedThing]
     """Other components of a game's own entities."""
 
+    brought: dict[str, list[int]] = Field(default={})
+    """Entities that packages made while they added their systems, by the systems' names, in the order of making."""
+
     treading: SavedTreading
     felled: list[int] = Field(default=[])
     """Numbers of the scene's trees that are gone, or have become others among `things`."""

@@ -22,6 +22,7 @@ from ..engine.scene import LoadedScene
 from ..engine.terrain.change import Squares, changed_squares, restore_squares
 from ..engine.world import World
 from .around.clearing import Clearings
+from .brought import Brought
 from .examine import cells_of, ground_of, mown_of, sown_of, treading_of, treading_saved
 from .fitting import lie_of, must_fit, scene_of
 from .light.shining import Shining
@@ -64,6 +65,7 @@ class Saving:
     shining: Shining
     trees: Trees
     seasons: Seasons
+    brought: Brought
     _samples: tuple[Ground, Floats] | None = None
     """The ground sampled last, and its samples, which take a while."""
     _became: tuple[object, Mapping[int, int]] | None = None
@@ -86,6 +88,7 @@ class Saving:
             added=[*filter(None, self._winds(self.winds.added))],
             winds=[*filter(None, self._winds([each for each, _ in self.world.all(WindSource) if each not in own]))],
             things=[*self._things()],
+            brought=self.brought.entities(),
             treading=treading,
             felled=felled,
             wild_felled=wild_felled,
@@ -136,8 +139,10 @@ class Saving:
         self.mown.plots.resume(*made.mown)
         site.ground.density.sown.resume(*made.sown)
         last, became = self._became or (None, {})
-        entities = self._restore_entities(state, made, {**(became if last == data else {}), **existing})
+        known = {**self.brought.same(state.brought), **(became if last == data else {}), **existing}
+        entities = self._restore_entities(state, made, known)
         self._became = data, entities
+        self.brought.resume(state.brought, entities)
         return state.time, dict(entities), made.kinds
 
     def _things(self) -> Iterator[SavedThing]:
