@@ -55,12 +55,15 @@ class SystemPlugins:
         rows = [ProvidedSystem(entry.name, *owner(entry), installed.status(entry)) for entry in installed.all()]
         return sorted(rows, key=lambda row: (row.system, row.status, row.distribution))
 
-    def bring(self, prairie: object, /, come_back: Callable[[], str] = lambda: "", within: Within = nullcontext) -> None:
+    def bring(
+        self, prairie: object, /, come_back: Callable[[], str] = lambda: "", within: Within = nullcontext
+    ) -> None:
         """Let every package add its systems to a prairie, in alphabetical order of their names.
 
         A package that fails, or a name that two packages claim, is logged and left out. What a package had added before
         it failed stays. `come_back` undoes a change that no package may leave behind, and returns what was done, or "".
-        Each package runs inside the context that `within` returns for its name. The same message is logged once, for all prairies together.
+        Each package runs inside the context that `within` returns for its name. The same message is logged once, for
+        all prairies together.
         """
         for name, entries in sorted(self._installed.used.items()):
             with within(name):
@@ -76,9 +79,7 @@ def system_plugins() -> SystemPlugins:
     return SystemPlugins(entry_points(group=SYSTEMS), chosen=chosen_names())
 
 
-def bring_systems(
-    prairie: object, /, come_back: Callable[[], str] = lambda: "", within: Within = nullcontext
-) -> None:
+def bring_systems(prairie: object, /, come_back: Callable[[], str] = lambda: "", within: Within = nullcontext) -> None:
     """Let every installed package add its systems to a prairie that is being made; it has its `systems` already."""
     system_plugins().bring(prairie, come_back, within)
 
