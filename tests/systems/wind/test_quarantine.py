@@ -17,12 +17,7 @@ from tallgrass.systems.wind.blast import Blast
 from tallgrass.systems.wind.blow import blowing, hear, lone_receivers
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
-from tallgrass.systems.wind.quarantine import (
-    LONGEST_WAIT,
-    WAIT,
-    Quarantine,
-    QuarantinedError,
-)
+from tallgrass.systems.wind.quarantine import LONGEST_WAIT, WAIT, Quarantine, QuarantinedError
 from tallgrass.systems.wind.turbulence import Turbulence
 from tallgrass.systems.wind.whirlwind import Whirlwind
 
@@ -214,10 +209,11 @@ def test_what_a_wind_sent_before_it_failed_is_taken_back(mixing: Mixing) -> None
     np.testing.assert_array_equal(message, alone)
 
 
-def test_a_kind_is_told_of_once_however_many_of_it_fail(caplog: pytest.LogCaptureFixture) -> None:
-    quarantine = Quarantine()
+def test_a_kind_of_which_many_fail_is_told_of_once_and_left_out_for_good(caplog: pytest.LogCaptureFixture) -> None:
+    quarantine = Quarantine(live=False)  # as for a film
     failing = [WindSource(Failing(part="nan"), f"wind[{number}] failing") for number in range(5)]
     told(failing, quarantine)
+    quarantine.let_back(1e9)
     assert len(quarantine.reasons) == 5
     assert len(caplog.messages) == 1
 
@@ -351,13 +347,6 @@ def test_for_a_film_a_slow_wind_stays_and_is_told_of_once(
     assert not quarantine.reasons
     figure = f"{1000.0 * took:.0f} ms of processor time"
     assert caplog.messages == [f"slow of {__name__}.Failing: action takes too long: {figure}"]
-
-
-def test_for_a_film_a_wind_that_fails_is_left_out_for_good() -> None:
-    failing, quarantine = WindSource(Failing(part="nan"), "failing"), Quarantine(live=False)
-    told([failing], quarantine)
-    quarantine.let_back(1e9)
-    assert failing in quarantine.reasons
 
 
 def test_a_slow_wind_comes_back_and_is_left_out_for_longer_every_time(
