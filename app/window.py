@@ -14,6 +14,7 @@ from pyglet.window import key
 from ..components.arrays import Floats
 from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ..engine.scene import SceneError
+from ..systems.govern import LONGEST
 from ..systems.overlay.layers import LAYERS, Layer
 from ..systems.overlay.overlay import Overlay
 from ..systems.prairie import Prairie
@@ -128,7 +129,7 @@ class Walk:
     def hold(self, rate: float | None = None) -> None:
         """Hold a frame rate [1/s] by drawing less; None is the rate that suits the machine, 0 is none."""
         chosen = suited_rate(self.ctx) if rate is None else rate
-        self.prairie.governor.hold = OURS / chosen if chosen else None
+        self.prairie.governor.hold = min(OURS / chosen, LONGEST) if chosen else None
 
     def run(self, seconds: float | None = None) -> None:
         """Walk until the window closes: by the user, or after `seconds`."""

@@ -6,7 +6,7 @@ Nothing else depends on how busy the machine is, and it does nothing unless a ga
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from math import ceil, floor, inf, log
+from math import ceil, floor, log
 from statistics import median
 from time import perf_counter
 
@@ -150,6 +150,10 @@ def eased(now: float, due: float, /, *, dt: float) -> float:
     return max(due, now - SPEED * dt) if due < now else min(due, now + SPEED * dt)
 
 
+LONGEST = 5.0
+"""Longest time that can be held [s]: more is rather a rate in frames a second, or milliseconds."""
+
+
 class Governor:
     """Holds the time of a prairie's draws, for each viewer separately."""
 
@@ -166,13 +170,14 @@ class Governor:
 
     @property
     def hold(self) -> float | None:
-        """Longest time of a draw [s]; None to draw everything. ValueError for anything but a time above 0."""
+        """Longest time of a draw [s]; None to draw everything. ValueError for anything but a time above 0, up to 5 s."""
         return self._hold
 
     @hold.setter
     def hold(self, seconds: float | None) -> None:
-        if seconds is not None and not (isinstance(seconds, NUMBER_TYPES) and 0.0 < seconds < inf):
-            raise ValueError(f"hold is a time above 0 s, or None for no limit, not {seconds!r}")
+        if seconds is not None and not (isinstance(seconds, NUMBER_TYPES) and 0.0 < seconds <= LONGEST):
+            due = f"a time above 0 s and up to {LONGEST:g} s, such as 1 / 60, or None for no limit"
+            raise ValueError(f"hold is {due}, not {seconds!r}")
         self._hold = seconds
 
     def begin(self, outlook: Outlook, /, *, goes_on: bool = False) -> None:

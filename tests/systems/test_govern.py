@@ -111,7 +111,7 @@ def test_ranges_follow_little_by_little_and_arrive() -> None:
     assert eased(0.5, 1.0, dt=1e9) == 1.0
 
 
-@pytest.mark.parametrize("seconds", [0.0, -1.0, float("nan"), float("inf"), "1/60", [0.02]])
+@pytest.mark.parametrize("seconds", [0.0, -1.0, float("nan"), float("inf"), 60, "1/60", [0.02]])
 def test_what_is_no_time_cannot_be_held(seconds: object) -> None:
-    with pytest.raises(ValueError, match="hold is a time above 0 s"):
+    with pytest.raises(ValueError, match="hold is a time above 0 s and up to 5 s, such as 1 / 60, or None"):
         Governor(seconds)  # type: ignore[arg-type]

@@ -66,7 +66,7 @@ def test_a_bad_time_is_refused_in_a_sentence_and_no_wind_is_blamed_for_it(prairi
     [
         ({"preset": "hgih"}, r"^unknown preset 'hgih'; there are minimal, low, medium, high, "),
         ({"lod": "voxels"}, r"^unknown representation 'voxels'; there are auto, blades, strips, carpet$"),
-        ({"hold": -1.0}, r"^hold is a time above 0 s, or None for no limit, not -1.0$"),
+        ({"hold": -1.0}, r"^hold is a time above 0 s and up to 5 s, such as 1 / 60, or None for no limit, not -1.0$"),
     ],
 )
 def test_an_unknown_option_is_refused_in_a_sentence_and_leaves_the_world_alone(
