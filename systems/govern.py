@@ -170,7 +170,7 @@ class Governor:
 
     @property
     def hold(self) -> float | None:
-        """Longest time of a draw [s]; None to draw everything. ValueError for anything but a time above 0, up to 5 s."""
+        """Longest time of a draw [s]; None to draw everything. ValueError for anything but a time up to 5 s."""
         return self._hold
 
     @hold.setter
