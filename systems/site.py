@@ -32,7 +32,7 @@ LAYERS = 2048
 """Number of texture layers that graphics cards allow; the pictures of all kinds' patch models share them."""
 
 
-@dataclass(frozen=True, slots=True, weakref_slot=True, eq=False)
+@dataclass(frozen=True, slots=True, weakref_slot=True, eq=False, repr=False)
 class Site(Grown):
     """A scene with its ground, its grown kinds, and its representations in stock."""
 

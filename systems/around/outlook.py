@@ -37,7 +37,7 @@ class _LastRun:
     """Result of the run, of a system that makes a new one in each frame."""
 
 
-@dataclass(slots=True, eq=False, weakref_slot=True)
+@dataclass(slots=True, eq=False, weakref_slot=True, repr=False)
 class Outlook:
     """One viewer, the patches around it, and what it is shown of them."""
 

@@ -10,7 +10,7 @@ from .canopy import Top, top_over
 from .ground import Ground
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Grown:
     """A scene with its ground and the growths of its kinds."""
 

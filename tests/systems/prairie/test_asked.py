@@ -14,6 +14,7 @@ from tallgrass.components.wind import Grass, WindPrimitive, WindSource
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.flutter import flutter
+from tallgrass.testing import watch
 
 Load = Callable[..., Prairie]
 
@@ -114,6 +115,13 @@ def test_a_reseeded_prairie_has_other_grass_and_the_same_ground(prairie: Prairie
     assert (ours != theirs).any()
     assert (other.scene.seed, prairie.scene.seed) == (77, 5)
     other.release()
+
+
+def test_what_a_prairie_holds_is_printed_in_a_line(prairie: Prairie) -> None:
+    """With all numbers of its grass it would be a million lines, which a debugger asks for as well."""
+    watch(prairie)
+    for thing in (prairie, prairie.site, prairie.viewers, prairie.viewers["main"]):
+        assert len(repr(thing)) < 200
 
 
 def test_time_stays_exact_whatever_numbers_it_moves_on_by(prairie: Prairie) -> None:
