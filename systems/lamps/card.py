@@ -1,6 +1,7 @@
 """Lamps and shades on the graphics card: the texture that `lib/listed.glsl` reads."""
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from math import cos, sin
 
 import moderngl
@@ -63,15 +64,21 @@ def lamp_texels(lamps: Sequence[Lit], /) -> Floats:
     """
     texels = np.zeros((len(lamps), 3, 4), np.float32)
     for row, (lamp, pose) in zip(texels, lamps, strict=True):
-        colour = linear(lamp.colour)
         inner, outer = (0.0, 0.0) if lamp.cone is None else (cos(FADE_START * lamp.cone), cos(lamp.cone))
         slope = 0.0 if lamp.cone is None else 1.0 / max(inner - outer, 1e-6)
         flat = cos(lamp.pitch)
         row[0] = pose.x, pose.y, pose.z, lamp.range**-2
-        row[1, :3] = colour / max(float(luminance(colour)), 1e-3) * (lamp.candela * LUX * LEAF)
+        row[1, :3] = _evened(lamp.colour) * (lamp.candela * LUX * LEAF)
         row[1, 3] = slope
         row[2] = flat * sin(pose.yaw), sin(lamp.pitch), -flat * cos(pose.yaw), 1.0 - slope * inner
     return texels
+
+
+@lru_cache(maxsize=4 * MOST)
+def _evened(colour: str) -> Doubles:
+    """Return a colour `#rrggbb` as linear light of luminance 1, shape (3,); many lamps have the same one."""
+    light = linear(colour)
+    return np.asarray(light / max(float(luminance(light)), 1e-3))
 
 
 def visible_lamps(texels: Floats, sides: Doubles, eye: tuple[float, float, float], /) -> Floats:
