@@ -37,15 +37,29 @@ vec2 on_sun_plane(vec3 place) {
     return vec2(dot(place.xz, trees_across.xz), dot(place, trees_up));
 }
 
+// A place on that plane, moved against the sway of the leaves that shade its neighbourhood `about`, and its distance towards the sun [m].
+// With SUNWARD_BY_VERTEX, vertices have computed it: it is linear but for the sway, which changes by centimetres from one to the next.
+#ifdef SUNWARD_BY_VERTEX
+in vec3 sunward;
+
+vec3 sunward_of(vec3 place, vec3 about) {
+    return sunward;
+}
+#else
+vec3 sunward_of(vec3 place, vec3 about) {
+    return vec3(on_sun_plane(place) - on_sun_plane(vec3(shade_sway(about), 0.0).xzy), dot(place, sun));
+}
+#endif
+
 // Texture coordinates of a place on the sun's maps, and its distance towards the sun as z [m]. `about` chooses the map, for a whole
 // neighbourhood. `counts` is the weight of what is read there, 0 beyond both maps.
 vec3 on_sun_map(vec3 place, vec3 about, out float counts) {
-    vec2 sways = on_sun_plane(vec3(shade_sway(about), 0.0).xzy), calm = on_sun_plane(place) - sways, middle = on_sun_plane(about) - sways;
-    vec2 near_out = abs(middle - trees_middle.xy), far_out = abs(middle - trees_middle.zw);
+    vec3 calm = sunward_of(place, about);
+    vec2 middle = sunward_of(about, about).xy, near_out = abs(middle - trees_middle.xy), far_out = abs(middle - trees_middle.zw);
     counts = 1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, max(far_out.x, far_out.y) * trees_spans.y);
     bool near = max(near_out.x, near_out.y) * trees_spans.x < MAP_RIM;
-    vec2 at = near ? (calm - trees_middle.xy) * trees_spans.x : (calm - trees_middle.zw) * trees_spans.y;
-    return vec3((at.x + 0.5 + (near ? 0.0 : 1.0)) * (1.0 / SHADE_MAPS), at.y + 0.5, dot(place, sun));
+    vec2 at = near ? (calm.xy - trees_middle.xy) * trees_spans.x : (calm.xy - trees_middle.zw) * trees_spans.y;
+    return vec3((at.x + 0.5 + (near ? 0.0 : 1.0)) * (1.0 / SHADE_MAPS), at.y + 0.5, calm.z);
 }
 
 // Visibility of the sun behind the trees in front of a place of `on_sun_map`.

@@ -1,5 +1,8 @@
 // Ground without carpet. With EDGED, grass ends or has been cut on it, and light is computed by pixel.
 #define PIXELS_ASK
+#ifndef EDGED
+#define SUNWARD_BY_VERTEX
+#endif
 #include "lib/light.glsl"
 #include "systems/show/carpet/litter.glsl"
 #include "systems/show/carpet/stubble.glsl"

@@ -15,6 +15,9 @@ centroid out vec3 skylit;            // and from the sky
 centroid out float soil_extinction;  // of sunlight: optical depth for each 1 of leaf area seen from the side
 centroid out float soil_through;     // transmittance of the grass for sunlight
 centroid out vec3 lush;              // pigment of the understorey, relative to that of the ground between
+#ifdef TREES
+out vec3 sunward;                    // from sunward_of
+#endif
 #endif
 
 void main() {
@@ -31,6 +34,9 @@ void main() {
     soil_extinction = ground.extinction;
     soil_through = ground.through;
     lush = understorey_pigment(lies, densities);
+#ifdef TREES
+    sunward = sunward_of(place, place);
+#endif
 #endif
     gl_Position = clip * vec4(place, 1.0);
     gl_Position.z += depth_offset(pushed) * gl_Position.w;
