@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Floats
 from ...engine.camera import View
 from ...engine.gl.stream import release_all
+from ...engine.gl.texture import by_texel
 from ...engine.terrain.sample import height_at
 from ...systems.features import UNITS
 from ...systems.frame.block import joined
@@ -141,8 +142,7 @@ def _packed(ctx: moderngl.Context, texels: Floats, texture: moderngl.Texture | N
     rows = max(1, ceil(len(texels) / WIDTH))
     if texture is None or texture.height < rows:
         release_all(texture)
-        texture = ctx.texture((WIDTH, rows if texture is None else rows * 3 // 2 + 1), 4, dtype="f4")
-        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        texture = by_texel(ctx.texture((WIDTH, rows if texture is None else rows * 3 // 2 + 1), 4, dtype="f4"))
     padded = np.zeros((rows * WIDTH, 4), np.float32)
     padded[: len(texels)] = texels
     texture.write(padded, viewport=(0, 0, WIDTH, rows))

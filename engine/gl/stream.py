@@ -8,6 +8,8 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from .texture import by_texel
+
 
 class Releasable(Protocol):
     """Holder of GL objects: a painter, a stream, or a moderngl object."""
@@ -122,9 +124,7 @@ class Records:
             self.texture = self._room(rows)
 
     def _room(self, rows: int) -> moderngl.Texture:
-        texture = self.ctx.texture((self.texels * self.per_row, rows), self.channels, dtype=self.kind)
-        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        return texture
+        return by_texel(self.ctx.texture((self.texels * self.per_row, rows), self.channels, dtype=self.kind))
 
     def release(self) -> None:
         """Delete the texture."""

@@ -12,6 +12,7 @@ from ...components.arrays import Doubles, Floats, Rows
 from ...components.lamp import Lamp
 from ...components.pose import Pose
 from ...components.shade import Shade
+from ...engine.gl.texture import by_texel
 from ..around.outlook import Outlook
 from ..frame.feature import TexturePart
 from ..light.color import linear, luminance
@@ -146,8 +147,7 @@ class LampPart(TexturePart):
     ) -> None:
         super().__init__(unit)
         self._shining, self._shades = shining, shades
-        self.texture = ctx.texture((ROW, 2 * ROWS), 4, dtype="u4")
-        self.texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self.texture = by_texel(ctx.texture((ROW, 2 * ROWS), 4, dtype="u4"))
         self._uploaded = dict[int, bytes]()
         self._shade_texels: tuple[Sequence[Shade], Floats] = (), shade_texels(())
 

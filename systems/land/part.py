@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Floats
 from ...engine.gl.stream import release_all
+from ...engine.gl.texture import interpolated
 from ...engine.memo import while_it_lives
 from ...engine.terrain.record import Density
 from ..frame.block import FrameBlock
@@ -36,10 +37,7 @@ def posture_texture(
     forms = [*growths, *(coming.get(kind, growth) for kind, growth in enumerate(growths) if coming)]
     table = np.concatenate([posture_table(growth) for growth in forms])
     layers, rows, points, _ = table.shape
-    texture = ctx.texture_array((points, rows, layers), 4, table.tobytes(), dtype="f4")
-    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
-    texture.repeat_x = texture.repeat_y = False
-    return texture
+    return interpolated(ctx.texture_array((points, rows, layers), 4, table.tobytes(), dtype="f4"))
 
 
 def density_texture(ctx: moderngl.Context, density: Density) -> moderngl.TextureArray:
@@ -48,10 +46,7 @@ def density_texture(ctx: moderngl.Context, density: Density) -> moderngl.Texture
     packed = np.zeros((-(-kinds // 4), rows, columns, 4), np.uint8)
     for kind, values in enumerate(density.maps):
         packed[kind // 4, ..., kind % 4] = np.round(values * 255.0)
-    texture = ctx.texture_array((columns, rows, len(packed)), 4, packed.tobytes(), alignment=1)
-    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
-    texture.repeat_x = texture.repeat_y = False
-    return texture
+    return interpolated(ctx.texture_array((columns, rows, len(packed)), 4, packed.tobytes(), alignment=1))
 
 
 class Land(Feature):

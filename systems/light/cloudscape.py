@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.gl.stream import release_all
+from ...engine.gl.texture import interpolated
 from ..frame.block import FrameBlock, joined
 from .billows import billows_texture
 from .clouds import FADE
@@ -108,9 +109,7 @@ class Cloudscape:
         """Return the framebuffer and texture of a size; release the least recently used beyond the limit."""
         picture = self._pictures.pop(size, None)
         if picture is None:
-            texture = self.ctx.texture(size, 4, dtype="f2")
-            texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
-            texture.repeat_x = texture.repeat_y = False
+            texture = interpolated(self.ctx.texture(size, 4, dtype="f2"))
             picture = self.ctx.framebuffer([texture]), texture
         self._pictures[size] = picture
         if len(self._pictures) > MOST_SIZES:

@@ -11,6 +11,7 @@ from ...components.arrays import Floats
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.light import Light
 from ...engine.gl.stream import release_all
+from ...engine.gl.texture import interpolated
 from ...engine.terrain.record import Terrain
 from ..around.outlook import Outlook
 from ..frame.block import FrameBlock, joined
@@ -42,7 +43,7 @@ class LightPart(Part):
         self._leaps = 0
         program = joined(ctx, block, units, "systems/light/sky.vert", "systems/light/sky.frag", GRID)
         self._array = ctx.vertex_array(program, [])
-        self._sky = _sky_texture(ctx)
+        self._sky = interpolated(ctx.texture((COLUMNS, ROWS), 3, dtype="f4"))
         self._clouds = Cloudscape(ctx, block, units)
         self._repeating: moderngl.Texture | None = None
         self.lie = LieMap(ctx, block, units)
@@ -112,14 +113,6 @@ class LightPart(Part):
 def _pair(place: Floats) -> tuple[float, float]:
     x, z = place.tolist()
     return x, z
-
-
-def _sky_texture(ctx: moderngl.Context) -> moderngl.Texture:
-    """Return a texture for the sky map."""
-    texture = ctx.texture((COLUMNS, ROWS), 3, dtype="f4")
-    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
-    texture.repeat_x = texture.repeat_y = False
-    return texture
 
 
 def write_light(record: NDArray[np.void], declared: Light, light: Daylight, kinds: Sequence[GrassKind], /) -> None:

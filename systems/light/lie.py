@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Bytes, Doubles, Floats
 from ...engine.gl.shaders import program, set_uniform
 from ...engine.gl.stream import release_all
+from ...engine.gl.texture import interpolated
 from ...engine.noise import noise_grid, noise_table
 from ...engine.terrain.record import Terrain
 from ...engine.terrain.rectangle import Rectangle
@@ -122,9 +123,7 @@ class LieMap:
 
     def _new_map(self, origin: Place, slow: Bytes) -> _Map:
         """Return a map that is still to be drawn, over the window with this corner [m], with its noises."""
-        lie = self.ctx.texture((2 * self._columns, self._rows), 4, dtype="f2")
-        lie.filter = (moderngl.LINEAR, moderngl.LINEAR)
-        lie.repeat_x = lie.repeat_y = False
+        lie = interpolated(self.ctx.texture((2 * self._columns, self._rows), 4, dtype="f2"))
         return _Map(lie, map_texture(self.ctx, slow), self.ctx.framebuffer([lie]), origin)
 
     def follow(self, origin: Place, /) -> Place:
@@ -317,7 +316,4 @@ def _slow_noise(x: Floats, z: Floats, seed: int) -> Floats:
 def map_texture(ctx: moderngl.Context, texels: NDArray[np.uint8]) -> moderngl.Texture:
     """Return an image (rows, columns, channels) as a texture that is interpolated and clamped."""
     rows, columns, channels = texels.shape
-    texture = ctx.texture((columns, rows), channels, np.ascontiguousarray(texels).tobytes(), alignment=1)
-    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
-    texture.repeat_x = texture.repeat_y = False
-    return texture
+    return interpolated(ctx.texture((columns, rows), channels, np.ascontiguousarray(texels).tobytes(), alignment=1))

@@ -8,6 +8,7 @@ from ...components.arrays import Bytes
 from ...engine.gl.shaders import program
 from ...engine.gl.smaller import OVER
 from ...engine.gl.stream import Stream, attributes, release_all
+from ...engine.gl.texture import by_texel
 from ...engine.gl.units import FIRST_UNIT
 from .marks import LINE, SHAPE, Marks
 
@@ -63,8 +64,7 @@ class MarkPainter:
         height, width = image.shape[:2]
         if image is not self.image or self.sheet is None:
             self._release_sheet()
-            self.sheet = self.ctx.texture((width, height), 4, np.ascontiguousarray(image), alignment=1)
-            self.sheet.filter = (moderngl.NEAREST, moderngl.NEAREST)
+            self.sheet = by_texel(self.ctx.texture((width, height), 4, np.ascontiguousarray(image), alignment=1))
             self.image = image
         self.sheet.use(FIRST_UNIT)
         self.programs[2]["sheet"] = FIRST_UNIT

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Floats
+from ...engine.gl.texture import by_texel
 from ..around.outlook import Outlook
 from ..frame.feature import TexturePart
 from ..grow.record import Growth
@@ -104,9 +105,7 @@ class PressPart(TexturePart):
     def _new_texture(self) -> moderngl.Texture:
         """Return an empty texture with all rows."""
         rows = HEAD_ROWS + self._fresh_rows + self._settled_rows
-        texture = self.ctx.texture((ROW, rows), 4, np.zeros((rows, ROW, 4), np.float32), dtype="f4")
-        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        return texture
+        return by_texel(self.ctx.texture((ROW, rows), 4, np.zeros((rows, ROW, 4), np.float32), dtype="f4"))
 
 
 def _rows(marks: Marks) -> int:

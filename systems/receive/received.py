@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Floats
 from ...engine.gl.shaders import set_uniform
+from ...engine.gl.texture import by_texel
 from ...engine.terrain.sample import height_at, own_density_at
 from ..around.outlook import Outlook
 from ..around.receivers import Pool, Receiving
@@ -31,8 +32,7 @@ class Received:
         self._make(64)
 
     def _make(self, rows: int) -> None:
-        self.texture = self.ctx.texture((ROW, rows), 4, dtype="f4")
-        self.texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self.texture = by_texel(self.ctx.texture((ROW, rows), 4, dtype="f4"))
         self._target = self.ctx.framebuffer([self.texture])
 
     def allocate(self, counts: Sequence[int]) -> list[int]:

@@ -15,6 +15,7 @@ from ...engine.complaint import said
 from ...engine.gl.guest import block_binding
 from ...engine.gl.shaders import Line, ShaderError, program
 from ...engine.gl.stream import release_all
+from ...engine.gl.texture import by_texel
 from ..grow.record import Response
 from .blow import MARGIN, Blowing, ReceiverArrays, claim, send
 from .flutter import flutter_values
@@ -345,9 +346,7 @@ class CardWinds:
     def _row_texture(self) -> moderngl.Texture:
         """Return a new texture for the rows; nothing is in it yet."""
         self._sent = b""
-        texture = self.ctx.texture((self._rows.shape[1] // 4, len(self._rows)), 4, dtype="f4")
-        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        return texture
+        return by_texel(self.ctx.texture((self._rows.shape[1] // 4, len(self._rows)), 4, dtype="f4"))
 
     def release(self) -> None:
         """Release all textures and programs."""
@@ -360,9 +359,7 @@ def curve_texture(ctx: moderngl.Context, growths: Sequence[HasResponse], /) -> m
     for row, growth in zip(texels, growths, strict=True):
         response = growth.response
         row[:, 0], row[:, 1], row[:, 2] = response.rise, response.fall, response.step
-    texture = ctx.texture((texels.shape[1], len(texels)), 3, texels, dtype="f4")
-    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-    return texture
+    return by_texel(ctx.texture((texels.shape[1], len(texels)), 3, texels, dtype="f4"))
 
 
 def _frame_of(wind: Blowing) -> tuple[float, ...]:

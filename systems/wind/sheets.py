@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Floats
+from ...engine.gl.texture import by_texel
 
 Rows = NDArray[np.intp]
 
@@ -81,9 +82,7 @@ class Sheets:
         self.sent += 1
 
     def _allocated(self, rows: int, columns: int) -> moderngl.TextureArray:
-        texture = self.ctx.texture_array((columns, rows, len(self._held)), 4, dtype="f4")
-        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        return texture
+        return by_texel(self.ctx.texture_array((columns, rows, len(self._held)), 4, dtype="f4"))
 
     def release(self) -> None:
         """Release the texture."""
@@ -129,9 +128,7 @@ class MessageTexture:
 
     def _allocated(self) -> moderngl.Texture:
         rows = len(self._texels)
-        texture = self.ctx.texture((WIDE, rows), 4, np.zeros_like(self._texels), dtype="f4")
-        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        return texture
+        return by_texel(self.ctx.texture((WIDE, rows), 4, np.zeros_like(self._texels), dtype="f4"))
 
     def release(self) -> None:
         """Release the texture."""

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ....engine.gl.emit import emitted, record_lookup
 from ....engine.gl.mipmaps import at_once
 from ....engine.gl.stream import Records, release_all, released_unless_finished
+from ....engine.gl.texture import by_texel
 from ..strips.stock import StripStock
 from .organs import organ_defines
 from .plant import BladeStock
@@ -90,6 +91,4 @@ def _texture(ctx: moderngl.Context, values: NDArray[np.generic], per_row: int) -
     rows = -(-count // per_row)
     padded = np.zeros((rows * per_row, texels, channels), np.float32)
     padded[:count] = values
-    texture = ctx.texture((per_row * texels, rows), channels, padded.tobytes(), dtype="f4")
-    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-    return texture
+    return by_texel(ctx.texture((per_row * texels, rows), channels, padded.tobytes(), dtype="f4"))

@@ -7,6 +7,7 @@ import moderngl
 from ....engine.gl.remembered import Shelves
 from ....engine.gl.shaders import Texts, set_uniform
 from ....engine.gl.stream import Stream, release_all
+from ....engine.gl.texture import by_texel
 from .pieces import ByLayer
 from .tiles import ORDERS, TILE
 
@@ -31,8 +32,7 @@ class GroundShelf:
 
     def __init__(self, ctx: moderngl.Context, side: int) -> None:
         self.streams = tuple(Stream(ctx, TILE) for _ in STREAMS)
-        self.shares = ctx.texture((side, side), 1, alignment=1)
-        self.shares.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        self.shares = by_texel(ctx.texture((side, side), 1, alignment=1))
         self.arrays: dict[tuple[Layer, int, int], moderngl.VertexArray] = {}
         """Vertex arrays by layer, stream and stride, each made when it is first drawn."""
         self.stride = 1

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ....components.arrays import Bytes, Floats
 from ....engine.gl.mipmaps import PIECE, at_once, mipmapping, stack_for
 from ....engine.gl.stream import released_unless_finished
+from ....engine.gl.texture import interpolated
 from ...grow.record import Growth
 from .grow import carpet_of
 
@@ -63,7 +64,4 @@ def bents_of(growths: Sequence[Growth], /) -> Floats:
 def bent_texture(ctx: moderngl.Context, texels: NDArray[np.float16]) -> moderngl.TextureArray:
     """Return a table of `bents_of` as a texture: kinds are layers, slopes rows, bends columns."""
     layers, rows, columns, _ = texels.shape
-    texture = ctx.texture_array((columns, rows, layers), 4, texels.tobytes(), dtype="f2")
-    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
-    texture.repeat_x = texture.repeat_y = False
-    return texture
+    return interpolated(ctx.texture_array((columns, rows, layers), 4, texels.tobytes(), dtype="f2"))

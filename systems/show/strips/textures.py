@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Mask
 from ....engine.gl.mipmaps import levels, mipmapping
+from ....engine.gl.texture import by_texel
 from ...grow.record import Growth
 from .grow import Strips, strips_of
 from .pages import ALIGNMENT, SPARE, Pages, packed
@@ -109,9 +110,7 @@ def _extents(
 
 def extent_texture(ctx: moderngl.Context, extents: NDArray[np.float32]) -> moderngl.Texture:
     """Return the extents of an atlas as a texture."""
-    texture = ctx.texture((extents.shape[1], len(extents)), 4, extents.tobytes(), dtype="f4")
-    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-    return texture
+    return by_texel(ctx.texture((extents.shape[1], len(extents)), 4, extents.tobytes(), dtype="f4"))
 
 
 def painted_extents(strips: Strips, columns: int, /) -> NDArray[np.float32]:
