@@ -7,9 +7,11 @@ from pathlib import Path
 
 from ..engine.declared.grass import GrassKind
 from ..engine.declared.quality import Quality
-from ..engine.kept import cache_folder
+from ..engine.kept import cache_folder, keep_in
 from ..engine.scene import read_scene
-from ..systems.stock.cache import growth_key, is_kept, keep, packed_growth
+from ..systems.stock.archive import pack
+from ..systems.stock.cache import MOST, SUFFIX, growth_key, is_kept
+from ..systems.stock.models import grow as grow_kind
 from .studio.errors import MachineError
 from .studio.progress import counted
 
@@ -47,7 +49,7 @@ def _grow(wanted: Iterable[Mapping[str, Seed]], folder: Path, on: str | None) ->
     new: dict[str, Seed] = {}
     for key, seed in (pair for each in wanted for pair in each.items()):
         kind, quality, number = seed
-        if key not in new and not is_kept(kind, quality, seed=number, folder=folder):
+        if key not in new and not is_kept(kind, quality, seed=number):
             new[key] = seed
     for key, data in zip(new, counted(_grown(list(new.values()), on), total=len(new), doing="growing"), strict=True):
         _keep(data, key, folder)
@@ -64,7 +66,7 @@ def _seeds(scene: str, preset: str | None) -> dict[str, Seed]:
 
 def _grown(seeds: list[Seed], on: str | None) -> Iterator[bytes]:
     if on is None or not seeds:
-        yield from (packed_growth(kind, quality, seed=number) for kind, quality, number in seeds)
+        yield from (pack(grow_kind(kind, quality, seed=number)) for kind, quality, number in seeds)
         return
     from .farm.hire import hired
 
@@ -77,11 +79,11 @@ def grown(kind: GrassKind, quality: Quality, seed: int, key: str, /) -> bytes:
     """Grow a kind in a worker; raises MachineError where the worker's code differs from the caller's."""
     if growth_key(kind, quality, seed=seed) != key:
         raise MachineError("--on: a worker grows grass by other code than this machine; install the same there")
-    return packed_growth(kind, quality, seed=seed)
+    return pack(grow_kind(kind, quality, seed=seed))
 
 
 def _keep(data: bytes, key: str, folder: Path) -> None:
     try:
-        keep(data, key, folder)
+        keep_in(folder, key, SUFFIX, data, most=MOST)
     except OSError as error:
         raise MachineError(f"{folder}: {error.strerror}; name another folder: TALLGRASS_CACHE") from None

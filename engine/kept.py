@@ -70,45 +70,46 @@ def _sources(path: str, entry: Traversable) -> Iterator[tuple[str, Traversable]]
         yield path, entry
 
 
-def checksum(data: bytes | memoryview, key: str, /) -> bytes:
-    """Return a checksum over some bytes and their key."""
-    return blake2b(data, digest_size=DIGEST, key=key.encode()).digest()
-
-
-def kept(name: str, key: str, /) -> memoryview | None:
-    """Return the bytes cached under a name; None where there are none, or their checksum with the key is wrong."""
+def kept(key: str, suffix: str, /) -> memoryview | None:
+    """Return the bytes cached under a key; None where there are none, or their checksum with the key is wrong."""
     folder = cache_folder()
     if folder is None:
         return None
+    path = folder / (key + suffix)
     with suppress(OSError):
-        data = (folder / name).read_bytes()
+        data = path.read_bytes()
         content = memoryview(data)[DIGEST:]
-        if data[:DIGEST] == checksum(content, key):
-            mark_used(folder / name)
+        if data[:DIGEST] == _checksum(content, key):
+            with suppress(OSError):
+                os.utime(path)  # it was used
             return content
     return None
 
 
-def keep(name: str, key: str, data: bytes, /, *, most: int) -> None:
+def keep(key: str, suffix: str, data: bytes, /, *, most: int) -> None:
     """Cache bytes for `kept`, and remove the oldest files of this suffix beyond `most`; a failure is logged once."""
     folder = cache_folder()
     if folder is None:
         tell_nothing_is_kept("the home folder", "there is none")
         return
     try:
-        write_whole(folder / name, checksum(data, key) + data)
-        forget_oldest(folder, Path(name).suffix, most)
+        keep_in(folder, key, suffix, data, most=most)
     except OSError as error:
         tell_nothing_is_kept(str(folder), error.strerror or "it cannot be written to")
 
 
-def mark_used(path: Path, /) -> None:
-    """Set a file's time of last use to now."""
-    with suppress(OSError):
-        os.utime(path)
+def keep_in(folder: Path, key: str, suffix: str, data: bytes, /, *, most: int) -> None:
+    """Do what `keep` does in a folder; raises OSError where it cannot be written."""
+    _write_whole(folder / (key + suffix), _checksum(data, key) + data)
+    _forget_oldest(folder, suffix, most)
 
 
-def write_whole(path: Path, data: bytes, /) -> None:
+def _checksum(data: bytes | memoryview, key: str) -> bytes:
+    """Return a checksum over some bytes and their key."""
+    return blake2b(data, digest_size=DIGEST, key=key.encode()).digest()
+
+
+def _write_whole(path: Path, data: bytes) -> None:
     """Write a file atomically, so that no reader ever finds half of it; raises OSError."""
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, name = tempfile.mkstemp(dir=path.parent, suffix=".part")
@@ -121,7 +122,7 @@ def write_whole(path: Path, data: bytes, /) -> None:
         raise
 
 
-def forget_oldest(folder: Path, suffix: str, most: int, /) -> None:
+def _forget_oldest(folder: Path, suffix: str, most: int) -> None:
     """Remove the least recently used files of a suffix beyond `most`.
 
     Other programs and threads may do so at the same time: a file that is gone, or in use, is no error.

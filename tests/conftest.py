@@ -191,7 +191,7 @@ def _grown_once() -> Iterator[None]:
     levels = lru_cache(SEEDS)(repeating.repeating_levels.__wrapped__)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(site, "cached_growth", remembered)
-        patch.setattr(cache, "_MOST", KEPT)
+        patch.setattr(cache, "MOST", KEPT)
         patch.setattr(repeating, "repeating_levels", levels)
         yield
 

@@ -84,11 +84,11 @@ _LEVEL_ENDS = np.cumsum([4 * (SIDE >> level) ** 3 for level in range(LEVELS - 1)
 def _cached_levels() -> NDArray[np.uint8]:
     """Return all levels, concatenated, from the cache where possible: making them takes a quarter second."""
     key = code_hash("systems/light/billows.py")
-    cached = kept(key + SUFFIX, key)
+    cached = kept(key, SUFFIX)
     if cached is not None:
         return np.frombuffer(cached, np.uint8)
     texels = np.concatenate([each.ravel() for each in _computed_levels()])
-    keep(key + SUFFIX, key, texels.tobytes(), most=MOST_FILES)
+    keep(key, SUFFIX, texels.tobytes(), most=MOST_FILES)
     return texels
 
 

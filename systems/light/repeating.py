@@ -240,9 +240,9 @@ def _cached_texels(seed: int) -> NDArray[np.uint8]:
     """Return the finest level, from the cache where possible: making it takes half a second."""
     shape = SIDE, SIDE, 3
     key = blake2b(f"{code_hash(*CODE)} {seed}".encode(), digest_size=DIGEST // 2).hexdigest()
-    cached = kept(key + SUFFIX, key)
+    cached = kept(key, SUFFIX)
     if cached is not None and len(cached) == np.prod(shape):
         return np.frombuffer(cached, np.uint8).reshape(shape)
     texels = np.stack([cloud_map(seed=seed), *ground_maps(seed=seed)], axis=-1)
-    keep(key + SUFFIX, key, texels.tobytes(), most=MOST_FILES)
+    keep(key, SUFFIX, texels.tobytes(), most=MOST_FILES)
     return texels

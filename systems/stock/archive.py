@@ -1,4 +1,4 @@
-"""Growths as bytes, and back. Bytes are accepted only if checksum, types and shapes are right."""
+"""Growths as bytes, and back. Bytes are accepted only if types and shapes are right."""
 
 import io
 import zipfile
@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.declared.quality import Quality
-from ...engine.kept import DIGEST, checksum
 from ..grow.record import GIVES, Blades, Growth, PatchModel, Postures, Response
 from ..grow.response import SAMPLES
 from ..grow.simulate import LINKS
@@ -22,24 +21,17 @@ Arrays = dict[str, NDArray[Any]]
 Record = TypeVar("Record")
 
 
-def pack(growth: Growth, /, *, key: str) -> bytes:
-    """Return a growth as bytes: a checksum over the rest and `key`, then a file of numpy's `savez`."""
+def pack(growth: Growth, /) -> bytes:
+    """Return a growth as the bytes of a file of numpy's `savez`."""
     buffer = io.BytesIO()
     np.savez(buffer, allow_pickle=False, **_flatten(growth, "growth"))
-    data = buffer.getvalue()
-    return checksum(data, key) + data
+    return buffer.getvalue()
 
 
-def unpack(data: bytes, /, *, key: str, quality: Quality, blades: int) -> Growth | None:
-    """Return the growth that was packed with `key`; None if the bytes are damaged or do not fit the quality.
-
-    Nothing is parsed before the checksum is found right, and nothing is ever unpickled.
-    """
-    body = memoryview(data)[DIGEST:]
-    if data[:DIGEST] != checksum(body, key):
-        return None
+def unpack(data: bytes | memoryview, /, *, quality: Quality, blades: int) -> Growth | None:
+    """Return a growth that was packed; None if it does not fit the quality. Nothing is ever unpickled."""
     try:
-        with np.load(io.BytesIO(body), allow_pickle=False) as archive:
+        with np.load(io.BytesIO(data), allow_pickle=False) as archive:
             growth = _rebuild({name: archive[name] for name in archive.files}, quality)
     except (OSError, ValueError, KeyError, zipfile.BadZipFile):
         return None

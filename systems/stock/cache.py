@@ -1,14 +1,12 @@
 """The cache of growths on disk, under a hash of everything that a growth depends on."""
 
 import json
-from contextlib import suppress
 from dataclasses import asdict
 from hashlib import blake2b
-from pathlib import Path
 
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
-from ...engine.kept import cache_folder, code_hash, forget_oldest, mark_used, tell_nothing_is_kept, write_whole
+from ...engine.kept import code_hash, keep, kept
 from ..grow.layout import layout_of
 from ..grow.record import Growth
 from ..show.registry import REPRESENTATIONS
@@ -18,56 +16,34 @@ from .models import blade_count, grow
 CODE = "systems/grow", "systems/stock", *(f"systems/show/{each.name}/grow.py" for each in REPRESENTATIONS)
 """Sources that grow grass; a representation without pictures of its own has no `grow.py`."""
 
-_SUFFIX = ".growth"
-_MOST = 48
+SUFFIX = ".growth"
+
+MOST = 48
 """Number of growths kept in a folder."""
 
 
-def cached_growth(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Path | None = None) -> Growth:
+def cached_growth(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
     """Return what `grow` returns, from the disk if it was grown before.
 
-    `folder` is `cache_folder()` by default. A file that is damaged or foreign is replaced by a new growth. If the
-    folder cannot be read or written, each growth is grown anew.
+    A file that is damaged or foreign is replaced by a new growth. If the cache folder cannot be read or written, each
+    growth is grown anew.
     """
-    folder = cache_folder() if folder is None else folder
-    if folder is None:
-        tell_nothing_is_kept("the home folder", "there is none")
-        return grow(kind, quality, seed=seed)
     key = growth_key(kind, quality, seed=seed)
-    growth = _kept(kind, quality, key, folder)
+    growth = _kept(kind, quality, key)
     if growth is None:
         growth = grow(kind, quality, seed=seed)
-        try:
-            keep(pack(growth, key=key), key, folder)
-        except OSError as error:
-            tell_nothing_is_kept(str(folder), error.strerror or "it cannot be written to")
+        keep(key, SUFFIX, pack(growth), most=MOST)
     return growth
 
 
-def is_kept(kind: GrassKind, quality: Quality, /, *, seed: int, folder: Path) -> bool:
-    """Return whether `cached_growth` would find a growth in a folder; if so, mark it as used."""
-    return _kept(kind, quality, growth_key(kind, quality, seed=seed), folder) is not None
+def is_kept(kind: GrassKind, quality: Quality, /, *, seed: int) -> bool:
+    """Return whether `cached_growth` would find a growth; if so, mark it as used."""
+    return _kept(kind, quality, growth_key(kind, quality, seed=seed)) is not None
 
 
-def packed_growth(kind: GrassKind, quality: Quality, /, *, seed: int) -> bytes:
-    """Return what `grow` returns as bytes, as the cache keeps it; they are the same on all machines."""
-    return pack(grow(kind, quality, seed=seed), key=growth_key(kind, quality, seed=seed))
-
-
-def keep(data: bytes, key: str, folder: Path, /) -> None:
-    """Write a packed growth into a folder for `cached_growth`; raises OSError if the folder cannot be written."""
-    write_whole(folder / (key + _SUFFIX), data)
-    forget_oldest(folder, _SUFFIX, _MOST)
-
-
-def _kept(kind: GrassKind, quality: Quality, key: str, folder: Path) -> Growth | None:
-    path = folder / (key + _SUFFIX)
-    with suppress(OSError):
-        growth = unpack(path.read_bytes(), key=key, quality=quality, blades=blade_count(kind, quality))
-        if growth is not None:
-            mark_used(path)
-            return growth
-    return None
+def _kept(kind: GrassKind, quality: Quality, key: str) -> Growth | None:
+    data = kept(key, SUFFIX)
+    return None if data is None else unpack(data, quality=quality, blades=blade_count(kind, quality))
 
 
 def growth_key(kind: GrassKind, quality: Quality, /, *, seed: int) -> str:

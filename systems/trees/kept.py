@@ -40,7 +40,7 @@ def kept_pictures(key: str, sides: list[tuple[int, int]], /) -> list[Picture] | 
 
     A model has two, as `tree_levels` returns them; `sides` are the texels across and up of each model's.
     """
-    data = kept(key + SUFFIX, key)
+    data = kept(key, SUFFIX)
     if data is None:
         return None
     with suppress(ValueError, KeyError, zipfile.BadZipFile):
@@ -63,7 +63,7 @@ def keep_pictures(key: str, pictures: list[Picture], /) -> None:
             for level, texels in enumerate(levels):
                 with archive.open(f"{one}.{level}.npy", "w") as file:
                     np.lib.format.write_array(file, texels, allow_pickle=False)
-    keep(key + SUFFIX, key, buffer.getvalue(), most=MOST)
+    keep(key, SUFFIX, buffer.getvalue(), most=MOST)
 
 
 def sizes_of(sides: list[tuple[int, int]], /) -> list[list[tuple[int, int, int, int]]]:

@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.declared.grass import GrassKind, Place
 from tallgrass.engine.declared.quality import BladeRing, Quality, StripRing
-from tallgrass.engine.kept import cache_folder
+from tallgrass.engine.kept import DIGEST, cache_folder, keep, kept
 from tallgrass.systems.grow.record import Growth
 from tallgrass.systems.show.strips.grow import strips_of
 from tallgrass.systems.stock import cache
 from tallgrass.systems.stock.archive import pack, unpack
-from tallgrass.systems.stock.cache import cached_growth, growth_key
+from tallgrass.systems.stock.cache import SUFFIX, cached_growth, growth_key
 from tallgrass.systems.stock.models import grow
 
 KIND = GrassKind(width=0.03)
@@ -35,7 +35,7 @@ SMALL = Quality(
     carpet=8,
 )
 GROWN = grow(KIND, SMALL, seed=5)
-PACKED = pack(GROWN, key="key")
+PACKED = pack(GROWN)
 
 
 @pytest.fixture
@@ -51,17 +51,41 @@ def grows(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     return calls
 
 
+@pytest.fixture(autouse=True)
+def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TALLGRASS_CACHE", str(tmp_path))
+
+
+def believed(data: bytes, *, key: str = "key", quality: Quality = SMALL, blades: int = 12) -> Growth | None:
+    """Return the growth in a file of the cache that has these bytes, as `cached_growth` reads it."""
+    folder = cache_folder()
+    assert folder is not None
+    (folder / (key + SUFFIX)).write_bytes(data)
+    found = kept(key, SUFFIX)
+    return None if found is None else unpack(found, quality=quality, blades=blades)
+
+
+def filed(key: str = "key") -> bytes:
+    """Return the bytes of the file in which the cache keeps `GROWN` under a key."""
+    keep(key, SUFFIX, PACKED, most=1)
+    folder = cache_folder()
+    assert folder is not None
+    return (folder / (key + SUFFIX)).read_bytes()
+
+
 def stored(folder: Path) -> list[Path]:
     return [path for path in folder.iterdir() if path.is_file()]
 
 
 def same(one: Growth, two: Growth) -> bool:
-    return pack(one, key="") == pack(two, key="")
+    return pack(one) == pack(two)
 
 
-def test_what_was_grown_once_is_read_the_next_time(tmp_path: Path, grows: list[Any]) -> None:
-    first = cached_growth(KIND, SMALL, seed=5, folder=tmp_path / "new" / "folder")
-    second = cached_growth(KIND, SMALL, seed=5, folder=tmp_path / "new" / "folder")
+def test_what_was_grown_once_is_read_the_next_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, grows: list[Any]
+) -> None:
+    monkeypatch.setenv("TALLGRASS_CACHE", str(tmp_path / "new" / "folder"))
+    first, second = (cached_growth(KIND, SMALL, seed=5) for _ in range(2))
     assert len(grows) == 1
     assert first is GROWN
     assert same(second, GROWN)
@@ -118,27 +142,27 @@ def test_colours_places_and_ranges_need_no_growing() -> None:
 
 
 @settings(max_examples=60, deadline=None)
-@given(st.integers(0, len(PACKED) - 1), st.integers(1, 255))
+@given(st.integers(0, DIGEST + len(PACKED) - 1), st.integers(1, 255))
 def test_a_file_with_any_byte_changed_is_never_believed(place: int, change: int) -> None:
-    data = bytearray(PACKED)
+    data = bytearray(filed())
     data[place] ^= change
-    assert unpack(bytes(data), key="key", quality=SMALL, blades=12) is None
+    assert believed(bytes(data)) is None
 
 
 @settings(max_examples=60, deadline=None)
-@given(st.one_of(st.binary(max_size=400), st.integers(0, len(PACKED) - 1).map(lambda end: PACKED[:end])))
-def test_a_file_that_is_cut_off_or_not_ours_is_never_believed(data: bytes) -> None:
-    assert unpack(data, key="key", quality=SMALL, blades=12) is None
+@given(st.one_of(st.binary(max_size=400), st.integers(0, DIGEST + len(PACKED) - 1)))
+def test_a_file_that_is_cut_off_or_not_ours_is_never_believed(data: bytes | int) -> None:
+    assert believed(filed()[:data] if isinstance(data, int) else data) is None
 
 
 def test_a_file_under_another_name_is_never_believed() -> None:
-    assert unpack(PACKED, key="key", quality=SMALL, blades=12) is not None
-    assert unpack(PACKED, key="other", quality=SMALL, blades=12) is None
+    assert believed(filed()) is not None
+    assert believed(filed(), key="other") is None
 
 
 @pytest.mark.parametrize(("change", "blades"), [({}, 13), ({"carpet": 16}, 12), ({"models": 2}, 12)])
 def test_a_whole_file_that_does_not_fit_is_never_believed(change: dict[str, Any], blades: int) -> None:
-    assert unpack(PACKED, key="key", quality=SMALL.model_copy(update=change), blades=blades) is None
+    assert believed(filed(), quality=SMALL.model_copy(update=change), blades=blades) is None
 
 
 class Trap:
@@ -157,13 +181,13 @@ class Trap:
     ids=["pickled", "doubles", "short", "not finite"],
 )
 def test_a_file_with_the_right_checksum_but_a_wrong_array_is_never_believed(wrong: NDArray[Any]) -> None:
-    with np.load(io.BytesIO(PACKED[32:])) as archive:
+    with np.load(io.BytesIO(PACKED)) as archive:
         values = dict(archive)
     assert values["growth.postures.index"].shape == (129,)
     values["growth.postures.index"] = wrong
     buffer = io.BytesIO()
     np.savez(buffer, **values)
-    assert unpack(forge(buffer.getvalue()), key="key", quality=SMALL, blades=12) is None
+    assert believed(forge(buffer.getvalue())) is None
 
 
 def forge(data: bytes) -> bytes:
@@ -171,7 +195,7 @@ def forge(data: bytes) -> bytes:
 
 
 def test_a_forgery_of_the_real_thing_would_be_believed() -> None:
-    found = unpack(forge(PACKED[32:]), key="key", quality=SMALL, blades=12)
+    found = believed(forge(PACKED))
     assert found is not None
     assert same(found, GROWN)
 
@@ -179,19 +203,20 @@ def test_a_forgery_of_the_real_thing_would_be_believed() -> None:
 @settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(junk=st.binary(max_size=64))
 def test_a_broken_file_is_grown_again_and_replaced(tmp_path: Path, grows: list[Any], junk: bytes) -> None:
-    cached_growth(KIND, SMALL, seed=5, folder=tmp_path)
+    cached_growth(KIND, SMALL, seed=5)
     (path,) = stored(tmp_path)
     path.write_bytes(junk)
     before = len(grows)
-    cached_growth(KIND, SMALL, seed=5, folder=tmp_path)
-    cached_growth(KIND, SMALL, seed=5, folder=tmp_path)
+    cached_growth(KIND, SMALL, seed=5)
+    cached_growth(KIND, SMALL, seed=5)
     assert len(grows) == before + 1
 
 
-def test_a_folder_that_is_a_file_is_no_error(tmp_path: Path, grows: list[Any]) -> None:
+def test_a_folder_that_is_a_file_is_no_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, grows: list[Any]) -> None:
     (tmp_path / "file").write_text("in the way")
+    monkeypatch.setenv("TALLGRASS_CACHE", str(tmp_path / "file"))
     for _ in range(2):
-        assert cached_growth(KIND, SMALL, seed=5, folder=tmp_path / "file") is GROWN
+        assert cached_growth(KIND, SMALL, seed=5) is GROWN
     assert len(grows) == 2
 
 
@@ -204,7 +229,7 @@ def test_a_place_where_nothing_can_be_written_is_told_once_and_no_error(
 
     monkeypatch.setattr(tempfile, "mkstemp", refuse)
     for _ in range(2):
-        assert cached_growth(KIND, SMALL, seed=5, folder=tmp_path) is GROWN
+        assert cached_growth(KIND, SMALL, seed=5) is GROWN
     assert stored(tmp_path) == []
     (told,) = caplog.messages
     assert told.startswith(f"nothing can be cached in {tmp_path} (Permission denied), so plants and clouds")
@@ -216,7 +241,7 @@ def test_a_full_disk_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.M
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(Path, "replace", refuse)
-    assert cached_growth(KIND, SMALL, seed=5, folder=tmp_path) is GROWN
+    assert cached_growth(KIND, SMALL, seed=5) is GROWN
     assert stored(tmp_path) == []
 
 
@@ -224,13 +249,13 @@ def test_a_full_disk_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.M
 def test_what_was_not_used_for_longest_is_forgotten(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr("tallgrass.systems.stock.cache._MOST", 48)
+    monkeypatch.setattr("tallgrass.systems.stock.cache.MOST", 48)
     for number in range(60):
         (tmp_path / f"{number}.growth").write_bytes(b"")
         os.utime(tmp_path / f"{number}.growth", (number, number))
     (tmp_path / "mine.txt").write_text("not ours")
     (tmp_path / "gone.growth").symlink_to(tmp_path / "another program was first")
-    cached_growth(KIND, SMALL, seed=5, folder=tmp_path)
+    cached_growth(KIND, SMALL, seed=5)
     assert not caplog.messages
     names = {path.name for path in stored(tmp_path)}
     assert len(names) == 49
