@@ -1,6 +1,6 @@
 """Soft edges of trees among the grass hide grass and wood behind them (N3)."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
@@ -111,14 +111,13 @@ def test_n3_before_edges_of_a_tree_come_the_strips_of_its_own_patch_and_of_all_t
     assert prairie.painter is not None
     painter = prairie.painter.painters["strips"]
     assert isinstance(painter, StripsPainter)
-    drawing, placements, numbers, drawn = painter.strips, list[Array](), list[Array](), list[int]()
-    for name, kept in ("write", placements), ("write_strips", numbers):
-        monkeypatch.setattr(drawing, name, partial(_noting, kept, getattr(drawing, name)))
+    drawn = list[int]()
     prairie.draw(*stage.matrices(looking(-14.7, 6.0, 15.3, yaw=44.0, pitch=-10.0, view=14.0)))
-    cell = placements[-1]["cell"][numbers[-1] // drawing.stride].astype(np.int32)
-    away = distance_in_order(cell, prairie.viewers["main"].viewer.centre) * drawing.patch
+    assert painter.now is not None
+    cell = painter.now.placements["cell"][painter.now.strips // painter.uploaded.stride].astype(np.int32)
+    away = distance_in_order(cell, prairie.viewers["main"].viewer.centre) * painter.patch
     assert len(np.unique(away)) > 20
-    monkeypatch.setattr(drawing, "draw", partial(_draw_numbers, drawn))
+    monkeypatch.setattr(painter, "draw_strips", partial(_draw_numbers, drawn))
     painter.draw_beyond(middle := float(np.median(away)))
     assert drawn == np.flatnonzero(away >= middle).tolist()
 
@@ -126,11 +125,6 @@ def test_n3_before_edges_of_a_tree_come_the_strips_of_its_own_patch_and_of_all_t
 def _draw_numbers(drawn: list[int], first: int, count: int, **_: object) -> int:
     drawn.extend(range(first, first + count))
     return 1
-
-
-def _noting(kept: list[Array], write: Callable[[Array], None], array: Array) -> None:
-    kept.append(array)
-    write(array)
 
 
 def test_trees_stand_in_shells_of_grass_that_stay_where_they_are_while_it_ends_elsewhere() -> None:

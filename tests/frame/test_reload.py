@@ -20,6 +20,7 @@ from tallgrass.engine.scene import SceneError
 from tallgrass.systems.land.part import LandPart
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import carpet_painter
+from tallgrass.systems.show.strips.painter import StripsPainter
 from tallgrass.systems.wind.gust import Gust
 
 Stage = Any
@@ -164,11 +165,12 @@ def test_n7_what_did_not_change_stays_in_gl(edited: Edited, stage: Stage, camera
     edited.edit(("height: [0.5, 0.9]", "height: [0.4, 0.9]"), ("rolling, seed: 2", "rolling, seed: 3"))
     assert prairie.site.growths[0] is not before.growths[0]
     assert prairie.site.growths[1] is before.growths[1]
-    strips = painters["strips"].strips  # type: ignore[attr-defined]
-    pictures = strips.extents
+    strips = painters["strips"]
+    assert isinstance(strips, StripsPainter)
+    pictures = strips.uploaded.extents
     stage.shot(prairie, walked(camera, 0))
     assert painter.painters == painters, "their programs draw other grass too"
-    assert strips.extents is not pictures
+    assert strips.uploaded.extents is not pictures
 
 
 EDITS: dict[str, list[tuple[str, str]]] = {

@@ -24,7 +24,7 @@ from tallgrass.systems.show.blades.painter import BladesPainter
 from tallgrass.systems.show.blades.plant import standing_blades
 from tallgrass.systems.show.blades.representation import BladeRepresentation
 from tallgrass.systems.show.blades.shown import BladesShown, Standing
-from tallgrass.systems.show.strips import draw as strips_draw
+from tallgrass.systems.show.strips import painter as strips_painter
 from tallgrass.systems.show.strips.gather import gather_strips, polygon_strips
 from tallgrass.systems.show.strips.painter import StripsPainter
 from tallgrass.systems.show.strips.pool import StripsKept
@@ -82,7 +82,7 @@ def told() -> Iterator[list[tuple[str, Defines]]]:
         return join
 
     with pytest.MonkeyPatch.context() as patch:
-        for module in (blades_draw, strips_draw):
+        for module in (blades_draw, strips_painter):
             patch.setattr(module, "joined", noting(module.joined))
         yield found
 
@@ -165,7 +165,7 @@ class Scene:
 
     def strips_drawn(self, *, whole: bool = True) -> Drawn:
         """Return all strips, also those not shown yet: as whole rectangles, or cut to their painted extents."""
-        outlook, strips = self.outlook, self.strips.strips
+        outlook, strips = self.outlook, self.strips
         pools, rings = outlook.keeps(StripsKept).pools, outlook.shows(StripsShown).rings
         appears = replace(self.appears, handed=np.ones_like(self.appears.handed))
         counts = {name: each.receivers(outlook) for name, each in self.painter.painters.items()}
@@ -177,17 +177,18 @@ class Scene:
             np.ones((len(placements), 2), np.bool_),
         )
         numbers, amount = polygon_strips(
-            placements, np.arange(len(placements)), present, fineness, stride=strips.stride
+            placements, np.arange(len(placements)), present, fineness, stride=strips.uploaded.stride
         )
-        strips.write(placements)
-        strips.write_strips(numbers)
-        strips.shelves.now.placements.texture.use(UNITS["placements"])
-        strips.shelves.now.strips.texture.use(UNITS["strips"])
-        everywhere = np.frombuffer(strips.extents.read(), np.float32).reshape(*strips.extents.size[::-1], 4).copy()
+        shelf, painted = strips.shelves.now, strips.uploaded.extents
+        shelf.placements.write(placements)
+        shelf.strips.write(numbers.view(shelf.strips.record))
+        shelf.placements.texture.use(UNITS["placements"])
+        shelf.strips.texture.use(UNITS["strips"])
+        everywhere = np.frombuffer(painted.read(), np.float32).reshape(*painted.size[::-1], 4).copy()
         everywhere[:, :-1, :3] = 0, 1, 1  # whole rectangles, whatever is painted
         everywhere[:, :-1, 3] = np.arange(len(everywhere))[:, None]  # for the page: the shader returns it
-        extents = self.painter.ctx.texture(strips.extents.size, 4, everywhere.tobytes(), dtype="f4")
-        (extents if whole else strips.extents).use(UNITS["extents"])
+        extents = self.painter.ctx.texture(painted.size, 4, everywhere.tobytes(), dtype="f4")
+        (extents if whole else painted).use(UNITS["extents"])
         strips.array(0).program["first"] = 0
         size = 2 * strips.sections + 2, len(numbers)
         data = self.caught(strips.array(0).program, STRIP, None, size)
@@ -196,7 +197,7 @@ class Scene:
         return Drawn(
             row=np.repeat(np.concatenate([each.rows for each in rings]), amount),
             ring=np.repeat(ring, amount),
-            column=numbers % strips.stride % np.repeat(np.array(fineness)[ring, 1], amount),
+            column=numbers % strips.uploaded.stride % np.repeat(np.array(fineness)[ring, 1], amount),
             picture=data[:, 0, 16].astype(np.int64),
             clip=data[..., :4],
         )
@@ -204,7 +205,7 @@ class Scene:
     @property
     def first_pictures(self) -> NDArray[np.int64]:
         """Number of each kind's first picture in the atlas, by ring and kind."""
-        pictures = np.array(self.strips.strips.array(0).program["pictures"].value)  # type: ignore[union-attr]
+        pictures = np.array(self.strips.array(0).program["pictures"].value)  # type: ignore[union-attr]
         kinds = len(self.representation.stock.present[0])
         rings = len(self.representation.quality.strip_rings)
         return np.asarray(pictures[: rings * 2 * kinds].reshape(rings, 2 * kinds)[:, :kinds].reshape(-1), np.int64)
@@ -235,7 +236,7 @@ def scene(
     near, representation = prairie.site.representations[:2]
     assert isinstance(blades, BladesPainter)
     assert isinstance(strips, StripsPainter)
-    strips.strips.array(0)
+    strips.array(0)
     assert isinstance(near, BladeRepresentation)
     assert isinstance(representation, StripRepresentation)
     sent = np.frombuffer(blades.shelves.now.numbers.buffer.read(), np.uint32)

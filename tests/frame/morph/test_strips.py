@@ -120,7 +120,7 @@ def test_t5_on_each_patch_strips_are_drawn_from_its_far_side_to_its_near_one(sce
 
 
 def test_g3_a_strip_that_ends_where_its_paint_ends_is_a_part_of_the_whole_one(scene: Any) -> None:
-    texture = scene.strips.strips.extents
+    texture = scene.strips.uploaded.extents
     extents = np.frombuffer(texture.read(), np.float32).reshape(*texture.size[::-1], 4)
     everything, ends = scene.strips_drawn(), scene.strips_drawn(whole=False)
     for number, ring in enumerate(scene.representation.quality.strip_rings):
