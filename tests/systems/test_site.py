@@ -131,7 +131,8 @@ def test_g1_the_blades_of_a_model_are_in_stock_in_all_four_turns(growths: list[G
 
 
 def test_g1_the_layers_of_a_ring_hold_each_kinds_models_orientations_and_strips(growths: list[Growth]) -> None:
-    assert stock_strips(growths).first_picture == [[0, 2 * 2 * 3], [0, 2 * 2 * 2]]
+    near, far = 2 * 2 * 3, 2 * 2 * 2
+    assert stock_strips(growths).pictures == [0, near, 0, 0, 2 * near, 2 * near + far, 0, 0]
 
 
 def test_r1_the_blades_of_the_field_are_counted_by_density(laid: Laid, hills: Terrain) -> None:

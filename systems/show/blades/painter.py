@@ -136,7 +136,7 @@ class BladesPainter(RepresentationPainter):
         """Set a program's uniforms about blades and strips."""
         for name, value in (("near", self._near), ("models", self._models), ("each", self.store.count)):
             set_uniform(program, name, value)
-        set_sizes(program, self._strips.stock.forms)
+        set_sizes(program, self._strips.stock)
         set_stacks(program, self._strips.quality.strip_rings)
 
     def texts(self) -> Iterator[Texts]:

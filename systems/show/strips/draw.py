@@ -11,9 +11,8 @@ from ....engine.gl.emit import emitted, record_lookup
 from ....engine.gl.shaders import set_uniform_array
 from ....engine.gl.stream import Records, release_all, released_unless_finished
 from ...frame.block import filled, room_for
-from ...grow.record import Form
 from .gather import ALL_BLADES, BY_RANK, EDGED, LIES_AHEAD, OF_RING, PLACEMENT, RUNS_ALONG
-from .grow import strips_of
+from .stock import StripStock
 from .textures import Atlas, extent_texture, sending_strips
 
 PLACEMENTS_ROW, STRIPS_ROW = 64, 1024
@@ -72,9 +71,9 @@ class StripShelf:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Uploaded:
-    """The textures of all forms' strips; the atlas holds the pictures of all `forms`, as `strip_atlas` makes it."""
+    """The textures of a stock's strips; the atlas holds the pictures of all its forms, as `strip_atlas` makes it."""
 
-    forms: Sequence[Form]
+    stock: StripStock
     rings: Sequence[StripRing]
     atlas: moderngl.TextureArray
     ranks: moderngl.TextureArray
@@ -83,24 +82,7 @@ class Uploaded:
     @property
     def stride(self) -> int:
         """Number of polygon strips set aside for a patch: the first of patch i has number i * `stride`."""
-        return self.strips_per_plane * max(ring.strips * ring.columns for ring in self.rings)
-
-    @property
-    def strips_per_plane(self) -> int:
-        """Largest number of strips in one plane: one of each kind, or two while any kind may change its form."""
-        kinds = sum(form.number == form.kind for form in self.forms)
-        return kinds if len(self.forms) == kinds else 2 * kinds
-
-    @property
-    def pictures(self) -> list[int]:
-        """Index of the first picture by ring and form, with room for two forms of each kind."""
-        room = 2 * sum(form.number == form.kind for form in self.forms)
-        pictures, first = [0] * (room * len(self.rings)), 0
-        for ring in range(len(self.rings)):
-            for form in self.forms:
-                pictures[ring * room + form.number] = first
-                first += sum(2 * len(strips_of(model)[ring].plane) for model in form.growth.models)
-        return pictures
+        return self.stock.strips_per_plane * max(ring.strips * ring.columns for ring in self.rings)
 
     def release(self) -> None:
         """Release the textures."""
@@ -108,13 +90,13 @@ class Uploaded:
 
 
 def uploading(
-    ctx: moderngl.Context, rings: Sequence[StripRing], forms: Sequence[Form], atlas: Atlas, /
+    ctx: moderngl.Context, rings: Sequence[StripRing], stock: StripStock, atlas: Atlas, /
 ) -> Generator[None, None, Uploaded]:
     """Upload an atlas a piece at a time."""
     texels = yield from sending_strips(ctx, atlas.texels)
     with released_unless_finished(texels):
         ranks = yield from sending_strips(ctx, atlas.ranks)
-    return Uploaded(forms, rings, texels, ranks, extent_texture(ctx, atlas.extents))
+    return Uploaded(stock, rings, texels, ranks, extent_texture(ctx, atlas.extents))
 
 
 def set_stacks(program: moderngl.Program, rings: Sequence[StripRing], /) -> None:
@@ -123,10 +105,9 @@ def set_stacks(program: moderngl.Program, rings: Sequence[StripRing], /) -> None
     set_uniform_array(program, "stacks", filled(stacks, room_for(len(rings))))
 
 
-def set_sizes(program: moderngl.Program, forms: Sequence[Form], /) -> None:
+def set_sizes(program: moderngl.Program, stock: StripStock, /) -> None:
     """Set the uniform `sizes`, if the program has it, to the margin and the height of each form's strips [m]."""
-    sizes = [(0.0, 1.0)] * (2 * sum(form.number == form.kind for form in forms))
-    for form in forms:
-        strips = strips_of(form.growth.models[0])[0]
+    sizes = [(0.0, 1.0)] * (2 * stock.kinds)
+    for form, strips in zip(stock.forms, stock.strips[0], strict=True):
         sizes[form.number] = strips.margin, strips.height
     set_uniform_array(program, "sizes", sizes)

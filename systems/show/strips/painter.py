@@ -79,7 +79,7 @@ class StripsPainter(RepresentationPainter):
         self._canvas, self._block, self.rings = canvas, canvas.block, quality.strip_rings
         self._fade = canvas.transitions.fade
         self.sections = max(ring.sections for ring in self.rings)
-        self.uploaded = at_once(uploading(canvas.ctx, self.rings, stock.forms, atlas))
+        self.uploaded = at_once(uploading(canvas.ctx, self.rings, stock, atlas))
         """Textures of the strips in use."""
         self._staged: Uploaded | None = None
         self._rows = 64
@@ -142,12 +142,12 @@ class StripsPainter(RepresentationPainter):
 
     def _set_uniforms(self, program: moderngl.Program) -> None:
         """Set the uniforms that depend on the strips in use."""
-        uploaded = self.uploaded
+        uploaded, stock = self.uploaded, self.uploaded.stock
         set_stacks(program, self.rings)
-        set_sizes(program, uploaded.forms)
-        set_uniform_array(program, "pictures", uploaded.pictures)
+        set_sizes(program, stock)
+        set_uniform_array(program, "pictures", stock.pictures)
         set_uniform(program, "stride", uploaded.stride)
-        set_uniform(program, "strips_per_plane", uploaded.strips_per_plane)
+        set_uniform(program, "strips_per_plane", stock.strips_per_plane)
         set_uniform(program, "page_size", float(uploaded.atlas.width), float(uploaded.atlas.height))
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
@@ -164,7 +164,7 @@ class StripsPainter(RepresentationPainter):
         new = next(each for each in stocks if each.name == "strips")
         release_all(self._staged)
         self._staged = None
-        self._staged = yield from uploading(self._canvas.ctx, self.rings, new.stock.forms, new.atlas())
+        self._staged = yield from uploading(self._canvas.ctx, self.rings, new.stock, new.atlas())
 
     def restock(self) -> None:
         """Replace the stock in use by the staged one."""
@@ -228,7 +228,7 @@ class StripsPainter(RepresentationPainter):
         if not self._came:
             return present
         came, coming = np.array(self._came), np.zeros(present.shape[1], np.bool_)
-        coming[[form.kind for form in self.uploaded.forms if form.number != form.kind]] = True
+        coming[[form.kind for form in self.uploaded.stock.forms if form.number != form.kind]] = True
         return np.concatenate([present & (came < 1.0), present & coming & (came > 0.0)], axis=1)
 
     def hear(self) -> int:

@@ -67,7 +67,7 @@ def _painted_box(strips: Strips) -> NDArray[np.int64]:
     `SPARE` texels are added on all sides. Boxes begin at the ground, and at a multiple of `ALIGNMENT` columns, so that
     their mip levels consist of the same texels as those of the whole picture.
     """
-    painted: Mask = np.asarray(strips.texels[..., 3].reshape(-1, *strips.texels.shape[2:4]) > 0)
+    painted = _painted(strips)
     (_, top), (left, right) = (_ends(np.asarray(painted.any(axis=axis))) for axis in (2, 1))
     low, high = [0 * top, (left - SPARE) // ALIGNMENT * ALIGNMENT], [top + SPARE, right + SPARE]
     box: NDArray[np.int64] = np.clip(np.array([low, high]).transpose(2, 0, 1), 0, painted.shape[1:])
@@ -119,7 +119,7 @@ def painted_extents(strips: Strips, columns: int, /) -> NDArray[np.float32]:
     They are fractions of the column's width and of the strip's height, a texel beyond the paint. Pictures are ordered
     as in the atlas.
     """
-    painted: Mask = np.asarray(strips.texels[..., 3].reshape(-1, *strips.texels.shape[2:4]) > 0)
+    painted = _painted(strips)
     width = painted.shape[2]
     extents = np.zeros((len(painted), columns, 3), np.float32)
     for column in range(columns):
@@ -132,6 +132,11 @@ def painted_extents(strips: Strips, columns: int, /) -> NDArray[np.float32]:
         extents[:, column, 2] = (top + 1) / painted.shape[1]
         extents[~part.any(axis=(1, 2)), column] = 0.0
     return np.clip(extents, 0.0, 1.0)
+
+
+def _painted(strips: Strips) -> Mask:
+    """Return which texels of each picture are painted, shape (pictures, rows, columns)."""
+    return np.asarray(strips.texels[..., 3].reshape(-1, *strips.texels.shape[2:4]) > 0)
 
 
 def _ends(painted: Mask) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -34,16 +34,15 @@ def test_g1_each_picture_of_the_atlas_is_the_strip_that_planting_reckons_with(
     every = [strip_stock(growths, number) for number in (0, 1)]
     made = strip_atlas(every, [2, 1])
     atlas, ranks = (at_once(sending_strips(ctx, levels)) for levels in (made.texels, made.ranks))
-    before = sum(2 * len(strips.plane) for kinds in every[:ring] for models in kinds for strips in models)
     width, height, pages = atlas.size
     texels = np.frombuffer(atlas.read(), np.uint8).reshape(pages, height, width, 4)
     ranked = np.frombuffer(ranks.read(alignment=1), np.uint8).reshape(pages, height, width)
-    first = stock_strips(growths).first_picture[ring]
+    first = stock_strips(growths).pictures[2 * len(growths) * ring :]
     for kind, models in enumerate(every[ring]):
         for model, strips in enumerate(models):
             _, count, h, w, _ = strips.texels.shape
             for orientation in (0, 1):
-                start = before + first[kind] + (model * 2 + orientation) * count
+                start = first[kind] + (model * 2 + orientation) * count
                 for number, extents in enumerate(made.extents[start : start + count]):
                     page, (column, row) = int(extents[0, 3]), np.rint(extents[-1, :2] * (width, height)).astype(int)
                     np.testing.assert_allclose(extents[-1, 2:] * (width, height), (w, h), rtol=1e-6)
