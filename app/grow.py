@@ -9,6 +9,7 @@ from ..engine.declared.grass import GrassKind
 from ..engine.declared.quality import Quality
 from ..engine.kept import cache_folder, keep_in
 from ..engine.scene import read_scene
+from ..systems.site import seed_of
 from ..systems.stock.archive import pack
 from ..systems.stock.cache import MOST, SUFFIX, growth_key, is_kept
 from ..systems.stock.models import grow as grow_kind
@@ -60,7 +61,7 @@ def _seeds(scene: str, preset: str | None) -> dict[str, Seed]:
     """Return the inputs of the growths of a scene's kinds, by their keys in the cache."""
     read = read_scene(scene).scene
     quality = read.numbers(preset)
-    seeds = [(kind, quality, read.seed + number) for number, kind in enumerate(read.grass.values())]
+    seeds = [(kind, quality, seed_of(read, name)) for name, kind in read.grass.items()]
     return {growth_key(kind, quality, seed=number): (kind, quality, number) for kind, quality, number in seeds}
 
 

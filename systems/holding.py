@@ -15,8 +15,8 @@ from .frame.block import FrameBlock
 from .frame.feature import Feature, Part, overriding
 from .receive.received import ROW, Received
 from .show.representation import Canvas, RepresentationPainter
-from .site import Site
-from .staged import Staged, grass_changed, kind_defines, kinds_changed, same_settings
+from .site import Site, same_settings
+from .staged import Staged, grass_changed, kind_defines, kinds_changed
 from .wind.card import CardWinds
 from .winds import Winds
 
@@ -81,18 +81,17 @@ class Holding:
         return 2 * len(self.parts) + 11 + sum(6 + times * each.programs for each in site.representations)
 
     def _making_ready(
-        self, site: Site, air: CardWinds | None = None, painters: Mapping[str, RepresentationPainter] | None = None
+        self, site: Site, air: CardWinds, painters: Mapping[str, RepresentationPainter]
     ) -> Iterator[None]:
         """Make the programs and allocate the buffers for all winds that may blow."""
         assert self._prepared_winds is not None
-        painters = self.painters if painters is None else painters
         texts = chain.from_iterable(painter.texts() for painter in painters.values())
         yield from self._compiler.compile_together(texts)
         for painter in painters.values():
             yield from painter.making()
             painter.make_ready(site)
             yield
-        air, winds = air or self.air, [*site.scene.wind, *self._prepared_winds]
+        winds = [*site.scene.wind, *self._prepared_winds]
         yield from self._making_for_winds(winds, air, painters)
         air.make_room(winds, receivers=READY_ROWS * ROW)
 
@@ -136,7 +135,7 @@ class Holding:
     def _making_for_later(self, site: Site) -> Iterator[None]:
         """Make the programs of later frames now if a game has prepared, or if nothing compiles in the background."""
         if self._prepared_winds is not None:
-            yield from self._making_ready(site)
+            yield from self._making_ready(site, self.air, self.painters)
         elif not compiles_in_background(self.ctx):
             yield from self._deferred  # at once, as each program would hold a frame up
 

@@ -69,7 +69,7 @@ class Painter(Holding):
         before = self.painters
         yield from self._settling(site)
         if before is self.painters:
-            yield from self._making_ready(site)
+            yield from self._making_ready(site, self.air, self.painters)
         if self._outlook is None:
             look()
             yield

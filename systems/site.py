@@ -138,9 +138,7 @@ def found_site(
     scene = loaded.scene
     quality = numbers_of(scene, preset)
     terrain, density = load_maps(loaded)
-    growths = [
-        cached_growth(kind, quality, seed=scene.seed + number) for number, kind in enumerate(scene.grass.values())
-    ]
+    growths = _growths(scene, quality, {})
     return lay_out(scene, quality, Ground(terrain, density, quality.patch), growths, lod=lod, transitions=transitions)
 
 
@@ -154,11 +152,9 @@ def found_again(site: Site, before: LoadedScene, loaded: LoadedScene, /, *, pres
     scene, quality = loaded.scene, numbers_of(loaded.scene, preset)
     old = site.ground
     terrain, density = load_maps(loaded, before=(before, (old.terrain, old.density)))
-    growths = _grown(site, scene, quality)
-    same_grass = quality == site.quality and len(growths) == len(site.growths)
-    same_grass = same_grass and all(one is other for one, other in zip(growths, site.growths, strict=True))
+    growths = _growths(scene, quality, dict(zip(_keys(site.scene, site.quality), site.growths, strict=True)))
+    same_grass = quality == site.quality and growths == site.growths and not site.coming
     same_ground = terrain is old.terrain and density is old.density and quality.patch == old.patch
-    same_grass = same_grass and not site.coming
     if same_grass and same_ground and scene.seed == site.scene.seed:
         return replace(site, scene=scene)
     ground = old if same_ground else Ground(terrain, density, quality.patch)
@@ -168,8 +164,7 @@ def found_again(site: Site, before: LoadedScene, loaded: LoadedScene, /, *, pres
 
 def must_grow(site: Site, name: str, kind: GrassKind, /) -> bool:
     """Return whether a kind needs another growth than the one that the site has under its name."""
-    seed = site.scene.seed + list(site.scene.grass).index(name)
-    return growth_key(kind, site.quality, seed=seed) != growth_key(site.scene.grass[name], site.quality, seed=seed)
+    return _key(site, name, kind) != _key(site, name, site.scene.grass[name])
 
 
 def ripened(
@@ -185,16 +180,16 @@ def ripened(
     are reused. Growing takes a while, so it may be called on another thread.
     """
     numbers = {name: number for number, name in enumerate(site.scene.grass)}
-    grown = dict[str, Growth]()
-    for kinds, own in zip(known, (dict(enumerate(site.growths)), site.coming), strict=True):
-        for name, kind in kinds.items():
-            seed = site.scene.seed + numbers[name]
-            grown[growth_key(kind, site.quality, seed=seed)] = own[numbers[name]]
+    own = dict(enumerate(site.growths)), site.coming
+    grown = {
+        _key(site, name, kind): growths[numbers[name]]
+        for kinds, growths in zip(known, own, strict=True)
+        for name, kind in kinds.items()
+    }
 
     def growth_of(name: str, kind: GrassKind) -> Growth:
-        seed = site.scene.seed + numbers[name]
-        key = growth_key(kind, site.quality, seed=seed)
-        return grown.get(key) or cached_growth(kind, site.quality, seed=seed)
+        found = grown.get(_key(site, name, kind))
+        return found or cached_growth(kind, site.quality, seed=seed_of(site.scene, name))
 
     scene = site.scene.model_copy(update={"grass": {name: stands[name] for name in numbers}})
     growths = [growth_of(name, stands[name]) for name in numbers]
@@ -218,17 +213,26 @@ def is_grown(site: Site, scene: Scene, /, *, preset: str | None) -> bool:
     return same and _keys(scene, quality) == _keys(old, site.quality)
 
 
-def _grown(site: Site, scene: Scene, quality: Quality) -> list[Growth]:
-    """Return the growths of a scene's kinds; those that the site has are neither read nor grown again."""
-    known = dict(zip(_keys(site.scene, site.quality), site.growths, strict=True))
-    growths = []
-    for number, (key, kind) in enumerate(zip(_keys(scene, quality), scene.grass.values(), strict=True)):
-        growths.append(known.get(key) or cached_growth(kind, quality, seed=scene.seed + number))
-    return growths
+def seed_of(scene: Scene, name: str, /) -> int:
+    """Return the seed from which a scene's kind of a name grows."""
+    return scene.seed + list(scene.grass).index(name)
+
+
+def _growths(scene: Scene, quality: Quality, known: Mapping[str, Growth]) -> list[Growth]:
+    """Return the growths of a scene's kinds; those that are `known` by their keys are neither read nor grown again."""
+    return [
+        known.get(key) or cached_growth(kind, quality, seed=seed_of(scene, name))
+        for key, (name, kind) in zip(_keys(scene, quality), scene.grass.items(), strict=True)
+    ]
 
 
 def _keys(scene: Scene, quality: Quality) -> list[str]:
-    return [growth_key(kind, quality, seed=scene.seed + number) for number, kind in enumerate(scene.grass.values())]
+    return [growth_key(kind, quality, seed=seed_of(scene, name)) for name, kind in scene.grass.items()]
+
+
+def _key(site: Site, name: str, kind: GrassKind) -> str:
+    """Return the key of the growth that a kind would have on a site under a name."""
+    return growth_key(kind, site.quality, seed=seed_of(site.scene, name))
 
 
 def farthest_reach(kind: GrassKind, growth: Growth) -> float:
@@ -249,12 +253,17 @@ def outlook_on(site: Site, viewer: Viewer, entity: int, /) -> Outlook:
     return outlook
 
 
+def same_settings(site: Site, before: Site, /) -> bool:
+    """Return whether grass on two sites is kept and drawn alike, except for the growths of its kinds."""
+    same = site.quality == before.quality and site.reach == before.reach and site.scene.seed == before.scene.seed
+    return same and len(site.growths) == len(before.growths)
+
+
 def settle_on(outlook: Outlook, site: Site, before: Site, world: World, /) -> None:
     """Continue a viewer's outlook on another site; keep what has not changed."""
     if site.representations is before.representations:
         return
-    same = site.scene.seed == before.scene.seed and site.quality == before.quality and site.reach == before.reach
-    if site.ground is before.ground and same:
+    if site.ground is before.ground and same_settings(site, before):
         keep_on(outlook, site.representations, before.representations)
         return
     for kept in outlook.kept.values():

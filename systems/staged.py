@@ -9,7 +9,7 @@ from ..engine.gl.background import BackgroundCompiler
 from ..engine.gl.stream import release_all
 from .frame.block import FrameBlock
 from .show.representation import Canvas, Representation, RepresentationPainter
-from .site import Site
+from .site import Site, same_settings
 from .wind.card import CardWinds
 
 
@@ -82,12 +82,6 @@ def _each_defining(block: FrameBlock, defines: dict[str, str | int], steps: Iter
 def kind_defines(site: Site, /) -> dict[str, str | int]:
     """Return the defines that depend on a site's kinds of grass."""
     return {name: value for each in site.representations for name, value in each.defines(site).items()}
-
-
-def same_settings(site: Site, before: Site, /) -> bool:
-    """Return whether painters for two sites are made of the same, except for the growths of their kinds."""
-    same = site.quality == before.quality and site.reach == before.reach and site.scene.seed == before.scene.seed
-    return same and len(site.growths) == len(before.growths)
 
 
 def kinds_changed(site: Site, before: Site, /) -> bool:
