@@ -78,7 +78,7 @@ class Pressers(Feature):
         self._generation = world.generation
         self._declared: dict[int, PresserOnPath] = {}
         """The scene's pressers by their entities, in its order."""
-        self._scene_walk, self._game_walk = Walk(Trail(begun=FIRST_OF_SCENE, every=EVERY)), Walk(Trail())
+        self._scene_walk, self._game_walk = _walk_of_scene(), Walk(Trail())
         """Walks of the scene's pressers, and of a game's own."""
         self._memory = Memory([self._scene_walk.trail, self._game_walk.trail])
         self._is_anew = True
@@ -190,7 +190,7 @@ class Pressers(Feature):
                 self._world.add(now, presser)
             declared[now] = path
         self._declared, numbers = declared, [*declared]
-        self._scene_walk, self._game_walk = Walk(Trail(begun=FIRST_OF_SCENE, every=EVERY)), Walk(Trail())
+        self._scene_walk, self._game_walk = _walk_of_scene(), Walk(Trail())
         scenes, games = treading.walks
         self._scene_walk.resume(scenes, [(numbers[-1 - number], presser) for number, presser in scenes.pressers])
         self._game_walk.resume(games, [(entities.get(entity, entity), presser) for entity, presser in games.pressers])
@@ -228,7 +228,7 @@ class Pressers(Feature):
         self._begin_anew()
 
     def _begin_anew(self) -> None:
-        self._scene_walk, self._is_anew = Walk(Trail(begun=FIRST_OF_SCENE, every=EVERY)), True
+        self._scene_walk, self._is_anew = _walk_of_scene(), True
         self._memory.replace(self._scene_walk.trail)
 
     def _place_declared(self, time: float) -> None:
@@ -265,6 +265,10 @@ class Pressers(Feature):
     def _poses_at(self, pressers: list[EntityPresser], time: float) -> Doubles:
         """Return the poses (x, z, yaw) of some of the scene's pressers at `time` [s], shape (n, 3)."""
         return _pose_rows([self._declared[entity].pose(time=time) for entity, _ in pressers])
+
+
+def _walk_of_scene() -> Walk:
+    return Walk(Trail(begun=FIRST_OF_SCENE, every=EVERY))
 
 
 def _pose_rows(poses: Sequence[Pose]) -> Doubles:
