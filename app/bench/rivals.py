@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...engine.gl.stream import release_all
 from ...systems.reference import carpet_painter, draw_truth
 from ..studio.errors import MachineError
 from ..studio.take import SAMPLES
@@ -93,5 +94,4 @@ class Rivals:
 
     def release(self) -> None:
         """Give everything back."""
-        for thing in (self._fine, self._hand):
-            thing.release()
+        release_all(self._fine, self._hand)

@@ -1,7 +1,9 @@
 """Baking pictures: of a twig for its card, and of a whole tree from all around."""
 
 from collections.abc import Callable
+from itertools import accumulate
 from math import ceil
+from typing import Any
 
 import moderngl
 import numpy as np
@@ -55,10 +57,7 @@ def pictures(ctx: moderngl.Context, columns: int, rows: int, wide: int, tall: in
     finally:
         before.use()  # a target bound when released would be bound again
         release_all(target, depth, *colors)
-    values = _halved(texels)  # empty texels are 0 in both
-    for _ in range(FINER.bit_length() - 2):
-        values = _halved(values)
-    return values
+    return _levels(texels, FINER.bit_length())[-1]  # empty texels are 0 in both
 
 
 def texture_of(ctx: moderngl.Context, levels: list[Bytes], /) -> moderngl.TextureArray:
@@ -69,12 +68,9 @@ def texture_of(ctx: moderngl.Context, levels: list[Bytes], /) -> moderngl.Textur
     return texture
 
 
-def mip_levels(values: Floats, levels: int = LEVELS, /) -> list[Bytes]:
-    """Return layers (n, rows, columns, 4) at so many mip levels."""
-    each = [values]
-    for _ in range(levels - 1):
-        each.append(_halved(each[-1]))
-    return [np.ascontiguousarray(np.round(one).astype(np.uint8)) for one in each]
+def mip_levels(values: Floats, /) -> list[Bytes]:
+    """Return layers (n, rows, columns, 4) at all mip levels."""
+    return [_as_bytes(each) for each in _levels(values, LEVELS)]
 
 
 def dilated(values: Floats, cover: Floats, levels: int, /) -> list[Bytes]:
@@ -83,25 +79,20 @@ def dilated(values: Floats, cover: Floats, levels: int, /) -> list[Bytes]:
     Texels without coverage take the values around them, so that interpolation stays right.
     """
     both = np.concatenate([values, cover[..., None]], axis=-1)[None]
-    each = [both]
-    for _ in range(levels - 1):
-        each.append(_halved(each[-1]))
     found = list[Floats]()
-    for one in reversed(each):
+    for one in reversed(_levels(both, levels)):
         covered = one[..., 4:] > 0.0
         own = 255.0 * one[..., :4] / np.where(covered, one[..., 4:], 1.0)
         around = (
             found[-1].repeat(2, axis=1).repeat(2, axis=2) if found else np.full_like(own, own[covered[..., 0]].mean())
         )
         found.append(np.where(covered, own, around))
-    return [np.ascontiguousarray(np.round(one).astype(np.uint8)) for one in reversed(found)]
+    return [_as_bytes(each) for each in reversed(found)]
 
 
 def tree_levels(values: Floats, /) -> tuple[list[Bytes], list[Bytes]]:
     """Return the mip levels of a tree's pictures, and those of the optical depths before what they show."""
-    coarser = values
-    for _ in range(COARSER.bit_length() - 1):
-        coarser = _halved(coarser)
+    coarser = _levels(values, COARSER.bit_length())[-1]
     return mip_levels(values[:1]), dilated(coarser[1], coarser[0, ..., 3], LEVELS - COARSER.bit_length() + 1)
 
 
@@ -139,6 +130,15 @@ def equalised(pictures: Bytes, solid: float, /) -> Bytes:
 
 def _rounded_up(texels: float) -> int:
     return -(-ceil(texels) // COARSEST) * COARSEST
+
+
+def _as_bytes(values: Floats) -> Bytes:
+    return np.ascontiguousarray(np.round(values).astype(np.uint8))
+
+
+def _levels(values: NDArray[Any], count: int) -> list[NDArray[Any]]:
+    """Return layers (n, rows, columns, ...) at so many mip levels, finest first."""
+    return list(accumulate(range(count - 1), lambda finer, _: _halved(finer), initial=values))
 
 
 def _halved(values: NDArray[np.generic]) -> Floats:

@@ -140,7 +140,7 @@ class Choice:
     """All trees of a frame, to choose from; `variety` is the spread of brightness within each model."""
 
     def __init__(self, standing: Standing, models: Sequence[Model], variety: Sequence[float]) -> None:
-        rows, self._model = standing.by_model()
+        rows, self._model = standing.by_model
         self._models = models
         self._blocks = blocks_of_models(models)
         self._needles = np.array([model.habit.leaf.form == NEEDLES for model in models], np.bool_)

@@ -309,7 +309,4 @@ class TreePart(Part):
     def release(self) -> None:
         """Release all GL objects."""
         self._forget()
-        release_all(*self._kinds)
-        for each in (self._shade, self._placed, self._stood):
-            if each is not None:
-                each.release()
+        release_all(*self._kinds, self._shade, self._placed, self._stood)

@@ -107,7 +107,7 @@ class GpuKind:
 
     def _load_card(self, twig: list[Bytes], *, as_drawn: bool = False) -> None:
         """Make the card's texture, outlines and normals from its twig's pictures; `as_drawn` is of `card_texels`."""
-        self._release_card()
+        release_all(self.card)
         shown = [each[::2, ..., 3].max(axis=0) for each in twig]
         self.solid = solid_above(twig[1][0, ..., 3])  # the largest level of such cards on screen, about
         texels = [card_texels(each, as_drawn=as_drawn) for each in twig]
@@ -212,13 +212,7 @@ class GpuKind:
 
     def release(self) -> None:
         """Release all GL objects."""
-        release_all(*self.models, self.bark)
-        self._release_card()
-
-    def _release_card(self) -> None:
-        if self.card is not None:
-            self.card.release()
-            self.card = None
+        release_all(*self.models, self.bark, self.card)
 
 
 def _outlines(covered: Mask, margin: int) -> list[list[tuple[float, float]]]:

@@ -158,7 +158,7 @@ def solid_above(cover: Bytes, /) -> float:
     return SOLID if solid == each.size else max(SOLID, float(each[solid]))
 
 
-def card_outline(covered: Mask, margin: int = MARGIN, /, *, corners: int = len(BOX)) -> Doubles:
+def card_outline(covered: Mask, margin: int, /, *, corners: int) -> Doubles:
     """Return three or four corners about what a picture (n, n) covers, as a strip of triangles, shape (corners, 2).
 
     They are across from -1 to 1 and up from 0 to 1, of about the least area, with a margin [texels]. They may lie

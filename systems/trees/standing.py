@@ -1,6 +1,7 @@
 """Trees as they stand in a frame, and the level of detail of each."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,46 +81,35 @@ down to a third of the height, and three times as large a share. Pictures show n
 are treated as this one."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Standing:
     """All trees of a frame; the same object from frame to frame while no tree changes."""
 
     rows: NDArray[np.void]
     """Records of `STANDING`, shape (n,)."""
 
-    _sorted: list[NDArray[np.void]] = field(default_factory=list, init=False)
-    _models: list[NDArray[np.intp]] = field(default_factory=list, init=False)
-    _medians: list[float] = field(default_factory=list, init=False)
-    _rings: list[int] = field(default_factory=list, init=False)
-
-    @property
+    @cached_property
     def medians(self) -> tuple[float, float]:
         """Median of the trees' heights, and of the elevations of their feet [m]; 0 where there are none."""
-        if not self._medians:
-            both = self.rows["height"], self.rows["root"][:, 1]
-            self._medians.extend(float(np.median(each)) if len(each) else 0.0 for each in both)
-        high, low = self._medians
+        both = self.rows["height"], self.rows["root"][:, 1]
+        high, low = (float(np.median(each)) if len(each) else 0.0 for each in both)
         return high, low
 
-    @property
+    @cached_property
     def in_rows(self) -> bool:
         """Whether any tree stands for a row of trees."""
-        if not self._rings:
-            self._rings.append(int(self.rows["ring"].max(initial=0)))
-        return self._rings[0] > 1
+        return bool(self.rows["ring"].max(initial=0) > 1)
 
+    @cached_property
     def by_model(self) -> tuple[NDArray[np.void], NDArray[np.intp]]:
-        """Return the trees sorted by model, and the model of each, as an index into those of all kinds."""
-        if not self._sorted:
-            number = (self.rows["kind"] * MODELS + self.rows["model"]).astype(np.intp)
-            order = np.argsort(number, kind="stable")
-            self._sorted.append(self.rows.take(order))
-            self._models.append(number[order])
-        return self._sorted[0], self._models[0]
+        """The trees sorted by model, and the model of each, as an index into those of all kinds."""
+        number = (self.rows["kind"] * MODELS + self.rows["model"]).astype(np.intp)
+        order = np.argsort(number, kind="stable")
+        return self.rows.take(order), number[order]
 
     def of_model(self, model: int, /) -> NDArray[np.void]:
         """Return the trees of a model, an index into those of all kinds, as records of `STANDING`."""
-        rows, number = self.by_model()
+        rows, number = self.by_model
         first, end = np.searchsorted(number, (model, model + 1))
         return rows[first:end]
 

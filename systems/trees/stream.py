@@ -148,5 +148,4 @@ class GpuModel:
     def release(self) -> None:
         """Release all GL objects."""
         release_all(self.twigs, self.vertices, self.triangles, self.bare)
-        release_all(*self.streams.values(), *self.stood.values(), *self.hung.values())
-        release_all(*(each for each in (self.far, self.depths) if each is not None))
+        release_all(*self.streams.values(), *self.stood.values(), *self.hung.values(), self.far, self.depths)

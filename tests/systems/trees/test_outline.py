@@ -55,7 +55,7 @@ def test_all_that_the_picture_of_a_twig_covers_lies_within_its_corners_and_littl
 ) -> None:
     up, across = np.mgrid[0:SIDE, 0:SIDE] + 0.5 - 0.5 * SIDE
     covered = ((across + askew * up) / 14.0) ** 2 + (up / 40.0) ** 2 < 1.0
-    one, two, *rest = card_outline(covered, corners=corners)
+    one, two, *rest = card_outline(covered, MARGIN, corners=corners)
     around = np.array([one, two, *rest[::-1]]) * (0.5 * SIDE, SIDE) + np.array([0.5 * SIDE, 0.0])
     assert len(around) == corners
     rows, columns = np.nonzero(covered)
@@ -64,7 +64,7 @@ def test_all_that_the_picture_of_a_twig_covers_lies_within_its_corners_and_littl
         assert ((np.stack([columns, rows], axis=1) + 0.5 - first) @ inwards).min() > MARGIN
     x, y = around.T
     assert 0.5 * (x * np.roll(y, -1) - np.roll(x, -1) * y).sum() < most * (14.0 + MARGIN) * (40.0 + MARGIN)
-    assert np.array_equal(card_outline(np.zeros_like(covered)), BOX)
+    assert np.array_equal(card_outline(np.zeros_like(covered), MARGIN, corners=len(BOX)), BOX)
 
 
 @pytest.fixture(scope="module")
