@@ -144,26 +144,31 @@ def finest_spacing(terrain: Terrain, patch: float, /) -> float:
 
 def within(tiles: NDArray[np.void], centre: NDArray[np.int32], /, *, patch: float, reach: int) -> NDArray[np.bool_]:
     """Return which tiles (n,) lie wholly within the discrete distance `reach` of the viewer's cell, shape (n,)."""
-    low, high = (centre - reach) * patch, (centre + reach + 1) * patch
-    corner, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
-    inside: NDArray[np.bool_] = ((corner >= low - 1e-3) & (corner + side <= high + 1e-3)).all(axis=1)
-    return inside
+    return _inside(tiles, (centre - reach) * patch, (centre + reach + 1) * patch)
 
 
 def on_terrain(tiles: NDArray[np.void], terrain: Terrain, /) -> NDArray[np.bool_]:
     """Return which tiles (n,) lie wholly on the terrain, shape (n,)."""
     low = np.asarray(terrain.origin)
-    corner, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
-    inside: NDArray[np.bool_] = ((corner >= low - 1e-3) & (corner + side <= low + terrain.size + 1e-3)).all(axis=1)
-    return inside
+    return _inside(tiles, low, low + terrain.size)
 
 
 def meets_terrain(tiles: NDArray[np.void], terrain: Terrain, /) -> NDArray[np.bool_]:
     """Return which tiles (n,) lie on the terrain at least in part, shape (n,)."""
-    low = np.asarray(terrain.origin)
+    low, (first, last) = np.asarray(terrain.origin), _corners(tiles)
+    return np.asarray(((first < low + terrain.size) & (last > low)).all(axis=1))
+
+
+def _inside(tiles: NDArray[np.void], low: NDArray[np.floating], high: NDArray[np.floating]) -> NDArray[np.bool_]:
+    """Return which tiles (n,) lie wholly between two corners of a rectangle, each (2,) [m], shape (n,)."""
+    first, last = _corners(tiles)
+    return np.asarray(((first >= low - 1e-3) & (last <= high + 1e-3)).all(axis=1))
+
+
+def _corners(tiles: NDArray[np.void]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Return the low and the high corner of each tile, (n, 2) [m]."""
     corner, side = tiles["tile"][:, :2], tiles["tile"][:, 2:3] * GRID
-    meets: NDArray[np.bool_] = ((corner < low + terrain.size) & (corner + side > low)).all(axis=1)
-    return meets
+    return corner, corner + side
 
 
 def _nearest(corners: Tiles, side: float, place: tuple[float, float]) -> Tiles:
