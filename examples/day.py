@@ -4,8 +4,6 @@ The game keeps the hour and hands it to the prairie in every frame (`Prairie.shi
 the day back and on, the others bring clouds and take them away, Escape ends. Run it with `python day.py`.
 """
 
-import sys
-
 import pyglet
 from pyglet.math import Mat4, Vec3
 from pyglet.window import key
@@ -47,20 +45,13 @@ class Game:
         self.text.draw()
 
 
-def main(frames: int | None = None) -> None:
-    """Play until the window is closed, or for a number of frames of 1/60 s."""
+def main() -> None:
+    """Play until the window is closed."""
     game = Game()
-    if frames is None:
-        pyglet.clock.schedule_interval(game.update, 1 / 60)
-        pyglet.app.run()
-    for _ in range(frames or 0):
-        game.update(1 / 60)
-        game.window.dispatch_events()
-        game.on_draw()
-        game.window.flip()
+    pyglet.clock.schedule_interval(game.update, 1 / 60)
+    pyglet.app.run()
     game.prairie.release()
-    game.window.close()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[2]) if sys.argv[1:2] == ["--frames"] else None)
+    main()

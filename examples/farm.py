@@ -4,7 +4,6 @@ Up drives the mower, left and right turn it, P sows poppies where it stands, S s
 this run or in another. Run it with `python farm.py`.
 """
 
-import sys
 from math import cos, sin
 from pathlib import Path
 from tempfile import gettempdir
@@ -106,20 +105,13 @@ class Game:
         self.text.draw()
 
 
-def main(frames: int | None = None) -> None:
-    """Farm until the window is closed, or for a number of frames of 1/60 s."""
+def main() -> None:
+    """Farm until the window is closed."""
     game = Game()
-    if frames is None:
-        pyglet.clock.schedule_interval(game.update, 1 / 60)
-        pyglet.app.run()
-    for _ in range(frames or 0):
-        game.update(1 / 60)
-        game.window.dispatch_events()
-        game.on_draw()
-        game.window.flip()
+    pyglet.clock.schedule_interval(game.update, 1 / 60)
+    pyglet.app.run()
     game.prairie.release()
-    game.window.close()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[2]) if sys.argv[1:2] == ["--frames"] else None)
+    main()

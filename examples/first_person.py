@@ -4,7 +4,6 @@ The walker is an entity with a `Presser`. The game sets `window.view` and `windo
 and hands both to the prairie. W, A, S and D walk, the mouse looks, Escape ends. Run it with `python first_person.py`.
 """
 
-import sys
 from math import cos, pi, radians, sin
 from typing import Any
 
@@ -99,21 +98,14 @@ class Game:
         self.text.draw()
 
 
-def main(frames: int | None = None) -> None:
-    """Walk until the window is closed, or for a number of frames of 1/60 s."""
+def main() -> None:
+    """Walk until the window is closed."""
     game = Game()
-    if frames is None:
-        game.window.set_exclusive_mouse()
-        pyglet.clock.schedule_interval(game.update, 1 / 60)
-        pyglet.app.run()
-    for _ in range(frames or 0):
-        game.update(1 / 60)
-        game.window.dispatch_events()
-        game.on_draw()
-        game.window.flip()
+    game.window.set_exclusive_mouse()
+    pyglet.clock.schedule_interval(game.update, 1 / 60)
+    pyglet.app.run()
     game.prairie.release()
-    game.window.close()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[2]) if sys.argv[1:2] == ["--frames"] else None)
+    main()

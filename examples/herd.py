@@ -4,7 +4,6 @@ Each is an esper entity: `Animal` is the game's own; tallgrass knows where it is
 (`Presser`). The window shows the time of a frame. Run it with `python herd.py`.
 """
 
-import sys
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -101,20 +100,13 @@ class Game:
         self.begun = perf_counter()
 
 
-def main(frames: int | None = None) -> None:
-    """Wander until the window is closed, or for a number of frames of 1/60 s."""
+def main() -> None:
+    """Wander until the window is closed."""
     game = Game()
-    if frames is None:
-        pyglet.clock.schedule_interval(esper.process, 1 / 60)
-        pyglet.app.run()
-    for _ in range(frames or 0):
-        esper.process(1 / 60)
-        game.window.dispatch_events()
-        game.on_draw()
-        game.window.flip()
+    pyglet.clock.schedule_interval(esper.process, 1 / 60)
+    pyglet.app.run()
     game.prairie.release()
-    game.window.close()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[2]) if sys.argv[1:2] == ["--frames"] else None)
+    main()

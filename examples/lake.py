@@ -5,7 +5,6 @@ that the lake's bed is not in it. The water is opaque and drawn before the prair
 turn the view, Escape ends. Run it with `python lake.py`.
 """
 
-import sys
 from math import cos, radians, sin
 
 import numpy as np
@@ -141,20 +140,13 @@ class Game:
         self.prairie.draw(view, projection)
 
 
-def main(frames: int | None = None) -> None:
-    """Show the lake until the window is closed, or for a number of frames of 1/60 s."""
+def main() -> None:
+    """Show the lake until the window is closed."""
     game = Game()
-    if frames is None:
-        pyglet.clock.schedule_interval(game.update, 1 / 60)
-        pyglet.app.run()
-    for _ in range(frames or 0):
-        game.update(1 / 60)
-        game.window.dispatch_events()
-        game.on_draw()
-        game.window.flip()
+    pyglet.clock.schedule_interval(game.update, 1 / 60)
+    pyglet.app.run()
     game.prairie.release()
-    game.window.close()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[2]) if sys.argv[1:2] == ["--frames"] else None)
+    main()

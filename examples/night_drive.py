@@ -5,7 +5,6 @@ every frame; the car is the game's own, drawn before the prairie. Up and down ch
 `python night_drive.py`.
 """
 
-import sys
 from math import cos, pi, radians, sin
 from typing import Any
 
@@ -146,20 +145,13 @@ class Game:
         self.prairie.draw(self.window.view, self.window.projection)
 
 
-def main(frames: int | None = None) -> None:
-    """Drive until the window is closed, or for a number of frames of 1/60 s."""
+def main() -> None:
+    """Drive until the window is closed."""
     game = Game()
-    if frames is None:
-        pyglet.clock.schedule_interval(game.update, 1 / 60)
-        pyglet.app.run()
-    for _ in range(frames or 0):
-        game.update(1 / 60)
-        game.window.dispatch_events()
-        game.on_draw()
-        game.window.flip()
+    pyglet.clock.schedule_interval(game.update, 1 / 60)
+    pyglet.app.run()
     game.prairie.release()
-    game.window.close()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[2]) if sys.argv[1:2] == ["--frames"] else None)
+    main()

@@ -4,7 +4,6 @@ The character is an entity with the game's own components and three of tallgrass
 (`WindSource`) and its feet (`Presser`). Left and right turn it, up runs faster. Run it with `python parting.py`.
 """
 
-import sys
 from dataclasses import dataclass
 from math import cos, sin
 from typing import Any
@@ -101,20 +100,13 @@ class Game:
         self.prairie.draw(self.window.view, self.window.projection)
 
 
-def main(frames: int | None = None) -> None:
-    """Run until the window is closed, or for a number of frames of 1/60 s."""
+def main() -> None:
+    """Run until the window is closed."""
     game = Game()
-    if frames is None:
-        pyglet.clock.schedule_interval(game.update, 1 / 60)
-        pyglet.app.run()
-    for _ in range(frames or 0):
-        game.update(1 / 60)
-        game.window.dispatch_events()
-        game.on_draw()
-        game.window.flip()
+    pyglet.clock.schedule_interval(game.update, 1 / 60)
+    pyglet.app.run()
     game.prairie.release()
-    game.window.close()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[2]) if sys.argv[1:2] == ["--frames"] else None)
+    main()

@@ -5,7 +5,6 @@ into it, the light's keys `zenith` and `horizon` are the sky's colours, and the 
 and right arrow keys turn the view. Run it with `python planet.py`.
 """
 
-import sys
 from math import cos, radians, sin
 
 import numpy as np
@@ -135,20 +134,13 @@ class Game:
         self.prairie.draw(view, projection, parts=("ground", "grass", "beyond"))
 
 
-def main(frames: int | None = None) -> None:
-    """Show the planet until the window is closed, or for a number of frames of 1/60 s."""
+def main() -> None:
+    """Show the planet until the window is closed."""
     game = Game()
-    if frames is None:
-        pyglet.clock.schedule_interval(game.update, 1 / 60)
-        pyglet.app.run()
-    for _ in range(frames or 0):
-        game.update(1 / 60)
-        game.window.dispatch_events()
-        game.on_draw()
-        game.window.flip()
+    pyglet.clock.schedule_interval(game.update, 1 / 60)
+    pyglet.app.run()
     game.prairie.release()
-    game.window.close()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[2]) if sys.argv[1:2] == ["--frames"] else None)
+    main()

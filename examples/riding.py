@@ -5,7 +5,6 @@ Seeds are points of the game's own, carried along; the murmur is as loud as the 
 """
 
 import io
-import sys
 import wave
 
 import numpy as np
@@ -98,22 +97,15 @@ class Game:
         pyglet.shapes.Rectangle(20, 20, 300 * self.player.volume, 8, (255, 255, 255, 200)).draw()
 
 
-def main(frames: int | None = None) -> None:
-    """Ride until the window is closed, or for a number of frames of 1/60 s without sound."""
+def main() -> None:
+    """Ride until the window is closed."""
     game = Game()
-    if frames is None:
-        game.player.play()
-        pyglet.clock.schedule_interval(game.update, 1 / 60)
-        pyglet.app.run()
-    for _ in range(frames or 0):
-        game.update(1 / 60)
-        game.window.dispatch_events()
-        game.on_draw()
-        game.window.flip()
+    game.player.play()
+    pyglet.clock.schedule_interval(game.update, 1 / 60)
+    pyglet.app.run()
     game.player.delete()
     game.prairie.release()
-    game.window.close()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[2]) if sys.argv[1:2] == ["--frames"] else None)
+    main()

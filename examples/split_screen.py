@@ -5,7 +5,6 @@ walker leaves a way in the grass for the other to find. W, A and D lead the one,
 `python split_screen.py`.
 """
 
-import sys
 from math import cos, sin
 from typing import Any
 
@@ -119,20 +118,13 @@ class Game:
         pyglet.shapes.Box((width - MAP) / 2, 12, MAP, MAP, 2, INK).draw()
 
 
-def main(frames: int | None = None) -> None:
-    """Play until the window is closed, or for a number of frames of 1/60 s."""
+def main() -> None:
+    """Play until the window is closed."""
     game = Game()
-    if frames is None:
-        pyglet.clock.schedule_interval(game.update, 1 / 60)
-        pyglet.app.run()
-    for _ in range(frames or 0):
-        game.update(1 / 60)
-        game.window.dispatch_events()
-        game.on_draw()
-        game.window.flip()
+    pyglet.clock.schedule_interval(game.update, 1 / 60)
+    pyglet.app.run()
     game.prairie.release()
-    game.window.close()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[2]) if sys.argv[1:2] == ["--frames"] else None)
+    main()

@@ -3,7 +3,6 @@
 The prairie is one more group in the game's batch, under all others. Run it with `python sprites.py`.
 """
 
-import sys
 from math import cos, sin
 from random import Random
 
@@ -93,20 +92,13 @@ class Game:
             one.sprite.delete()
 
 
-def main(frames: int | None = None) -> None:
-    """Play until the window is closed, or for a number of frames of 1/60 s."""
+def main() -> None:
+    """Play until the window is closed."""
     game = Game()
-    if frames is None:
-        pyglet.clock.schedule_interval(game.update, 1 / 60)
-        pyglet.app.run()
-    for _ in range(frames or 0):
-        game.update(1 / 60)
-        game.window.dispatch_events()
-        game.on_draw()
-        game.window.flip()
+    pyglet.clock.schedule_interval(game.update, 1 / 60)
+    pyglet.app.run()
     game.prairie.release()
-    game.window.close()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[2]) if sys.argv[1:2] == ["--frames"] else None)
+    main()

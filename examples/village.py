@@ -5,7 +5,6 @@ shadow map, a depth texture drawn from the sun, is read by the game's own things
 `python village.py`.
 """
 
-import sys
 from itertools import pairwise
 from math import cos, sin
 from typing import Any
@@ -191,20 +190,13 @@ class Game:
         self.prairie.draw(view, projection, parts=("sky", "grass", "beyond"))
 
 
-def main(frames: int | None = None) -> None:
-    """Show the village until the window is closed, or for a number of frames of 1/60 s."""
+def main() -> None:
+    """Show the village until the window is closed."""
     game = Game()
-    if frames is None:
-        pyglet.clock.schedule_interval(game.prairie.advance, 1 / 60)
-        pyglet.app.run()
-    for _ in range(frames or 0):
-        game.prairie.advance(1 / 60)
-        game.window.dispatch_events()
-        game.on_draw()
-        game.window.flip()
+    pyglet.clock.schedule_interval(game.prairie.advance, 1 / 60)
+    pyglet.app.run()
     game.prairie.release()
-    game.window.close()
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[2]) if sys.argv[1:2] == ["--frames"] else None)
+    main()

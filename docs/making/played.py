@@ -6,6 +6,8 @@ from typing import Any
 
 import pyglet
 
+from tallgrass.testing import fixed_clock
+
 pyglet.options.headless = True
 
 BITS = {"double_buffer": True, "depth_size": 24, "red_size": 8, "green_size": 8, "blue_size": 8}
@@ -16,7 +18,7 @@ def main(program: str, picture: str, frames: str) -> None:
     from pyglet.window import Window
 
     config: Any = pyglet.gl.Config
-    begin, flip = Window.__init__, Window.flip
+    begin, flip, shown = Window.__init__, Window.flip, list[str]()
 
     def in_full_colour(window: Window, *args: Any, **keys: Any) -> None:
         # Without a window pyglet takes the first configuration that comes, which has 5 bits of red
@@ -24,11 +26,20 @@ def main(program: str, picture: str, frames: str) -> None:
 
     def keep(window: Window) -> None:
         pyglet.image.get_buffer_manager().get_color_buffer().save(picture)
+        shown.append(picture)
         flip(window)
 
-    Window.__init__, Window.flip = in_full_colour, keep
-    sys.argv = [program, "--frames", frames]
-    runpy.run_path(program, run_name="__main__")
+    loop = pyglet.app.event_loop
+
+    def step() -> float:
+        clock.tick()
+        loop.has_exit = len(shown) >= int(frames)
+        return 0.0
+
+    Window.__init__, Window.flip, Window.set_exclusive_mouse = in_full_colour, keep, lambda *_: None
+    with fixed_clock() as clock:
+        loop.clock, loop.idle = pyglet.clock.get_default(), step  # type: ignore[method-assign]
+        runpy.run_path(program, run_name="__main__")
 
 
 if __name__ == "__main__":
