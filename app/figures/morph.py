@@ -45,14 +45,9 @@ BEGINS = 1.55
 """Instant at which the morph begins [s]."""
 
 
-def in_slice(one: Sample, /) -> NDArray[np.intp]:
-    """Return the rows of the blades on the shown strip."""
-    return np.flatnonzero(one.strips.slice[0] == CLOSE)
-
-
 def followed(one: Sample, /) -> NDArray[np.intp]:
     """Return the rows of the blades with the longest paths in the middle of the slice, from left to right."""
-    rows = in_slice(one)
+    rows = one.rows
     rows = rows[np.argsort(one.blades.root[rows, 0])]
     away = np.abs(one.blades.root[:, 1] - one.strips.plane[CLOSE]) * (0.5 + one.blades.height)
     first = round(0.36 * len(rows))
@@ -78,7 +73,7 @@ def draw_pair(detail: Detail, /) -> Figure:
 
 
 def _geometry(axes: Axes, one: Sample, chosen: NDArray[np.intp]) -> None:
-    rows, seen = in_slice(one), partial(oblique, plane=float(one.strips.plane[CLOSE]))
+    rows, seen = one.rows, partial(oblique, plane=float(one.strips.plane[CLOSE]))
     _ground(axes, one)
     axes.add_collection(ribbons(one, rows[np.argsort(one.blades.root[rows, 1])], seen))
     points = one.targets.shape[2]
@@ -103,10 +98,15 @@ def _painted(axes: Axes, one: Sample, chosen: NDArray[np.intp]) -> None:
 
 
 def _strip_outline(one: Sample) -> Rectangle:
-    wide = one.quality.patch + 2.0 * one.strips.margin
-    corner = (-one.strips.margin, 0.0)
     return Rectangle(
-        corner, wide, one.strips.height, fill=False, edgecolor=INK, linewidth=0.9, linestyle=DASHES, clip_on=False
+        (-one.strips.margin, 0.0),
+        one.wide,
+        one.strips.height,
+        fill=False,
+        edgecolor=INK,
+        linewidth=0.9,
+        linestyle=DASHES,
+        clip_on=False,
     )
 
 
@@ -122,9 +122,8 @@ def _ground(axes: Axes, one: Sample) -> None:
 
 def slender(one: Sample, /) -> int:
     """Return the row of a blade that shows its face, leans, and is painted apart from the others."""
-    rows, at = in_slice(one), one.targets[0].astype(np.float64)
-    wide = one.quality.patch + 2.0 * one.strips.margin
-    place = at[rows] * np.array([wide, one.strips.height])
+    rows, at = one.rows, one.targets[0].astype(np.float64)
+    place = at[rows] * np.array([one.wide, one.strips.height])
     lean = np.abs(place[:, -1, 0] - place[:, 0, 0])
     apart = np.abs(place[:, None, :, 0] - place[None, :, :, 0]).mean(axis=2) + 9.0 * np.eye(len(rows))
     face = np.abs(np.sin(one.blades.facing[rows].astype(np.float64)))
@@ -137,13 +136,12 @@ def draw_coordinates(detail: Detail, /) -> Figure:
     at = one.targets[0, slender(one)].astype(np.float64)
     figure = sheet(3.7, detail)
     parts = figure.subplot_mosaic([["whole", "close"], ["moved", "close"]], width_ratios=[2.15, 1.0])
-    wide = one.quality.patch + 2.0 * one.strips.margin
-    half = 0.5 * max(0.3, 1.3 * float(np.ptp(at[:, 0])) * wide) / wide
+    half = 0.5 * max(0.3, 1.3 * float(np.ptp(at[:, 0])) * one.wide) / one.wide
     middle = 0.5 * float(at[:, 0].min() + at[:, 0].max())
     box = (middle - half, middle + half)
     for name, strong in (("whole", 0.6), ("close", 1.0)):
         _texture(parts[name], one, strong)
-        parts[name].set(xlabel="u", ylabel="v", aspect=one.strips.height / wide)
+        parts[name].set(xlabel="u", ylabel="v", aspect=one.strips.height / one.wide)
     parts["whole"].add_patch(Rectangle((box[0], 0.0), 2.0 * half, 1.0, fill=False, edgecolor=INK, linewidth=0.9))
     parts["whole"].plot(*at.T, color=SERIES[3], linewidth=1.2)
     parts["whole"].set_title("a)  a blade in the texture of its strip")

@@ -64,6 +64,16 @@ class Sample:
         return strips_of(self.growth.models[0])[0]
 
     @property
+    def wide(self) -> float:
+        """Width of the strips' texture [m]."""
+        return self.quality.patch + 2.0 * self.strips.margin
+
+    @property
+    def rows(self) -> NDArray[np.intp]:
+        """Rows of the blades on the shown strip."""
+        return np.flatnonzero(self.strips.slice[0] == CLOSE)
+
+    @property
     def targets(self) -> Floats:
         """Texture coordinates (u, v) of the blades' control points on the strips, shape (2, n, points, 2)."""
         return targets_on(self.strips, self.blades, self.growth.postures)
@@ -124,7 +134,7 @@ def draw_blades(detail: Detail, /) -> Figure:
     for name in ("blade", "slice"):
         parts[name].set_anchor("S")
     tall = 1.08 * float(one.strips.height)
-    inside = np.flatnonzero(one.strips.slice[0] == CLOSE)
+    inside = one.rows
     parts["slice"].add_collection(ribbons(one, inside[np.argsort(one.blades.root[inside, 1])], from_front))
     parts["slice"].set(
         title=f"b)  the {len(inside)} blades in a slice", xlim=(-0.3, patch + 0.3), ylim=(0.0, tall), aspect="equal",
@@ -256,8 +266,7 @@ def oblique(place: NDArray[np.floating], /, plane: float) -> Doubles:
 def _strip(axes: Axes, one: Sample, message: Floats) -> None:
     plane, sections = float(one.strips.plane[CLOSE]), one.quality.strip_rings[0].sections
     edge = edges(one, message, points=sections + 1)
-    rows = np.flatnonzero(one.strips.slice[0] == CLOSE)
-    blades = oblique(on_strip(edge, one.targets[0, rows]), plane)
+    blades = oblique(on_strip(edge, one.targets[0, one.rows]), plane)
     axes.add_collection(LineCollection([*blades], color=(SERIES[0], 0.75), linewidth=0.9))
     mesh = oblique(edge, plane)
     axes.add_collection(LineCollection([*mesh], color=SERIES[1], linewidth=2.2))

@@ -1,6 +1,5 @@
 """Sparse maps with cells of 0.2 m on a terrain of any size: only changed plots of the ground are stored."""
 
-from collections import deque
 from collections.abc import Callable
 from itertools import pairwise
 from math import ceil
@@ -10,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles, Floats, Ints
-from .rectangle import MOST, Rectangle
+from .rectangle import MOST, Log, Rectangle
 
 CELL = 0.2
 """Side of a cell of the ground [m]."""
@@ -43,27 +42,26 @@ class On(NamedTuple):
     """Position of each place on its plot, (x, z) [cells], shape (m, 2)."""
 
 
-class Plots:
+class Plots(Log):
     """A map of cells, stored by plots: a page for each changed plot, shared by plots of the same uniform value.
 
     Cells are counted along x (columns) and z (rows) from the world's origin, so that they keep their places when the
-    terrain changes. A cache made from the map compares `count`, and asks `since` for changes.
+    terrain changes. A cache made from the map compares `count`, and asks `since` for changes: parts, each
+    within a plot.
     """
 
     def __init__(self, size: tuple[float, float], kind: np.dtype[Any], channels: tuple[int, ...] = ()) -> None:
+        super().__init__()
         self.half = half_of(size)
         """Number of plots from the middle of the terrain to its edges, along x and z."""
         self.pages: Values = np.empty((0, CELLS, CELLS, *channels), kind)
         self.written: NDArray[np.int64] = np.zeros(0, np.int64)
         """Value of `count` at each page's last change, shape (pages,)."""
-        self.count = 0
-        """Number of changes so far."""
         self._index: Ints | None = None
         self._uses: NDArray[np.int64] = np.zeros(0, np.int64)
         self._free: list[int] = []
         self._alike: dict[bytes, int] = {}
         """Page of all plots whose cells all have one value, by that value's bytes."""
-        self._last: deque[Rectangle] = deque(maxlen=MOST)
         self._ends = self._no_ends
 
     @property
@@ -87,11 +85,6 @@ class Plots:
     def any(self) -> bool:
         """Whether any plot is stored."""
         return self._index is not None
-
-    def since(self, count: int, /) -> list[Rectangle] | None:
-        """Return the parts changed since change number `count`, each within a plot; None if any may have changed."""
-        missed = self.count - count
-        return None if missed > len(self._last) else list(self._last)[len(self._last) - missed :]
 
     def on(self, place: Floats, /) -> On:
         """Return those of ground positions (n, 2) [m] that lie on stored plots."""
@@ -173,8 +166,7 @@ class Plots:
         after = change(before)
         if (before == after).all():
             return
-        self.count += 1
-        self._last.append(part)
+        self.note(part)
         if after.shape[:2] == (CELLS, CELLS) and (after == after[:1, :1]).all():
             self._share(plot, after)
             return
@@ -191,8 +183,7 @@ class Plots:
         plot = part.row // CELLS + self.half[1], part.column // CELLS + self.half[0]
         if int(self.index[plot]) == self._alike.get(values.tobytes(), -2):
             return
-        self.count += 1
-        self._last.append(part)
+        self.note(part)
         self._share(plot, values)
 
     def _is_alike(self, page: int) -> bool:
@@ -242,9 +233,9 @@ class Plots:
         parts = [part for low, high in ends[: MOST + 1] for part in self.parts(low, high)]
         self.count += max(len(parts), 1)
         if len(parts) > MOST:
-            self._last.clear()
+            self.last.clear()
         else:
-            self._last.extend(parts)
+            self.last.extend(parts)
 
     def saved(self) -> tuple[Ints, Values]:
         """Return row, column and page of each stored plot, (n, 3), and the pages, renumbered from 0."""
@@ -275,7 +266,7 @@ class Plots:
             self._reach(top, bottom, left, right)
         same = (pages == pages[:, :1, :1]).all(axis=tuple(range(1, pages.ndim)))
         self._alike = {pages[page, :1, :1].tobytes(): page for page in np.flatnonzero(same).tolist()}
-        self._last.clear()
+        self.last.clear()
         self.count = count
 
 

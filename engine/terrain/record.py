@@ -1,6 +1,5 @@
 """Records of terrain and density: arrays over the ground."""
 
-from collections import deque
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,7 +9,7 @@ from ...components.arrays import Floats, Mask
 from .blocks import REACH, Blocks
 from .crowns import Crowns
 from .plots import Plots
-from .rectangle import MOST, Rectangle
+from .rectangle import Log, Rectangle
 
 BEYOND = 600.0
 """Distance of level ground beyond the terrain's edge [m]: its end is two pixels below a walker's horizon."""
@@ -22,11 +21,11 @@ GLSL = {"GOES_ON": MIRRORED}
 
 
 @dataclass(slots=True, eq=False)
-class Changes:
-    """Log of a game's changes of a terrain's heights."""
+class Changes(Log):
+    """Log of a game's changes of a terrain's heights.
 
-    count: int = 0
-    """Number of changes so far."""
+    On a ground that streams, parts may lie outside of the present window.
+    """
 
     moves: int = 0
     """Number of times that the terrain became another window; all numbers of samples have shifted each time."""
@@ -37,28 +36,13 @@ class Changes:
     loaded: dict[tuple[int, int], tuple[Floats, Mask]] = field(default_factory=dict)
     """Heights and holes as loaded of each square of samples that was changed since, by row and column."""
 
-    _last: deque[Rectangle] = field(default_factory=lambda: deque(maxlen=MOST))
-
-    def note(self, part: Rectangle, /) -> None:
-        """Log the change of a part."""
-        self.count += 1
-        self._last.append(part)
-
     def move(self, down: int, right: int, /, *, leaps: bool) -> None:
         """Log a move: the first sample now lies so many samples farther down and to the right."""
         self.moves += 1
         self.leaps += leaps
-        moved = [part.moved(-down, -right) for part in self._last]
-        self._last.clear()
-        self._last.extend(moved)
-
-    def since(self, count: int, /) -> list[Rectangle] | None:
-        """Return the parts changed since the change number `count`; None where too many are, so that any may be.
-
-        On a ground that streams, parts may lie outside of the present window.
-        """
-        missed = self.count - count
-        return None if missed > len(self._last) else list(self._last)[len(self._last) - missed :]
+        moved = [part.moved(-down, -right) for part in self.last]
+        self.last.clear()
+        self.last.extend(moved)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

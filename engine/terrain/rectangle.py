@@ -1,5 +1,7 @@
-"""Rectangles of the samples of maps."""
+"""Rectangles of the samples of maps, and logs of which have changed."""
 
+from collections import deque
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 MOST = 4096
@@ -38,3 +40,24 @@ class Rectangle(NamedTuple):
         """Index of the rectangle with a border of one sample: all that the ground's surface there depends on."""
         low, left = max(self.row - 1, 0), max(self.column - 1, 0)
         return slice(low, self.row + self.rows + 1), slice(left, self.column + self.columns + 1)
+
+
+@dataclass(slots=True, eq=False)
+class Log:
+    """Log of the changes of a map."""
+
+    count: int = 0
+    """Number of changes so far."""
+
+    last: deque[Rectangle] = field(default_factory=lambda: deque(maxlen=MOST))
+    """Parts changed last, the oldest first."""
+
+    def note(self, part: Rectangle, /) -> None:
+        """Log the change of a part."""
+        self.count += 1
+        self.last.append(part)
+
+    def since(self, count: int, /) -> list[Rectangle] | None:
+        """Return the parts changed since the change number `count`; None where too many are, so that any may be."""
+        missed = self.count - count
+        return None if missed > len(self.last) else list(self.last)[len(self.last) - missed :]

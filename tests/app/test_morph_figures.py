@@ -12,7 +12,6 @@ from tallgrass.app.figures.morph import (
     draw_pair,
     draw_way,
     followed,
-    in_slice,
     morph_over_time,
     slender,
     way,
@@ -28,10 +27,10 @@ def test_x3_the_blades_of_figure_13_are_those_that_its_texture_shows() -> None:
     one = sample(SMALL)
     with look():
         figure = draw_pair(SMALL)
-    assert f"the {len(in_slice(one))} blades" in figure.axes[0].get_title("left")
+    assert f"the {len(one.rows)} blades" in figure.axes[0].get_title("left")
     places = next(each for each in figure.axes[1].collections if isinstance(each, LineCollection)).get_segments()
     rows = followed(one)
-    assert set(rows) <= set(in_slice(one))
+    assert set(rows) <= set(one.rows)
     span = one.quality.patch + 2 * one.strips.margin
     for row, place in zip(rows, places, strict=True):
         np.testing.assert_allclose(place[0], [one.blades.root[row, 0], 0.0], atol=1e-4)
