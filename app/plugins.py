@@ -1,11 +1,15 @@
 """Plugins at the command line: what is installed, whether a wind keeps to the rules, and how to begin one."""
 
-from dataclasses import asdict
+from dataclasses import astuple
 from json import dumps
 
+from ..engine.installed import Provided
 from ..engine.plugged import system_plugins
 from ..engine.plugins import PluginError, wind_kinds
 from ..testing import NoContextError, headless_context, twin_problems, wind_problems
+
+COLUMNS = "distribution", "version", "status"
+"""Columns of the table after the name."""
 
 
 def list_plugins(*, json: bool = False) -> None:
@@ -13,22 +17,19 @@ def list_plugins(*, json: bool = False) -> None:
 
     Nothing is imported: `check_plugin` and the doctor find out whether a `ready` wind can be loaded.
     """
-    winds, systems = wind_kinds().provided(), system_plugins().provided()
+    tables = {"kind": wind_kinds().provided(), "system": system_plugins().provided()}
     if json:
-        print(dumps([*map(asdict, winds), *map(asdict, systems)], indent=2))
+        rows = ((what, astuple(row)) for what, table in tables.items() for row in table)
+        print(dumps([dict(zip((what, *COLUMNS), row, strict=True)) for what, row in rows], indent=2))
         return
-    _print_table("kind", [(row.kind, row.distribution, row.version, row.status) for row in winds])
-    if systems:
-        print()
-        _print_table("system", [(row.system, row.distribution, row.version, row.status) for row in systems])
+    print("\n\n".join(_as_text(what, table) for what, table in tables.items() if table or what == "kind"))
 
 
-def _print_table(first: str, rows: list[tuple[str, str, str, str]]) -> None:
-    table = [(first, "distribution", "version", "status"), *rows]
-    widths = [max(len(line[column]) for line in table) for column in range(3)]
-    for line in table:
-        cells = [cell.ljust(width) for cell, width in zip(line, widths, strict=False)]
-        print("  ".join([*cells, line[3]]))
+def _as_text(first: str, rows: list[Provided]) -> str:
+    table: list[tuple[str, ...]] = [(first, *COLUMNS), *map(astuple, rows)]
+    widths = [*(max(len(line[column]) for line in table) for column in range(len(COLUMNS))), 0]
+    cells = ([cell.ljust(width) for cell, width in zip(line, widths, strict=True)] for line in table)
+    return "\n".join(map("  ".join, cells))
 
 
 def check_plugin(kind: str) -> int:
@@ -58,7 +59,7 @@ def check_plugin(kind: str) -> int:
 
 def _system(name: str) -> str | None:
     """Return a message for the check of a system instead of a wind; None where no system has that name."""
-    owners = [row.distribution for row in system_plugins().provided() if row.system == name]
+    owners = [row.distribution for row in system_plugins().provided() if row.name == name]
     if not owners:
         return None
     return (

@@ -41,7 +41,7 @@ def scaffold(kind: str, folder: Path) -> list[Path]:
     """
     _must_be_name("kind", kind)
     for provided in wind_kinds().provided():
-        if provided.kind == kind:
+        if provided.name == kind:
             raise InputError(f"kind '{kind}' already comes with {provided.distribution} {provided.version}".rstrip())
     words = re.split("[-_]", kind)
     title = "".join(word.capitalize() for word in words)

@@ -3,6 +3,7 @@
 import os
 import re
 from collections.abc import Collection, Iterable
+from dataclasses import dataclass
 from functools import lru_cache
 from importlib.metadata import Distribution, EntryPoint
 from typing import Literal
@@ -18,6 +19,23 @@ OURS = "tallgrass"
 
 Status = Literal["ready", "claimed twice", "name taken", "left out"]
 """State of an entry, known without importing it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Provided:
+    """A kind of wind or a system, and who brings it."""
+
+    name: str
+    """Name of its entry point; of a kind, its name in scene files."""
+
+    distribution: str
+    """Distribution that brings it, or module and name of a game's own class."""
+
+    version: str
+    """Version of the distribution; "" for a game's own class."""
+
+    status: Status
+    """`ready` to be imported, `claimed twice`, `name taken` by a built-in one, or `left out` by the environment."""
 
 
 class Installed:
@@ -44,6 +62,11 @@ class Installed:
         """Return all entries, those left out last."""
         groups = (self.used, self.taken, self.left_out)
         return [entry for group in groups for entries in group.values() for entry in entries]
+
+    def provided(self, *others: Provided) -> list[Provided]:
+        """Return all entries and `others` in alphabetical order, also those left out, without importing anything."""
+        rows = [Provided(entry.name, *owner(entry), self.status(entry)) for entry in self.all()]
+        return sorted([*rows, *others], key=lambda row: (row.name, row.status, row.distribution))
 
     def status(self, entry: EntryPoint) -> Status:
         """Return the state of an entry, without importing it."""

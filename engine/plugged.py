@@ -3,12 +3,11 @@
 import logging
 from collections.abc import Callable, Collection, Iterable
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 
 from .complaint import said
-from .installed import Installed, Status, chosen_names, claimed, owner, owners
+from .installed import Installed, Provided, chosen_names, claimed, owners
 
 SYSTEMS = "tallgrass.systems"
 """Entry-point group of systems; an entry's name is the system's, its value a function `bring(prairie)`.
@@ -22,23 +21,6 @@ Within = Callable[[str], AbstractContextManager[object]]
 log = logging.getLogger("tallgrass")
 
 
-@dataclass(frozen=True, slots=True)
-class ProvidedSystem:
-    """A system and the distribution that brings it."""
-
-    system: str
-    """Name of its entry point."""
-
-    distribution: str
-    """Distribution that brings it."""
-
-    version: str
-    """Version of the distribution."""
-
-    status: Status
-    """`ready` to be imported, `claimed twice`, `name taken` by a built-in one, or `left out` by the environment."""
-
-
 class SystemPlugins:
     """Systems of installed packages by name. They are imported when the first prairie is made, and never before.
 
@@ -49,11 +31,9 @@ class SystemPlugins:
         self._installed = Installed(entries, chosen=chosen)
         self._logged: set[str] = set()
 
-    def provided(self) -> list[ProvidedSystem]:
+    def provided(self) -> list[Provided]:
         """Return all systems in alphabetical order, also those left out, without importing anything."""
-        installed = self._installed
-        rows = [ProvidedSystem(entry.name, *owner(entry), installed.status(entry)) for entry in installed.all()]
-        return sorted(rows, key=lambda row: (row.system, row.status, row.distribution))
+        return self._installed.provided()
 
     def bring(
         self, prairie: object, /, come_back: Callable[[], str] = lambda: "", within: Within = nullcontext

@@ -3,7 +3,6 @@
 import logging
 import re
 from collections.abc import Callable, Collection, Iterable
-from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
@@ -12,7 +11,7 @@ from typing import TypeVar
 
 from ..components.wind import INTERFACE, WindPrimitive
 from .complaint import said
-from .installed import CHOSEN, OURS, Installed, Status, chosen_names, claimed, outdone, owner, owners, unknown_names
+from .installed import CHOSEN, OURS, Installed, Provided, chosen_names, claimed, outdone, owner, owners, unknown_names
 from .plugged import SYSTEMS
 
 GROUP = "tallgrass.wind"
@@ -30,23 +29,6 @@ class PluginError(ValueError):
 
 class NewerError(PluginError):
     """A kind is written for a newer tallgrass."""
-
-
-@dataclass(frozen=True, slots=True)
-class Provided:
-    """A kind of wind and who brings it."""
-
-    kind: str
-    """Its name in scene files."""
-
-    distribution: str
-    """Distribution that brings it, or module and name of a game's own class."""
-
-    version: str
-    """Version of the distribution; "" for a game's own class."""
-
-    status: Status
-    """`ready` to be imported, `claimed twice`, `name taken` by a built-in one, or `left out` by the environment."""
 
 
 class WindKinds:
@@ -69,11 +51,8 @@ class WindKinds:
 
     def provided(self) -> list[Provided]:
         """Return all kinds in alphabetical order, also those left out, without importing anything."""
-        installed = self._installed
-        rows = [Provided(entry.name, *owner(entry), installed.status(entry)) for entry in installed.all()]
-        own = (kind for kind in self._classes if kind not in self._entries)
-        rows += [Provided(kind, _address(self._classes[kind]), "", "ready") for kind in own]
-        return sorted(rows, key=lambda row: (row.kind, row.status, row.distribution))
+        own = {kind: each for kind, each in self._classes.items() if kind not in self._entries}
+        return self._installed.provided(*(Provided(kind, _address(each), "", "ready") for kind, each in own.items()))
 
     def origin(self, primitive: WindPrimitive, /) -> str:
         """Return who brings a wind: a distribution and its version, or the module and name of a game's own class."""

@@ -61,7 +61,7 @@ def _scenes() -> str:
 
 
 def _ours() -> dict[str, type[WindPrimitive]]:
-    return {row.kind: wind_kinds().find(row.kind) for row in wind_kinds().provided() if row.distribution == OURS}
+    return {row.name: wind_kinds().find(row.name) for row in wind_kinds().provided() if row.distribution == OURS}
 
 
 def public_keys() -> Iterator[tuple[str, str]]:

@@ -52,7 +52,7 @@ def models(annotation: Any) -> Iterator[type[BaseModel]]:
 
 
 def all_models() -> list[type[BaseModel]]:
-    kinds = [wind_kinds().find(row.kind) for row in wind_kinds().provided() if row.distribution == OURS]
+    kinds = [wind_kinds().find(row.name) for row in wind_kinds().provided() if row.distribution == OURS]
     return list(dict.fromkeys([*models(Scene), *(inner for kind in kinds for inner in models(kind))]))
 
 

@@ -102,7 +102,7 @@ def test_the_page_tells_of_every_method_and_field_of_a_wind_and_of_no_other_numb
 
 
 def test_the_priorities_on_the_page_are_those_of_the_winds_that_come_along() -> None:
-    kinds = [row.kind for row in wind_kinds().provided() if row.distribution == OURS]
+    kinds = [row.name for row in wind_kinds().provided() if row.distribution == OURS]
     told = re.findall(r"^\| `(\w+)` \| (\d+) \|$", RULES, re.MULTILINE)
     assert {kind: int(priority) for kind, priority in told} == {
         kind: wind_kinds().find(kind).model_fields["priority"].default for kind in kinds

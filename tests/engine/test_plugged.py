@@ -10,7 +10,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from tallgrass.engine.plugged import SYSTEMS, ProvidedSystem, SystemPlugins, bring_systems, system_plugins
+from tallgrass.engine.installed import Provided
+from tallgrass.engine.plugged import SYSTEMS, SystemPlugins, system_plugins
 from tallgrass.engine.plugins import wind_kinds
 from tallgrass.engine.schedule import Schedule
 
@@ -77,7 +78,7 @@ def toys(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[EntryPoint]:
 
 def test_an_installed_system_is_imported_when_a_prairie_is_made_and_not_before(toys: list[EntryPoint]) -> None:
     plugins = SystemPlugins(toys)
-    assert ProvidedSystem("ball", "tallgrass-toys", "0.3.1", "ready") in plugins.provided()
+    assert Provided("ball", "tallgrass-toys", "0.3.1", "ready") in plugins.provided()
     assert "toys_ball" not in sys.modules
     made = prairie()
     plugins.bring(made)
@@ -152,7 +153,7 @@ def test_the_environment_chooses_among_installed_systems(
     else:
         monkeypatch.setenv("TALLGRASS_PLUGINS", value)
     made = prairie()
-    bring_systems(made)
+    system_plugins().bring(made)
     assert ("ball" in made.systems) == brought
     wind_kinds()
     assert not [told for told in caplog.messages if "TALLGRASS_PLUGINS names" in told], "a system is no unknown kind"

@@ -11,8 +11,8 @@ import pytest
 
 from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass, WindPrimitive
-from tallgrass.engine.installed import OURS
-from tallgrass.engine.plugins import GROUP, PluginError, Provided, WindKinds, wind, wind_kinds
+from tallgrass.engine.installed import OURS, Provided
+from tallgrass.engine.plugins import GROUP, PluginError, WindKinds, wind, wind_kinds
 from tallgrass.engine.scene import parse_scene
 
 VORTEX = """
@@ -104,7 +104,7 @@ def test_d5_the_built_in_breeze_comes_through_its_entry_point() -> None:
 
 def test_the_winds_that_come_along_are_known_from_all_others(dust: WindKinds) -> None:
     kinds = wind_kinds()
-    found = [kinds.find(row.kind) for row in kinds.provided() if row.distribution == OURS]
+    found = [kinds.find(row.name) for row in kinds.provided() if row.distribution == OURS]
     assert len(found) >= 4
     assert all(kinds.is_ours(one) for one in found)
     own = type("Breeze", (kinds.find("breeze"),), {"__module__": __name__})
@@ -177,7 +177,7 @@ def test_two_distributions_with_one_kind_are_both_named(tmp_path: Path) -> None:
     with pytest.raises(PluginError, match=r"'vortex' is claimed by tallgrass-storm 0\.3\.1 and other-winds 0\.3\.1"):
         kinds.find("vortex")
     assert kinds.find("calm").__name__ == "Vortex"
-    assert [(row.distribution, row.status) for row in kinds.provided() if row.kind == "vortex"] == [
+    assert [(row.distribution, row.status) for row in kinds.provided() if row.name == "vortex"] == [
         ("other-winds", "claimed twice"),
         ("tallgrass-storm", "claimed twice"),
     ]
@@ -211,7 +211,7 @@ def test_a_built_in_kind_wins_whoever_else_claims_it_and_the_other_is_named_once
     (told,) = caplog.messages
     choice = "uninstall tallgrass-storm, or leave it out by TALLGRASS_PLUGINS, which names what to use"
     assert told == f"kind 'gust' is built in, and the one of tallgrass-storm 0.3.1 is not used; {choice}"
-    rows = [(row.distribution, row.status) for row in kinds.provided() if row.kind == "gust"]
+    rows = [(row.distribution, row.status) for row in kinds.provided() if row.name == "gust"]
     assert rows == [("tallgrass-storm", "name taken"), (OURS, "ready")]
 
 
@@ -222,11 +222,11 @@ def test_what_the_warning_on_a_built_in_kind_advises_helps(tmp_path: Path, caplo
     assert kinds.find("gust").__module__ == "tallgrass.systems.wind.gust"
     assert kinds.find("squall").__module__ == "dust_vortex"
     assert not caplog.messages
-    assert [row.status for row in kinds.provided() if row.kind == "gust"] == ["left out", "ready"]
+    assert [row.status for row in kinds.provided() if row.name == "gust"] == ["left out", "ready"]
 
 
 def test_what_is_installed_is_listed_without_importing_it(dust: WindKinds) -> None:
-    rows = {row.kind: row for row in dust.provided()}
+    rows = {row.name: row for row in dust.provided()}
     assert sorted(rows) == dust.names()
     assert rows["faulty"] == Provided("faulty", "tallgrass-dust", "0.3.1", "ready")
     assert "dust_vortex" not in sys.modules

@@ -33,7 +33,7 @@ class Square(WindPrimitive):
         return np.stack([np.full(len(place), 0.5), np.zeros(len(place))], 1)
 
 
-BUILT_IN = [row.kind for row in wind_kinds().provided() if row.distribution == OURS]
+BUILT_IN = [row.name for row in wind_kinds().provided() if row.distribution == OURS]
 
 
 @pytest.mark.parametrize("kind", BUILT_IN)
