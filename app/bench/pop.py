@@ -1,6 +1,6 @@
 """`tallgrass bench pop`: whether changes of representation are visible while the wind blows and the viewer walks."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -23,7 +23,7 @@ from .many import Survey
 from .sent import Job
 from .steps import WORST, Record, frames_of, merged, walked
 from .stroll import Leg, climb, legs
-from .verdict import Step, Verdict
+from .verdict import Verdict
 
 HARD = Transitions(morph=False, fade=False, growth=False)
 """Patches switch at once."""
@@ -123,7 +123,7 @@ def _walks(
     with course("walking", steps) as way:
         for name, transitions in variants.items():
             with way.part(name):
-                watch = partial(_counted, doing=f"without {name}")
+                watch = partial(counted, doing=f"without {name}")
                 frame_time = 1.0 / hold if hold else None
                 records[name] = walked(studio, walk, transitions, watch=watch, hold=frame_time, kept=_kept(name))
     return records
@@ -134,14 +134,10 @@ def _kept(name: str) -> int:
     return WORST if name == WHOLE else 1
 
 
-def _counted(steps: Iterator[Step], total: int, *, doing: str) -> Iterator[Step]:
-    return counted(steps, total=total, doing=doing)
-
-
 def leg_walked(take: Take, walk: list[Leg], transitions: Transitions, number: int, kept: int, /) -> Record:
     """Walk a single leg in a process of a crew, and return its record."""
     with Studio(take) as studio:
-        return walked(studio, walk, transitions, watch=lambda steps, _: ticked(steps), only=number, kept=kept)
+        return walked(studio, walk, transitions, watch=lambda steps, **_: ticked(steps), only=number, kept=kept)
 
 
 def _summary(records: Mapping[str, Record]) -> dict[str, object]:

@@ -12,6 +12,7 @@ from ..studio.timing import timed
 from .multisampled import Multisampled
 from .rival import ByHand
 from .still import Still
+from .stroll import advance_to
 
 HARD, SMOOTH = "by hand", "by hand, 4 samples a pixel"
 
@@ -81,7 +82,7 @@ class Rivals:
         except MachineError:
             return {}
         studio = self._still.studio
-        studio.prairie.advance(max(0.0, MOMENT - studio.prairie.time))
+        advance_to(studio.prairie, MOMENT)
         self._still.draw()
         self._carpet.lay(self._outlook, None)
         pictures = {}

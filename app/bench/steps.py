@@ -17,12 +17,12 @@ from ..studio.encode import Picture
 from ..studio.studio import Studio
 from . import stroll
 from .drift import Change, Sample, changes, ends_of_change, sample, sampled_frames
-from .stroll import REST, Leg, Moment, moments, raise_gusts
+from .stroll import REST, Leg, Moment, advance_to, moments, raise_gusts
 from .truth import Truth
 from .verdict import Step, Verdict, judge
 
-Watch = Callable[[Iterator[Step], int], Iterator[Step]]
-"""Passes the steps of a walk on, given their number; it may show progress."""
+Watch = Callable[..., Iterator[Step]]
+"""Passes the steps of a walk on, an iterator, given their number as `total`; it may show progress."""
 
 WORST = 6
 """Number of worst frames in the result."""
@@ -88,7 +88,7 @@ def walked(
         with Truth(studio, walk) as truth:
             _follow(studio, prairie, frames[: only or 0])
             judges = {leg.name: _Judge(studio, prairie, truth, kept) for leg in walk}
-            for step in watch(_steps(studio, prairie, drawn), sum(len(leg) - 1 for leg in drawn)):
+            for step in watch(_steps(studio, prairie, drawn), total=sum(len(leg) - 1 for leg in drawn)):
                 judges[step.moment.leg.name].judge(step)
     finally:
         prairie.release()
@@ -170,7 +170,7 @@ def _follow(studio: Studio, prairie: Prairie, frames: Iterable[list[Moment]]) ->
     for leg in frames:
         begin = replace(leg[0], time=leg[0].time - REST / 2)
         for moment in (begin, *leg):
-            prairie.advance(max(0.0, moment.time - prairie.time))
+            advance_to(prairie, moment.time)
             prairie.follow(*studio.matrices(moment.camera))
 
 
@@ -182,7 +182,7 @@ def _settle(studio: Studio, prairie: Prairie, moment: Moment) -> None:
 
 
 def _draw(studio: Studio, prairie: Prairie, moment: Moment, *, time: float | None = None) -> Picture:
-    prairie.advance(max(0.0, (moment.time if time is None else time) - prairie.time))
+    advance_to(prairie, moment.time if time is None else time)
     studio.begin()
     prairie.draw(*studio.matrices(moment.camera))
     return studio.read()

@@ -189,6 +189,11 @@ def moments(prairie: Prairie, leg: Leg, /) -> Iterator[Moment]:
         yield Moment(leg, number, leg.start + time, leg.camera(time, view, prairie.height_at))
 
 
+def advance_to(prairie: Prairie, time: float, /) -> None:
+    """Move a prairie on to an instant [s], unless it is already there or later."""
+    prairie.advance(max(0.0, time - prairie.time))
+
+
 def raise_gusts(prairie: Prairie, walk: list[Leg], /) -> None:
     """Add a gust to each leg that crosses the camera's view."""
     for leg in walk:

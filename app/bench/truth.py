@@ -2,16 +2,16 @@
 
 from typing import Self
 
-from ...engine.gl.stream import release_all
 from ...systems.lod import farthest
 from ...systems.prairie import Prairie
 from ...systems.reference import cropped, draw_truth
 from ...systems.room import room_for
 from ..studio.encode import Picture
+from ..studio.offscreen import Offscreen
 from ..studio.studio import Matrix, Studio
 from ..studio.take import SAMPLES
 from .flicker import TILE
-from .stroll import Leg, Moment, moments, raise_gusts
+from .stroll import Leg, Moment, advance_to, moments, raise_gusts
 
 TINY = (16, 9)
 """Size of the picture that brings the prairie to an instant; it is thrown away [pixels]."""
@@ -24,12 +24,11 @@ class Truth:
     """
 
     def __init__(self, studio: Studio, walk: list[Leg]) -> None:
-        self._studio, ctx, take = studio, studio.ctx, studio.take
+        self._studio, take = studio, studio.take
         # Carpet alone brings the prairie to an instant: a reference plants its own blades on it.
-        self._prairie = Prairie.load(take.scene, ctx=ctx, preset=take.preset, lod="carpet", live=False)
+        self._prairie = Prairie.load(take.scene, ctx=studio.ctx, preset=take.preset, lod="carpet", live=False)
         raise_gusts(self._prairie, walk)
-        self._color, self._depth = ctx.texture(TINY, 4), ctx.depth_renderbuffer(TINY)
-        self._target = ctx.framebuffer([self._color], self._depth)
+        self._tiny = Offscreen(TINY, studio.ctx)
         self._at: Moment | None = None
 
     def __enter__(self) -> Self:
@@ -37,7 +36,7 @@ class Truth:
 
     def __exit__(self, *_: object) -> None:
         self._prairie.release()
-        release_all(self._target, self._color, self._depth)
+        self._tiny.release()
 
     def whole(self, moment: Moment) -> Picture:
         """Return a picture of every blade, as `--reference` draws it."""
@@ -69,10 +68,9 @@ class Truth:
     def _go(self, moment: Moment) -> tuple[Matrix, Matrix]:
         matrices = self._studio.matrices(moment.camera)
         if self._at != moment:
-            self._prairie.advance(max(0.0, moment.time - self._prairie.time))
+            advance_to(self._prairie, moment.time)
             host = self._studio.ctx.detect_framebuffer()
-            self._target.use()
-            self._target.clear(depth=1.0)
+            self._tiny.begin()
             self._prairie.draw(*matrices)
             host.use()
             self._at = moment

@@ -13,7 +13,7 @@ from ..studio.take import Take
 from ..studio.timing import spread, timed
 from .machine import head, resident_mb, yardstick_ms
 from .processor import on_processor
-from .stroll import REST, Leg, Moment, legs, moments, raise_gusts
+from .stroll import REST, Leg, Moment, advance_to, legs, moments, raise_gusts
 
 PARTS = {"drawing": 10.0, "without drawing": 1.0}
 """Names of the steps, with their approximate relative durations."""
@@ -104,7 +104,7 @@ def sublevel_changed(representation: Levels, before: Levels, now: Levels) -> NDA
 
 def _draw(studio: Studio, moment: Moment, *, time: float | None = None) -> float:
     prairie, matrices = studio.prairie, studio.matrices(moment.camera)
-    prairie.advance(max(0.0, (moment.time if time is None else time) - prairie.time))
+    advance_to(prairie, moment.time if time is None else time)
 
     def frame() -> None:
         studio.begin()

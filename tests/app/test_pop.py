@@ -62,7 +62,7 @@ def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return path
 
 
-def unwatched(steps: Iterator[Step], _: int) -> Iterator[Step]:
+def unwatched(steps: Iterator[Step], **_: int) -> Iterator[Step]:
     return steps
 
 
