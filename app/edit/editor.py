@@ -159,13 +159,13 @@ class Editor:
         if places:
             self.set_all(places, subject=("drag", tuple(places)))
 
-    def paint(self, line: Sequence[Place]) -> None:
-        """Continue a stroke of the brush along ground positions (x, z) [m]; `rest` ends the stroke."""
-        if self.brush is None or not {self.brush.kind} <= self.scene.grass.keys() & self.prairie.scene.grass.keys():
+    def paint(self, line: Sequence[Place], brush: Brush) -> None:
+        """Continue a stroke of a brush along ground positions (x, z) [m]; `rest` ends the stroke."""
+        if not {brush.kind} <= self.scene.grass.keys() & self.prairie.scene.grass.keys():
             return
         if self._stroke is None:
             self._stroke = next(self._strokes)
-        brush, draft = self.brush, self.history.now
+        draft = self.history.now
         others = [kind for kind, grass in self.scene.grass.items() if grass.place is not None and kind != brush.kind]
         way = ("grass", brush.kind, "place")
         try:

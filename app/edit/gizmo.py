@@ -37,7 +37,7 @@ def show_gizmo(editor: Editor, sight: Sight, grips: Sequence[Grip], pointed: Pla
 def _outline(editor: Editor, sight: Sight) -> None:
     prairie, wind = editor.prairie, editor.picked_wind
     assert wind is not None
-    x, _, z = sight.eye.tolist()
+    x, _, z = sight.seen.eye
     winds, quarantine = blowing_of(prairie, wind), prairie.winds.quarantine
     for mask in masked(winds, quarantine, time=prairie.time, around=(x, z), far=FAR):
         ends = sight.pixels(on_ground(sight.terrain, mask.edge))

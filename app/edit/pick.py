@@ -7,7 +7,8 @@ from math import isnan
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...components.arrays import Doubles, Floats
+from ...components.arrays import Doubles
+from ...engine.camera import View
 from ...engine.terrain.pick import pick
 from ...engine.terrain.record import Terrain
 from ...engine.terrain.sample import height_at
@@ -29,35 +30,27 @@ class Sight:
     size: tuple[int, int]
     """Width and height of the window [pixels]."""
 
-    view: Floats
-    """World to eye, shape (4, 4), for column vectors."""
-
-    projection: Floats
-    """Eye to clip space, shape (4, 4), for column vectors."""
-
+    seen: View
     terrain: Terrain
-
-    @property
-    def eye(self) -> Doubles:
-        """Position of the eye, shape (3,) [m]."""
-        return np.asarray(np.linalg.inv(self.view.astype(np.float64))[:3, 3])
 
     def ground(self, pixel: tuple[float, float], /) -> Place | None:
         """Return the first intersection of the ray through a pixel with the ground, None without one."""
-        x, _, z = pick(self.terrain, self.eye[None], self.ray(pixel)[None], farthest=FARTHEST)[0].tolist()
+        eye, ray = np.array([self.seen.eye]), self.ray(pixel)[None]
+        x, _, z = pick(self.terrain, eye, ray, farthest=FARTHEST)[0].tolist()
         return None if isnan(x) else (x, z)
 
     def ray(self, pixel: tuple[float, float], /) -> Doubles:
         """Return the unit vector from the eye through a pixel, shape (3,)."""
         x, y = 2.0 * pixel[0] / self.size[0] - 1.0, 2.0 * pixel[1] / self.size[1] - 1.0
-        back = np.linalg.inv(self._transform)
-        near, far = (ends[:3] / ends[3] for ends in (back @ [x, y, -1.0, 1.0], back @ [x, y, 0.0, 1.0]))
+        near, far = (
+            ends[:3] / ends[3] for ends in np.array([[x, y, -1.0, 1.0], [x, y, 0.0, 1.0]]) @ self.seen.unclip.T
+        )
         return np.asarray((far - near) / np.linalg.norm(far - near))
 
     def pixels(self, points: ArrayLike, /) -> Doubles:
         """Return the pixels of points (n, 3) [m], shape (n, 2); NaN behind the eye."""
         given = np.asarray(points, np.float64).reshape(-1, 3)
-        clip = np.concatenate([given, np.ones((len(given), 1))], axis=1) @ self._transform.T
+        clip = np.concatenate([given, np.ones((len(given), 1))], axis=1) @ self.seen.clip.T
         depth = np.where(clip[:, 3] > NEAREST, clip[:, 3], np.nan)
         return np.asarray((clip[:, :2] / depth[:, None] + 1.0) / 2.0 * np.array(self.size, np.float64))
 
@@ -65,10 +58,6 @@ class Sight:
         """Return the pixels of ground positions (n, 2) [m], shape (n, 2); NaN behind the eye."""
         flat = np.array(places, np.float32).reshape(-1, 2)
         return self.pixels(np.insert(flat, 1, height_at(self.terrain, flat), axis=1))
-
-    @property
-    def _transform(self) -> Doubles:
-        return np.asarray(self.projection.astype(np.float64) @ self.view.astype(np.float64))
 
 
 def nearest(pixel: tuple[float, float], pixels: Doubles, within: float, /) -> int | None:

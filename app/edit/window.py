@@ -5,6 +5,7 @@ from dataclasses import replace
 import pyglet
 from pyglet.window import key, mouse
 
+from ...engine.camera import View
 from ...systems.prairie import Prairie
 from ..overlay import HELP
 from ..studio.take import Take
@@ -140,7 +141,7 @@ class EditWalk(Walk):
         if self.editor.brush is not None and place is not None:
             brush = self.editor.brush.erasing() if modifiers & key.MOD_SHIFT else self.editor.brush
             self._stroke = place, brush
-            self._paint([place])
+            self.editor.paint([place], brush)
         elif self.editor.brush is None:
             self._take_hold(place)
 
@@ -167,7 +168,7 @@ class EditWalk(Walk):
         elif self._stroke is not None and place is not None:
             start, brush = self._stroke
             self._stroke = place, brush
-            self._paint([start, place])
+            self.editor.paint([start, place], brush)
         elif buttons & mouse.RIGHT and not self.gui.wants_mouse:
             self.look(dx, dy)
 
@@ -219,7 +220,7 @@ class EditWalk(Walk):
 
     def _sight(self) -> Sight:
         size = self.window.get_size()
-        return Sight(size, *self.matrices(size), self.prairie.site.ground.terrain)
+        return Sight(size, View(*self.matrices(size)), self.prairie.site.ground.terrain)
 
     def _take_hold(self, place: Place | None) -> None:
         grips = grips_of(self.editor)
@@ -229,9 +230,3 @@ class EditWalk(Walk):
         else:
             self._grip = grip_at(self.editor, place) if found is None else replace(grips[found], place=place)
         self.editor.picked = None if self._grip is None else self._grip.number
-
-    def _paint(self, line: list[Place]) -> None:
-        if self._stroke is not None:
-            chosen, self.editor.brush = self.editor.brush, self._stroke[1]
-            self.editor.paint(line)
-            self.editor.brush = chosen

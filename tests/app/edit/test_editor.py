@@ -182,9 +182,9 @@ def test_saving_changes_those_lines_alone_whose_keys_have_changed(editor: Editor
 
 def test_a_stroke_is_seen_at_once_and_saved_into_the_map_that_the_scene_names(editor: Editor, path: Path) -> None:
     before = editor.prairie.site.ground.density.maps
-    editor.brush = Brush("high", radius=6.0)
-    editor.paint([(-10.0, -10.0)])
-    editor.paint([(-10.0, -10.0), (0.0, -10.0)])
+    brush = Brush("high", radius=6.0)
+    editor.paint([(-10.0, -10.0)], brush)
+    editor.paint([(-10.0, -10.0), (0.0, -10.0)], brush)
     editor.rest()
     after = editor.prairie.site.ground.density.maps
     assert after[1].max() > 0.5
@@ -204,8 +204,8 @@ def test_a_stroke_is_seen_at_once_and_saved_into_the_map_that_the_scene_names(ed
 
 
 def test_the_first_stroke_of_a_kind_without_a_map_makes_one_that_says_what_was_true(editor: Editor, path: Path) -> None:
-    editor.brush = Brush("low", radius=5.0).erasing()
-    editor.paint([(10.0, 10.0)])
+    brush = Brush("low", radius=5.0).erasing()
+    editor.paint([(10.0, 10.0)], brush)
     place = editor.scene.grass["low"].place
     assert place is not None
     assert (place.map, place.channel) == ("little-low.png", "red")
@@ -226,14 +226,14 @@ def test_the_first_stroke_of_a_kind_without_a_map_makes_one_that_says_what_was_t
 
 def test_where_one_kind_is_painted_the_others_with_maps_make_room(editor: Editor) -> None:
     editor.set(("grass", "low", "place"), {"map": "high.png", "channel": "red"})
-    editor.brush = Brush("low", radius=8.0, pressure=1.0)
-    editor.paint([(-10.0, 0.0), (-6.0, 0.0)])
+    brush = Brush("low", radius=8.0, pressure=1.0)
+    editor.paint([(-10.0, 0.0), (-6.0, 0.0)], brush)
     low, high = editor.prairie.site.ground.density.maps
     assert (low - high).max() > 0.8
     assert high.max() == pytest.approx(0.2, abs=0.01)
     editor.rest()
-    editor.brush = replace(editor.brush, alone=False, kind="high")
-    editor.paint([(10.0, 0.0), (6.0, 0.0)])
+    brush = replace(brush, alone=False, kind="high")
+    editor.paint([(10.0, 0.0), (6.0, 0.0)], brush)
     low, high = editor.prairie.site.ground.density.maps
     right = slice(len(low) // 2, None)
     assert high[:, right].max() > 0.7
@@ -254,8 +254,8 @@ def test_a_file_that_somebody_else_has_changed_is_not_written_over(editor: Edito
 
 def test_a_map_that_somebody_else_has_changed_or_made_is_not_written_over(editor: Editor, path: Path) -> None:
     for kind, name in (("high", "high.png"), ("low", "little-low.png")):
-        editor.brush = Brush(kind, radius=8.0)
-        editor.paint([(-10.0, 0.0)])
+        brush = Brush(kind, radius=8.0)
+        editor.paint([(-10.0, 0.0)], brush)
         editor.remaking.wait()
         theirs = Image.new("RGB", (8, 8), "#102030")
         theirs.save(path.with_name(name))
@@ -305,6 +305,6 @@ def test_a_bundled_scene_stays_and_a_copy_with_its_maps_is_written_here(
 
 def test_a_brush_for_a_kind_that_is_gone_does_nothing(editor: Editor) -> None:
     draft = editor.history.now
-    editor.brush = replace(Brush("high"), kind="other")
-    editor.paint([(0.0, 0.0)])
+    brush = replace(Brush("high"), kind="other")
+    editor.paint([(0.0, 0.0)], brush)
     assert editor.history.now is draft

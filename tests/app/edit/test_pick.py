@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tallgrass.app.edit.pick import Sight, nearest
-from tallgrass.engine.camera import Camera, projection_matrix, view_matrix
+from tallgrass.engine.camera import Camera, View, projection_matrix, view_matrix
 from tallgrass.engine.terrain.record import Terrain
 
 SIZE = (320, 200)
@@ -14,7 +14,7 @@ SIZE = (320, 200)
 
 def sight(terrain: Terrain, pitch: float = -20.0) -> Sight:
     camera = Camera((3.0, 6.0, 20.0), radians(15.0), radians(pitch), radians(45.0))
-    return Sight(SIZE, view_matrix(camera), projection_matrix(camera.view, SIZE[0] / SIZE[1]), terrain)
+    return Sight(SIZE, View(view_matrix(camera), projection_matrix(camera.view, SIZE[0] / SIZE[1])), terrain)
 
 
 FLAT = Terrain(np.zeros((41, 41), np.float32), 2.0)

@@ -21,6 +21,7 @@ from tallgrass.app.edit.values import Way
 from tallgrass.app.studio.take import Take
 from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Extent, Grass
+from tallgrass.engine.camera import View
 from tallgrass.engine.plugins import WindKinds, wind_kinds
 from tallgrass.engine.scene import bundled_scenes, read_scene
 from tallgrass.systems.prairie import Prairie
@@ -137,7 +138,7 @@ def button(walk: "EditWalk", name: str) -> tuple[float, float]:
 
 def on_ground(walk: "EditWalk", x: float, z: float) -> tuple[float, float]:
     """Return the pixel of a place on the ground, from the lower left."""
-    sight = Sight(SIZE, *walk.matrices(SIZE), walk.prairie.site.ground.terrain)
+    sight = Sight(SIZE, View(*walk.matrices(SIZE)), walk.prairie.site.ground.terrain)
     ((right, up),) = sight.pixels_on_ground([(x, z)]).tolist()
     return right, up
 
