@@ -21,15 +21,18 @@ SWATCH = 2.6
 BACKGROUND_OPACITY = 205
 """Opacity of the background, out of 255."""
 
+Box = tuple[int, int, int, int]
+Colors = tuple[Color, ...]
+
 
 @dataclass(frozen=True, slots=True)
 class Entry:
     """One line of the legend."""
 
-    form: str
-    """Form of its swatch: `areas` side by side, an `outline`, a `ramp`, one colour `inside` another, or `none`."""
+    draw: Callable[[ImageDraw.ImageDraw, Box, Colors], None] | None
+    """Draws its swatch; None for a line without one, whose text has the colour."""
 
-    colors: tuple[Color, ...]
+    colors: Colors
     text: str
 
 
@@ -40,14 +43,14 @@ def entries(
     lines = _mask_entries(layers, masks)
     if "arrows" in layers:
         shades = index_color(np.linspace(0.0, 1.0, 12, dtype=np.float32))
-        lines.append(Entry("ramp", _as_colors(shades), "posture index, 0 to 1"))
+        lines.append(Entry(_draw_areas, _as_colors(shades), "posture index, 0 to 1"))
     if layers & {"levels", "weights", "map"}:
         lines += _level_entries(representations)
     if "weights" in layers:
         colors = tuple(color for each in representations[1::-1] for color in _as_colors(ring_shades(each.color)))
-        lines.append(Entry("inside", colors, "two at once: the finer's share"))
+        lines.append(Entry(_draw_inside, colors, "two at once: the finer's share"))
     if "map" in layers:
-        lines.append(Entry("none", (BRIGHT,), "map: dim outside the view cone"))
+        lines.append(Entry(None, (BRIGHT,), "map: dim outside the view cone"))
     return lines
 
 
@@ -55,18 +58,18 @@ def _mask_entries(layers: AbstractSet[Layer], masks: Sequence[Masked]) -> list[E
     """Return the entries for winds: outlines of those with an edge, names of those that blow everywhere."""
     edged = dict.fromkeys((mask.kind, mask.color) for mask in masks if not mask.everywhere)
     endless = dict.fromkeys((mask.kind, mask.color) for mask in masks if mask.everywhere)
-    outlines = [Entry("outline", (color,), f"where the {kind} acts") for kind, color in edged]
+    outlines = [Entry(_draw_outline, (color,), f"where the {kind} acts") for kind, color in edged]
     if "masks" not in layers:
         return outlines if "map" in layers else []
-    names = [Entry("none", (color,), f"{kind}: everywhere") for kind, color in endless]
-    return [*names, *outlines, *[Entry("none", (BRIGHT,), "thin line: with full weight")] * bool(outlines)]
+    names = [Entry(None, (color,), f"{kind}: everywhere") for kind, color in endless]
+    return [*names, *outlines, *[Entry(None, (BRIGHT,), "thin line: with full weight")] * bool(outlines)]
 
 
 def _level_entries(representations: Sequence[Representation]) -> list[Entry]:
     """Return the entries for representations and their rings."""
     return [
         Entry(
-            "areas",
+            _draw_areas,
             _as_colors(ring_shades(each.color, each.rings())),
             f"{each.label}, near to far" if each.rings() > 1 else each.label,
         )
@@ -89,8 +92,9 @@ def legend(lines: tuple[Entry, ...], size: int, /) -> Bytes:
     for number, entry in enumerate(lines):
         top = gap // 2 + number * high
         box = (gap, top + round(0.25 * size), gap + swatch, top + round(1.25 * size))
-        _FORMS[entry.form](draw, box, entry.colors)
-        ink = entry.colors[0] if entry.form == "none" else BRIGHT
+        if entry.draw is not None:
+            entry.draw(draw, box, entry.colors)
+        ink = entry.colors[0] if entry.draw is None else BRIGHT
         draw.text((2 * gap + swatch, top + high // 2), entry.text, (*_as_bytes(ink), 255), font, anchor="lm")
     return np.asarray(image)
 
@@ -103,10 +107,6 @@ def _as_bytes(color: Color) -> tuple[int, int, int]:
     """Return a colour as bytes."""
     red, green, blue = (round(255 * channel) for channel in color)
     return red, green, blue
-
-
-Box = tuple[int, int, int, int]
-Colors = tuple[Color, ...]
 
 
 def _draw_areas(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
@@ -132,16 +132,3 @@ def _draw_inside(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
     draw.rectangle((left, top, left + side, bottom), (*_as_bytes(colors[0]), 255), (255, 255, 255, 255))
     inset = side // 4
     draw.rectangle((left + inset, top + inset, left + side - inset, bottom - inset), (*_as_bytes(colors[1]), 255))
-
-
-def _draw_nothing(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
-    del draw, box, colors
-
-
-_FORMS: dict[str, Callable[[ImageDraw.ImageDraw, Box, Colors], None]] = {
-    "areas": _draw_areas,
-    "ramp": _draw_areas,
-    "outline": _draw_outline,
-    "inside": _draw_inside,
-    "none": _draw_nothing,
-}
