@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..components.arrays import Ints
 from ..engine.camera import View, view_of
+from ..engine.gl.stream import release_all
 from ..engine.terrain.sample import height_at
 from .around.outlook import Outlook
 from .painter import Painter
@@ -207,8 +208,7 @@ def patch_distances(prairie: Prairie, view: object, projection: object, size: tu
     finally:
         host.use()
         target.color_attachments[0].release()
-        for thing in (target, depth):
-            thing.release()
+        release_all(target, depth)
     centre = prairie.viewers["main"].viewer.centre
     return _distances(fine.astype(np.float64), seen, centre, prairie.site.ground)
 
@@ -265,8 +265,7 @@ def draw_truth(
     finally:
         quarantine.live = live
         host.use()
-        for thing in (target, color, depth, every):
-            thing.release()
+        release_all(target, color, depth, every)
 
 
 def box_filtered(target: moderngl.Framebuffer, size: tuple[int, int], samples: int) -> Truth:

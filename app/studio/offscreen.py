@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.gl import headless
+from ...engine.gl.stream import release_all
 from .errors import MachineError
 
 
@@ -54,8 +55,7 @@ class Offscreen:
         self.make_current()
         if self._host is not None:
             self._host.use()
-        for item in (self._target, self._color, self._depth):
-            item.release()
+        release_all(self._target, self._color, self._depth)
         if self._host is None:
             self.ctx.release()
 
