@@ -66,8 +66,7 @@ class Streaming:
         if due == terrain.first:
             return
         if self._pending is None or (waits and self._pending.first != due):
-            self._request(blocks, due)
-        assert self._pending is not None
+            self._pending = _Pending(self._executor.submit(_made, blocks, due), due, dict(blocks.changed))
         if waits or self._pending.window.done():
             self._take_over(terrain, blocks, self._pending, leaps=waits)
             self._pending = None
@@ -77,9 +76,6 @@ class Streaming:
         assert terrain.first is not None
         row, column = (at + blocks.cells // 2 for at in terrain.first)
         return max(abs(place[0] / blocks.cell - column), abs(place[1] / blocks.cell - row)) / blocks.step
-
-    def _request(self, blocks: Blocks, first: Numbers) -> None:
-        self._pending = _Pending(self._executor.submit(_made, blocks, first), first, dict(blocks.changed))
 
     def _take_over(self, terrain: Terrain, blocks: Blocks, pending: _Pending, *, leaps: bool) -> None:
         """Give a terrain the window that was made, with the changes of the ground made meanwhile."""
