@@ -9,15 +9,7 @@ from .studio.progress import busy
 from .studio.take import Take
 
 
-def walk_in(
-    take: Take,
-    /,
-    *,
-    fullscreen: bool = False,
-    seconds: float | None = None,
-    hold: float | None = None,
-    edit: bool = False,
-) -> None:
+def walk_in(take: Take, /, *, fullscreen: bool, seconds: float | None, hold: float | None, edit: bool) -> None:
     """Open a window on a scene and return when it is closed: by the user, or after `seconds` by itself.
 
     `hold` is the frame rate to hold [1/s]: None is the one that suits the machine, 0 is none. Without a graphics card,

@@ -20,7 +20,7 @@ ROOM = 2
 at once."""
 
 
-def reach_of(limits: tuple[int, ...], forced: int | None = None, /) -> tuple[int, ...]:
+def reach_of(limits: tuple[int, ...], forced: int | None, /) -> tuple[int, ...]:
     """Return the reach of each representation, from the finest: the largest discrete distance at which it is due.
 
     `limits` are those of the quality. `forced` is the index of a representation that replaces all others.

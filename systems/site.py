@@ -87,7 +87,7 @@ def lay_out(
     /,
     *,
     lod: str = "auto",
-    transitions: Transitions = SEAMLESS,
+    transitions: Transitions,
     stocked: Sequence[Representation] | None = None,
     coming: Mapping[int, Growth] = NOTHING,
 ) -> Site:

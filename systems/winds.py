@@ -278,7 +278,7 @@ class Winds(Feature):
         """Return the messages (n, 2) at ground positions (n, 2) [m] to a kind of grass, or to the densest there."""
         return self.messages_to(self.receivers_at(place, kind=kind), time=time)
 
-    def receivers_at(self, place: Floats, /, *, kind: int | None = None) -> ReceiverArrays:
+    def receivers_at(self, place: Floats, /, *, kind: int | None) -> ReceiverArrays:
         """Return receivers of a kind of grass, or of the densest there, at ground positions (n, 2) [m]."""
         kinds = densest_kind(self._ground.density, place) if kind is None else np.full(len(place), kind, np.intp)
         return lone_receivers(place, grass_of(self._growths, kinds))

@@ -40,7 +40,7 @@ class Survey:
     """Raises MachineError where this machine cannot run it."""
 
 
-def bench_many(take: Take, survey: Survey, /, *, json: bool, output: str | None = None, on: str | None = None) -> None:
+def bench_many(take: Take, survey: Survey, /, *, json: bool, on: str | None, output: str | None = None) -> None:
     """Run a benchmark for a take and print its figures, or for all scenes of a folder and print a table.
 
     Pictures go into the folder `output`. With `on`, workers measure. Before anything is drawn it raises MachineError

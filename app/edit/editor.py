@@ -94,7 +94,7 @@ class Editor:
         """Set a key's value; return whether it was accepted. Successive changes of one subject are undone together."""
         return self.set_all({way: value}, subject=subject)
 
-    def set_all(self, values: dict[Way, Any], *, subject: object = None) -> bool:
+    def set_all(self, values: dict[Way, Any], *, subject: object) -> bool:
         """Set the values of several keys in one step; NOTHING removes a key. Return whether they were accepted."""
         draft = self.history.now
         try:

@@ -194,7 +194,7 @@ def _middle(key: Key) -> float:
     return round(found) if key.form == "whole" else float(f"{found:.3g}")
 
 
-def tidied(key: Key, number: float, /, *, pulled: bool = True) -> float:
+def tidied(key: Key, number: float, /, *, pulled: bool) -> float:
     """Return a field's number rounded for the file: to fewer digits if it was pulled than if it was typed.
 
     A number pulled to an exclusive bound is moved a little beyond the bound.

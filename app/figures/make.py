@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from .figure import PaperFigure
 
 
-def make_figures(output: str, *, only: str | None = None, size: tuple[int, int], preset: str | None = None) -> None:
+def make_figures(output: str, *, only: str | None, size: tuple[int, int], preset: str | None) -> None:
     """Draw the paper's figures into a folder, and the page `index.html` that shows all that lie there.
 
     `only` is the numbers of some, as `6,8`; `size` is that of each rendered picture [pixels], `preset` its quality

@@ -22,8 +22,6 @@ Channels = Mapping[str, Floats]
 Picture = NDArray[np.uint8]
 """Pixels of a map, shape (rows, columns, 3 or 4)."""
 
-NONE: Mapping[str, Picture] = {}
-
 MOST_SIDE = 4097
 """Greatest number of pixels along a side of a density map."""
 
@@ -37,7 +35,7 @@ CHANNELS = ("red", "green", "blue", "alpha")
 
 
 def load_density(
-    kinds: Mapping[str, GrassKind], terrain: Terrain, folder: Path, given: Mapping[str, Picture] = NONE, /
+    kinds: Mapping[str, GrassKind], terrain: Terrain, folder: Path, given: Mapping[str, Picture], /
 ) -> Density:
     """Return the density of each kind on the terrain, in the order of `kinds`; map files lie in `folder`.
 
@@ -67,7 +65,7 @@ def load_density(
 
 def load_holes(source: TerrainSource, folder: Path, /) -> Floats | None:
     """Return a scene's map (rows, columns) of holes in the ground, None if it has none; raises `MapError`."""
-    return None if source.holes is None else _channels_in(source.holes, folder, NONE)[CHANNELS[0]]
+    return None if source.holes is None else _channels_in(source.holes, folder, {})[CHANNELS[0]]
 
 
 def stretched(values: Floats, rows: int, columns: int, /) -> Floats:

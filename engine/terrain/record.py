@@ -117,7 +117,7 @@ class Terrain:
         """Keep a result computed from the heights, for as long as this is the same window."""
         object.__setattr__(self, "derived", derived)
 
-    def become(self, other: "Terrain", /, *, leaps: bool = False) -> None:
+    def become(self, other: "Terrain", /, *, leaps: bool) -> None:
         """Become another window of the same ground; `leaps` says that the prairie had to wait for it."""
         assert self.first is not None
         assert other.first is not None

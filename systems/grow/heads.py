@@ -77,7 +77,7 @@ _TOP_LEANS = 1.25
 
 
 def grow_heads(
-    head: Head, layout: Layout, stems: Stems, random: np.random.Generator, /, *, arched: int = 0
+    head: Head, layout: Layout, stems: Stems, random: np.random.Generator, /, *, arched: int
 ) -> tuple[Rows, ...]:
     """Return the heads of stems: `layout.petals` rows and `layout.middles` for each, open or closed.
 

@@ -126,7 +126,7 @@ NOTHING: Mapping[int, Growth] = MappingProxyType({})
 """Growths to come where no kind is to become another."""
 
 
-def forms_of(growths: Sequence[Growth], coming: Mapping[int, Growth] = NOTHING, /) -> tuple[Form, ...]:
+def forms_of(growths: Sequence[Growth], coming: Mapping[int, Growth], /) -> tuple[Form, ...]:
     """Return what all kinds are now, then what the kinds of `coming` are to become, by kind."""
     now = [Form(kind, kind, growth) for kind, growth in enumerate(growths)]
     return *now, *(Form(len(growths) + kind, kind, coming[kind]) for kind in sorted(coming))

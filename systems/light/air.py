@@ -114,7 +114,7 @@ def sky_radiance(
     return np.asarray(light)
 
 
-def multiple_scattering(sun: Doubles, turbidity: float, /, *, heights: Doubles = HEIGHTS) -> Doubles:
+def multiple_scattering(sun: Doubles, turbidity: float, /, *, heights: Doubles) -> Doubles:
     """Return the radiance at `heights` [km], averaged over all directions, with multiple scattering, shape (h, 3).
 
     `sun` is the direction to the sun. Light scattered once, or reflected by the ground, continues as a geometric

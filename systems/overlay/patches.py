@@ -87,7 +87,7 @@ def is_mixed(outlook: Outlook, site: Site, /) -> NDArray[np.bool_]:
     return np.asarray((weight.max(axis=0) < SETTLED) & (weight.sum(axis=0) > 0.0))
 
 
-def level_marks(outlook: Outlook, site: Site, /, *, settled: bool = False) -> Marks:
+def level_marks(outlook: Outlook, site: Site, /, *, settled: bool) -> Marks:
     """Return a square on each patch in view, in the colour of its representation.
 
     With `settled`, patches with two representations are left out.

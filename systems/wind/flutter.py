@@ -43,7 +43,7 @@ def flutter(place: Floats, /, *, time: float, seed: int, yaw: float = 0.0) -> Fl
     return np.stack([amplitude * (beat[:, 0] + np.float32(0.5) * beat[:, 2]), amplitude * beat[:, 1]], axis=1)
 
 
-def flutter_values(*, time: float, seed: int, yaw: float = 0.0) -> TwinValues:
+def flutter_values(*, time: float, seed: int, yaw: float) -> TwinValues:
     """Return what the twin reads: three phases, within one turn [rad], the shift of the noise, and its table."""
     return TwinValues([*_phases(time), *_shift(time, seed, yaw)], (noise_table(seed, 1),))
 

@@ -201,16 +201,13 @@ def check_values(twin: Twin, values: TwinValues, /) -> None:
             raise TwinError(f"twin_values returned a sheet of shape {sheet.shape}; {MOST_SIDE} is the longest side")
 
 
-def joined_twins(
-    twins: Sequence[Twin], order: Sequence[int], /, layouts: Sequence[Layout] = ()
-) -> dict[str, list[Line]]:
+def joined_twins(twins: Sequence[Twin], order: Sequence[int], layouts: Sequence[Layout], /) -> dict[str, list[Line]]:
     """Return the lines that replace `PLACE`: a loop for each run of winds, where `order` has each run's twin number.
 
     `NO_TWIN` stands for winds without one, `ANY` for all. Runs of one twin are loops without a branch, because a
     software rasteriser executes every branch. Names that a twin defines get its number as a suffix, so that they clash
     with no others. `layouts` has the layout of each twin's record.
     """
-    layouts = layouts or [Layout()] * len(twins)
     lines: list[Line] = []
     for number in range(len(twins)) if ANY in order else sorted(set(order) - {NO_TWIN}):
         twin = twins[number]

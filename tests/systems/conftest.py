@@ -22,6 +22,7 @@ from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
 from tallgrass.systems.around.asked import Asked
 from tallgrass.systems.around.outlook import Outlook
+from tallgrass.systems.around.transitions import SEAMLESS
 from tallgrass.systems.blow import Hear
 from tallgrass.systems.frame.block import FRAME, FrameBlock, confine
 from tallgrass.systems.grow.record import Growth
@@ -81,7 +82,7 @@ def laid(growths: list[Growth], hills: Terrain) -> Laid:
     def make(*, lod: str = "auto", dense: NDArray[np.float32] | None = None, terrain: Terrain = hills) -> Site:
         maps = np.ones((2, 2, 2), np.float32) if dense is None else dense
         ground = Ground(terrain, Density(maps, terrain.size), QUALITY.patch)
-        return lay_out(SCENE, QUALITY, ground, growths, lod=lod)
+        return lay_out(SCENE, QUALITY, ground, growths, lod=lod, transitions=SEAMLESS)
 
     return make
 

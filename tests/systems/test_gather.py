@@ -59,7 +59,7 @@ def gathered(outlook: Outlook, *, first: int = 0) -> tuple[NDArray[np.void], NDA
         start += len(feet[-1])
     assert outlook.appearance is not None
     shown = [ring for _, ring in strips(outlook)]
-    placements = gather_strips(shown, receivers, outlook.appearance, outlook.patches, outlook.viewer.centre)
+    placements = gather_strips(shown, receivers, outlook.appearance, outlook.patches, outlook.viewer.centre, fade=True)
     return placements, np.concatenate(feet)
 
 

@@ -94,7 +94,7 @@ def test_g1_a_quarter_turn_takes_the_x_axis_to_the_z_axis() -> None:
 @pytest.mark.parametrize("turn", range(4))
 def test_g1_a_blade_turns_as_a_whole_with_its_patch(growths: list[Growth], turn: int) -> None:
     blades = growths[0].models[0].blades
-    records = blade_records(blades, turn, patch=PATCH, kind=1, variants=4)
+    records = blade_records(blades, turn, patch=PATCH, kind=1, variants=4, form=1, record=BLADE)
     spin = np.round(
         [[np.cos(turn * np.pi / 2), np.sin(turn * np.pi / 2)], [-np.sin(turn * np.pi / 2), np.cos(turn * np.pi / 2)]]
     )
@@ -169,7 +169,9 @@ def test_g1_the_blades_of_a_patch_stand_in_the_order_of_their_models_one_kind_af
     stock, found = standing(growths, hills)
     for blades, cell, model, turn in zip(found, CELLS, MODELS, TURNS, strict=True):
         parts = [
-            blade_records(growth.models[model].blades, int(turn), patch=PATCH, kind=kind, variants=6)
+            blade_records(
+                growth.models[model].blades, int(turn), patch=PATCH, kind=kind, variants=6, form=kind, record=BLADE
+            )
             for kind, growth in enumerate(growths)
         ]
         expected = np.concatenate(parts)

@@ -34,7 +34,7 @@ def limits(quality: Quality) -> tuple[int, ...]:
 def test_t4_left_alone_each_representation_reaches_as_far_as_the_quality_says(preset: str) -> None:
     quality = PRESETS[preset]
     expected = (quality.blade_rings[-1].to, quality.strip_rings[-1].to, quality.carpet_to)
-    assert reach_of(limits(quality)) == expected
+    assert reach_of(limits(quality), None) == expected
 
 
 def kinds(count: int) -> Scene:

@@ -55,19 +55,18 @@ class BladeStock:
 
 
 def blade_records(
-    blades: Blades, turn: int, /, *, patch: float, kind: int, variants: int, form: int | None = None,
-    record: np.dtype[np.void] = BLADE,
-) -> NDArray[np.void]:  # fmt: skip
+    blades: Blades, turn: int, /, *, patch: float, kind: int, variants: int, form: int, record: np.dtype[np.void]
+) -> NDArray[np.void]:
     """Return the records of a patch model's blades after quarter turns, roots relative to the patch, shape (n,).
 
-    `record` is `BLADE`, or `ORGAN` if some stand on stems. Postures are those of the `form`, by default the kind's own.
+    `record` is `BLADE`, or `ORGAN` if some stand on stems. Postures are those of the `form`.
     """
     records = np.zeros(len(blades.height), record)
     root = turned(blades.root, np.asarray(turn, np.int32), patch=patch)
     records["root"][:, 0], records["root"][:, 2] = root[:, 0], root[:, 1]
     records["height"], records["width"], records["kind"] = blades.height, blades.width, kind
     records["organ"] = blades.organ
-    records["variant"] = (kind if form is None else form) * variants + blades.variant
+    records["variant"] = form * variants + blades.variant
     records["rest"] = _turned_leans(blades.rest, turn)
     if record == ORGAN:
         records["stem"], records["part"], records["sways"] = (

@@ -305,7 +305,7 @@ class GroundPainter:
             calls += layer.draw(EDGED_CARPET)
         return calls
 
-    def draw_carpet(self, part: int = WHOLE) -> int:
+    def draw_carpet(self, part: int) -> int:
         """Draw a part of the carpet, whose outlines are translucent; return the number of draw calls."""
         self.use()
         rare, changes = self._is_rare or self.is_trodden, any(self._came)

@@ -62,7 +62,7 @@ def gather_strips(
     centre: NDArray[np.int32],
     /,
     *,
-    fade: bool = True,
+    fade: bool,
 ) -> NDArray[np.void]:
     """Return a `PLACEMENT` for each patch shown, ring after ring, shape (m,).
 

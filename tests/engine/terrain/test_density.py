@@ -31,7 +31,7 @@ def save(path: Path, values: NDArray[Any], mode: str | None = None) -> None:
 
 
 def load(folder: Path, **kinds: GrassKind) -> Density:
-    return load_density(kinds, TERRAIN, folder)
+    return load_density(kinds, TERRAIN, folder, {})
 
 
 def channels(seed: int = 0, count: int = 4) -> NDArray[np.uint8]:

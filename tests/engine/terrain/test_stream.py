@@ -30,7 +30,7 @@ def streamed(function: object = dunes, about: tuple[float, float] = (0.0, 0.0), 
 
 def go(terrain: Terrain, x: float, z: float) -> None:
     assert terrain.blocks is not None
-    terrain.become(window_of(terrain.blocks, terrain.blocks.first_about(x, z)))
+    terrain.become(window_of(terrain.blocks, terrain.blocks.first_about(x, z)), leaps=False)
 
 
 def test_heights_and_slopes_are_the_same_near_by_and_far_off_and_when_one_has_come_there() -> None:

@@ -171,7 +171,7 @@ class Scene:
         counts = {name: each.receivers(outlook) for name, each in self.painter.painters.items()}
         first = self.painter.received.allocate([count for each in counts.values() for count in each])[1:]
         numbered = [(start, int(np.prod(pool.shape))) for start, pool in zip(first, pools, strict=False)]
-        placements = gather_strips(rings, numbered, appears, outlook.patches, outlook.viewer.centre)
+        placements = gather_strips(rings, numbered, appears, outlook.patches, outlook.viewer.centre, fade=True)
         fineness, present = (
             [(ring.strips, ring.columns) for ring in strips.rings],
             np.ones((len(placements), 2), np.bool_),

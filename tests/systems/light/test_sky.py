@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tallgrass.engine.camera import Camera, forward, projection_matrix, view_matrix, view_of
 from tallgrass.engine.declared.light import Light
 from tallgrass.systems.frame.block import rays
-from tallgrass.systems.light.air import EYE, GROUND, multiple_scattering, sky_radiance, sunlight
+from tallgrass.systems.light.air import EYE, GROUND, HEIGHTS, multiple_scattering, sky_radiance, sunlight
 from tallgrass.systems.light.billows import SIDE as BLOCK_SIDE
 from tallgrass.systems.light.billows import STEEPEST as STEEPEST_BILLOW
 from tallgrass.systems.light.billows import billow_levels
@@ -94,7 +94,8 @@ def test_light_that_is_scattered_again_makes_the_sky_brighter_and_never_endless(
     up = np.array([[0.0, 1.0, 0.0], [0.0, 0.05, 1.0]])
     apart = (up @ sun)[:, None]
     once, often = (
-        sky_radiance(up[:, 1], apart, 0.5, 2.6, multiple=each) for each in (None, multiple_scattering(sun, 2.6))
+        sky_radiance(up[:, 1], apart, 0.5, 2.6, multiple=each)
+        for each in (None, multiple_scattering(sun, 2.6, heights=HEIGHTS))
     )
     assert (often > once).all()
     assert (often < 3.0 * once + 0.05).all()

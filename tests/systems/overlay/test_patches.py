@@ -44,7 +44,7 @@ def test_n8_squares_stand_in_the_middle_of_their_cells() -> None:
 
 
 def test_n8_each_visible_patch_has_one_square_in_its_representations_colour(outlook: Outlook, site: Site) -> None:
-    patches, marks = outlook.patches, level_marks(outlook, site)
+    patches, marks = outlook.patches, level_marks(outlook, site, settled=False)
     seen = np.flatnonzero(patches.alive & patches.visible)
     assert 0 < len(seen) < patches.alive.sum()
     np.testing.assert_array_equal(cells_of(marks, site.ground.patch), patches.cell[seen])

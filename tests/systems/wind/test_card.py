@@ -20,7 +20,7 @@ from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.quarantine import Quarantine
 from tallgrass.systems.wind.sheets import MessageTexture, Sheets
-from tallgrass.systems.wind.twin import NO_TWIN, Twin, TwinError, check_values, fit_runs, joined_twins, twin_of
+from tallgrass.systems.wind.twin import NO_TWIN, Layout, Twin, TwinError, check_values, fit_runs, joined_twins, twin_of
 from tallgrass.systems.wind.whirlwind import Whirlwind
 from tallgrass.testing.trial import grass_at
 from tallgrass.testing.twins import CLOSE_TWIN, CardEar
@@ -382,7 +382,7 @@ def test_only_rows_of_told_messages_that_differ_are_sent(ctx: moderngl.Context) 
 
 def test_the_lines_of_twins_lead_back_to_their_files() -> None:
     twin = Twin.of("mine.glsl", DRAUGHT.splitlines())
-    (lines,) = joined_twins([twin], [0, NO_TWIN]).values()
+    (lines,) = joined_twins([twin], [0, NO_TWIN], [Layout()]).values()
     assert ("mine.glsl", 2, "float mask_0(vec2 place, Wind wind) {") in lines
 
 

@@ -103,7 +103,7 @@ def test_n4_the_card_hears_a_wind_that_was_changed_as_numpy_does(
         esper.add_component(entity, WindSource(RAMPS[what](part), "wind"))
         prairie.wind_at(FIELD)
         prairie.advance(3.0)
-    now, receivers = prairie.winds.acting(prairie.time), prairie.winds.receivers_at(FIELD)
+    now, receivers = prairie.winds.acting(prairie.time), prairie.winds.receivers_at(FIELD, kind=None)
     assert [wind.primitive.course is not None for wind in now] == [True] * len(now) != []
     ear = CardEar(ctx, receivers.grass)
     found = ear.hear(now, receivers, prairie.winds.quarantine, time=prairie.time, seed=1, mixing="weight")
