@@ -18,6 +18,9 @@ MOST_ROWS = 364
 sky. In a view of 40 degrees a pixel is then 2 mrad high, 1 m on the nearest clouds; billows are 18 m wide and edges 3 m
 soft. It does not depend on the angle of view, so that zooming makes no new pictures."""
 
+COARSE_ROWS = MOST_ROWS // 2
+"""The same of a coarse quality: a pixel is 2 m high on the nearest clouds, still less than their edges are soft."""
+
 MOST_SIZES = 4
 """Number of sizes whose pictures are kept: a viewer's last and present one, and another viewer's."""
 
@@ -102,7 +105,7 @@ class Cloudscape:
     def _size(self) -> Size:
         """Size of the clouds' picture [pixels], by the frame block's record."""
         wide, high = (2.0 * self._record[0]["half_screen"]).tolist()
-        pixel = cloud_pixel(high) + self.coarse
+        pixel = cloud_pixel(high, most_rows=COARSE_ROWS if self.coarse else MOST_ROWS)
         return max(-int(-wide // pixel), 1), max(-int(-high // pixel), 1)
 
     def _picture(self, size: Size) -> tuple[moderngl.Framebuffer, moderngl.Texture]:
@@ -123,9 +126,9 @@ class Cloudscape:
             release_all(*each)
 
 
-def cloud_pixel(height: float, /) -> int:
-    """Return the factor by which clouds are coarser than a picture of this height [pixels]."""
-    return max(-int(-height // MOST_ROWS), 1)
+def cloud_pixel(height: float, /, *, most_rows: int = MOST_ROWS) -> int:
+    """Return the factor by which clouds are coarser than a picture of this height [pixels], in at most `most_rows`."""
+    return max(-int(-height // most_rows), 1)
 
 
 def rows_of_sky(row: NDArray[np.void] | np.void, height: int, /) -> tuple[int, int]:

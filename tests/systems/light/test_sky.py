@@ -26,7 +26,7 @@ from tallgrass.systems.light.clouds import (
     sent_down,
     sun_scattered,
 )
-from tallgrass.systems.light.cloudscape import STEP_LENGTHS, cloud_pixel, rows_of_sky
+from tallgrass.systems.light.cloudscape import COARSE_ROWS, STEP_LENGTHS, cloud_pixel, rows_of_sky
 from tallgrass.systems.light.color import display, luminance
 from tallgrass.systems.light.daylight import daylight
 from tallgrass.systems.light.heaps import STEEPEST, heap_texels
@@ -225,7 +225,9 @@ def test_clouds_are_looked_for_in_all_rows_that_have_sky_and_hardly_more(pitch: 
 
 
 def test_clouds_have_no_more_pixels_than_can_be_seen_of_them() -> None:
-    assert [cloud_pixel(height) for height in (1, 360, 540, 1080, 2160)] == [1, 1, 2, 3, 6]
+    heights = 1, 360, 540, 1080, 2160
+    assert [cloud_pixel(height) for height in heights] == [1, 1, 2, 3, 6]
+    assert [cloud_pixel(height, most_rows=COARSE_ROWS) for height in heights] == [1, 2, 3, 6, 12]
 
 
 @pytest.mark.parametrize("cover", [0.05, 0.2, 0.4, 0.6])
