@@ -3,57 +3,26 @@
 #define PIXELS_ASK
 #include "lib/light.glsl"
 #include "lib/tone.glsl"
-#include "systems/show/carpet/among.glsl"
 #include "systems/show/carpet/lying.glsl"
 #include "systems/show/carpet/outline.glsl"
 #include "systems/show/carpet/texel.glsl"
-#include "systems/show/carpet/within.glsl"
-
-in vec3 place;
-WITHIN in float mesh_share;
-WITHIN in vec2 rise;
-WITHIN in float curvature;
-WITHIN in float rim_path;
-WITHIN in float tall;
-WITHIN in float leaf_area;
-WITHIN in ByKind met;
-WITHIN in vec3 soil_seen;  // display colour, for litter whose brightness is 1
-WITHIN in vec3 soil_shaded;
-WITHIN in mat4 lit;
-#ifdef HEADS
-WITHIN in ByKind riper;
-#endif
-WITHIN in float stands;
-WITHIN in vec2 blown;
-WITHIN in float on_level;
-WITHIN in float on_strips;
-WITHIN in vec4 leaf_range;
-WITHIN in float elevation;
+#define PASSED in
+#include "systems/show/carpet/coarse.glsl"
 
 out vec4 pixel;
 
 uniform int part;  // pixels to draw: 0, all; 1, those with a coverage of at least half; 2, the others
 const int ROWS = 40503;  // numbers of cells from one row to the next
-const float CONTRAST = 1.3;  // gain of contrast: several kinds are lit as one, and differ as much as if each were lit
 const float BITS = 16.0;  // in each half of the random bits of a patch
 const uint LOWER_HALF = 0xFFFFu;
 
-// Texture coordinates, image and level that a pixel reads of each kind.
+// Texture coordinates and image that a pixel reads of each kind.
 struct Look {
     vec2 at;        // texture coordinates
     int image;      // index among the images of a kind
     ivec2 between;  // images of both slopes
     float blend;    // weight of the second slope
-    float level;    // mip level
-    float grain;    // gain of contrast about the mean of images
 };
-
-// Gain of contrast at a mip level, for a pixel `across` [m] wide.
-float grain_seen(float level, float across) {
-    float steep = smoothstep(STEEP.x, STEEP.y, on_level), filtered = clamp(level + FILTERED - log2(SHARP), 0.0, 1.0);
-    float far = inversesqrt(1.0 + across / (FEATURE * max(tall, LOWEST_GRASS)));
-    return CONTRAST * mix(far * mix(1.0, GRAIN, filtered), mix(1.0, GRAIN_ABOVE.x, filtered), steep);
-}
 
 // Of the images of two slopes each patch shows one, chosen at random by their weights.
 Look look_along(vec2 heading) {
@@ -65,12 +34,9 @@ Look look_along(vec2 heading) {
     int model = int((float(random_bits & LOWER_HALF) + 0.5) * (float(stock.x) * exp2(-BITS)));
     float longer = max(on_level, FLATTEST) / slopes[slope] - 1.0;
     float along = dot(here, heading) * longer * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, on_level));
-    vec2 beside = vec2(-heading.y, heading.x);
-    float across = max(abs(dot(dFdx(place.xz), beside)), abs(dot(dFdy(place.xz), beside)));
-    float level = log2(max(across * patches_per_metre, THINNEST_PIXEL) * (SHARP * float(textureSize(images, 0).x)));
     ivec3 image = (model * SLOPES + ivec3(low, low + 1, slope)) * HEADINGS + side;
     vec2 place_in_image = rotated(here + heading * along, image_turn(heading, side)) + 0.5;
-    return Look(place_in_image, image.z, image.xy, elevation - float(low), level, grain_seen(level, across));
+    return Look(place_in_image, image.z, image.xy, elevation - float(low));
 }
 
 // Sums over all kinds, weighted by coverage: pigment and height; coverage; excess of height over the mean.
@@ -81,15 +47,14 @@ struct Grass {
     float taller;
 };
 
-// Add a kind; `high` is the factor of height from among_strips.
-void add_kind(inout Grass sum, int kind, Look look, vec2 facing, float high) {
+void add_kind(inout Grass sum, int kind, Look look, vec2 facing) {
     float part = OF(met, kind), from = OF(first, kind);
     vec4 lower = layer_mean(images, int(from) + look.between.x, stock.z), steeper = layer_mean(images, int(from) + look.between.y, stock.z);
     vec4 mean = mix(lower, steeper, look.blend), own_mean = look.image == look.between.x ? lower : steeper;
-    vec4 image = max(mean + (layer_at(images, vec3(look.at, from + float(look.image)), look.level) - own_mean) * look.grain, 0.0);
-    float covers = max(1.0 - (1.0 - min(image.a, 1.0)) * packed_extra(lit).x, 0.0);
+    vec4 image = max(mean + (layer_at(images, vec3(look.at, from + float(look.image)), level) - own_mean) * grain, 0.0);
+    float covers = max(1.0 - (1.0 - min(image.a, 1.0)) * bent_through, 0.0);
     vec3 shown = min(image.rgb / max(image.a, LEAST_TEXEL), 1.0);
-    vec2 at = leaf_range.xy - leaf_range.zw * (1.0 - high * shown.rg);
+    vec2 at = places.xy * (places.z + places.w * shown.rg);
 #ifdef HEADS
     float ripe = OF(riper, kind);
     at.x += ripe * (ripe > 0.0 ? 1.0 - at.x : at.x);
@@ -109,43 +74,39 @@ void add_kind(inout Grass sum, int kind, Look look, vec2 facing, float high) {
     sum.taller += part * (shown.g * mean.a / max(mean.g, LEAST_TEXEL) - 1.0);
 }
 
-Grass grass_seen(vec2 heading, float high) {
+Grass grass_seen(vec2 heading) {
     Look look = look_along(heading);
     Grass sum = Grass(vec3(0.0), 0.0, 0.0, 0.0);
     for (int kind = 0; kind < KINDS; kind++)
         if (OF(met, kind) > LEAST_MET)
-            add_kind(sum, kind, look, doubled_angle(heading), high);
+            add_kind(sum, kind, look, doubled_angle(heading));
     float all = 1.0 / max(sum.covers, LEAST_TEXEL);
     return Grass(sum.pigment * all, sum.height * all, min(sum.covers, 1.0), sum.taller);
 }
 
-// Opacity of the grass along an outline, that of a crest or of a rim. One image has twice the variance of two that are mixed, hence the
-// root of `spikes`.
-float hides_behind(float slope, float spikes) {
+// Opacity of the grass along an outline, that of a crest or of a rim, for plants taller than the mean by a fraction `taller`. One image
+// has twice the variance of two that are mixed, hence the root of their factor.
+float hides_behind(float slope, float taller, float share) {
+    vec2 path = max(slope * abs(slope) / crest + in_pixel, 0.0), leaves = crest_leaves * inversesqrt(crest) * path * sqrt(path);
     if (rim_path < NO_RIM)
-        return 1.0 - transmittance(RIM * leaf_area * sqrt(spikes) * rim_path * rim_path);
-    return outline_cover(leaves_over_crest(slope, curvature, tall, stands, leaf_area, pixel_height(place)) * sqrt(spikes));
+        leaves = vec2(rim_leaves * rim_path * rim_path);
+    return 1.0 - dot(transmittance(leaves * sqrt(spike_factor(taller, share))), vec2(HALF));
 }
 
 void main() {
     float share = mesh_share > 0.0 ? share_at(ivec2(floor(place.xz * patches_per_metre))) : 0.0, covered = 1.0;
-    float sunny = has_casters() ? casters_visibility(place) : 1.0;
-    vec3 soil = has_casters() ? mix(soil_shaded, soil_seen, sunny) : soil_seen;
-    vec3 color = soil * litter_at(place.xz, dFdx(place.xz), dFdy(place.xz), share > 0.0 ? 0.0 : 1.0).x;
+    vec2 shadow = has_casters() ? mix(in_shade, vec2(1.0), casters_visibility(place)) : vec2(1.0);
+    vec3 color = soil_seen * (shadow.y * litter_at(place.xz, dFdx(place.xz), dFdy(place.xz), share > 0.0 ? 0.0 : 1.0).x);
     if (share > 0.0) {
         vec3 ray = place - eye;
         float nearness = inversesqrt(max(dot(ray.xz, ray.xz), TINY * TINY)), facing = (dot(rise, ray.xz) - ray.y) * nearness;
-        float slope = max(rim_path < NO_RIM ? facing : slope_below(facing, curvature, pixel_height(place)), 0.0);
-        vec2 among = on_strips > 0.0 ? among_strips(on_strips * on_strips, on_level, mesh_share, stands, leaf_area) : vec2(1.0);
-        Grass grass = grass_seen(ray.xz * nearness, among.y);
-        Light light = unpack_light(lit);
-        if (has_casters())
-            light = shadowed(light, sunny, 1.0);
-        vec3 leaves = tone_mapped(shade(leaf_surface(grass.pigment, grass.height), light));
-        float deep = deepest(slope, curvature, tall * stands);
-        float covers = among.x * mix(min(grass.covers / LEAST_COVER, 1.0), grass.covers, smoothstep(ENDS.x * share, ENDS.y * share, deep));
+        Grass grass = grass_seen(ray.xz * nearness);
+        vec3 light = max(ground_light + light_rise * grass.height, 0.0) * shadow.x;
+        vec3 leaves = tone_mapped(grass.pigment * grass.pigment * light + air_light);
+        float slope = max(facing, 0.0), ends = smoothstep(ENDS.x * share, ENDS.y * share, slope * slope / crest_deep);
+        float covers = past_strips * mix(min(grass.covers / LEAST_COVER, 1.0), grass.covers, ends);
         color = color * (1.0 - covers) + leaves * covers;
-        covered = mix(1.0, hides_behind(facing, spike_factor(grass.taller, share)), min(share / SHOWN_FROM, 1.0));
+        covered = mix(1.0, hides_behind(facing, grass.taller, share), min(share / SHOWN_FROM, 1.0));
     }
     if (covered < max(NOTHING, STANDING * (1.0 - share)))
         discard;

@@ -138,10 +138,10 @@ class GroundPainter:
         ]
         for layers, name, defines in wanted:
             simple = self._is_coarse and layers is self.carpet and len(layers) < len(firsts)
-            files = f"systems/show/carpet/{name}.vert", f"systems/show/carpet/{'coarse' if simple else name}.frag"
-            complete = defines | {"COARSE": 1} if simple else defines
-            make = partial(joined, ctx, self._block, self.units, *files, complete)
-            texts = partial(self._block.texts, *files, complete)
+            stem = f"systems/show/carpet/{'coarse' if simple else name}"
+            files = f"{stem}.vert", f"{stem}.frag"
+            make = partial(joined, ctx, self._block, self.units, *files, defines)
+            texts = partial(self._block.texts, *files, defines)
             layers.append(Layer(make, texts, self.shelves, self.skirted if layers is self.edged else self.grids))
         self.restock(stock)
 

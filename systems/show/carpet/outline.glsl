@@ -11,20 +11,9 @@ const float LEAST_COVER = 0.05;  // least coverage of grass over a crest whose c
 const vec2 ENDS = vec2(0.5, 1.5);  // greatest depths, relative to the carpet's share, of lines of sight that see grass behind, and ground
 const float HALF = 0.5;
 
-const float HIGHER = 0.4;  // raise of an outline, which is thin in its last pixels; the mesh is raised by half a pixel [pixels]
 const vec4 IN_PIXEL = vec4(-0.375, -0.125, 0.125, 0.375);  // lines of sight that sample a pixel, as fractions of its height
 const float LINES_IN_PIXEL = 4.0;  // their number
 const float ENOUGH = 2.8;  // mean optical depth at which taller plants make no difference
-const float OPAQUE = 12.0;  // optical depth of bare ground, which is its own outline
-
-// Raise of an outline over a crest [m], for pixels of this height [m]: none on a game's own ground, where nothing is behind the edge.
-float outline_raise(float curvature, float pixel) {
-#ifdef EDGED
-    return 0.0;
-#else
-    return over_hosts > 0.0 ? 0.0 : HIGHER * crest_amount(curvature) * pixel;
-#endif
-}
 
 // Optical depths over a crest, of the lines of sight IN_PIXEL of a pixel of this height [m]. One that passes at a relative depth d below
 // the top of the grass meets d^2 of its leaf area, which falls off linearly with height, on a path that goes by the root of d.

@@ -20,6 +20,9 @@ const float LEAST_MET = 0.004;  // least share of a kind in what is met that is 
 const float LEAST_HEADS = 1e-3;  // least share of heads, and of other leaves, in what is met of a kind
 const float LOWEST_GRASS = 0.01;  // least height of grass [m]
 
+const float OPAQUE = 12.0;  // optical depth of bare ground, which is its own outline
+const float HIGHER = 0.4;  // raise of an outline, which is thin in its last pixels; the mesh is raised by half a pixel [pixels]
+
 const float NO_RIM = 500.0;  // value of rim_path_at from which on a line of sight passes over no rim
 
 uniform float outline;  // height of the carpet along outlines, as a fraction of its height elsewhere; 0: the same
@@ -38,6 +41,15 @@ float pixel_height(vec3 place) {
 // Degree to which ground of this curvature counts as a crest, in [0, 1].
 float crest_amount(float curvature) {
     return clamp(curvature / CREST_CURVATURE, 0.0, 1.0);
+}
+
+// Raise of an outline over a crest [m], for pixels of this height [m]: none on a game's own ground, where nothing is behind the edge.
+float outline_raise(float curvature, float pixel) {
+#ifdef EDGED
+    return 0.0;
+#else
+    return over_hosts > 0.0 ? 0.0 : HIGHER * crest_amount(curvature) * pixel;
+#endif
 }
 
 // Degree to which a line of sight with this greatest depth passes over a crest, in [0, 1].
