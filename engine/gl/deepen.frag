@@ -7,7 +7,7 @@ uniform bool whole;  // whether `enlarge` writes depth where the host has drawn 
 out vec4 pixel;
 
 void main() {
-    if (whole && !host_has_drawn(host_depth_here())) {
+    if (whole && !is_drawn(host_depth_here())) {
         discard;
     }
     float drawn = texture(small_depth, at).r;

@@ -1,4 +1,5 @@
-// Writes the picture's colour, opaque, and its depth where the host has drawn nothing, even next to what the host has drawn.
+// Writes the picture's colour, opaque, and its depth where the host has drawn nothing, even next to what the host has drawn. With TILED,
+// the host has drawn nothing at all; then depth is written with DEEP alone, on tiles where the picture has any.
 
 #include "engine/gl/smaller.glsl"
 
@@ -8,13 +9,17 @@ const float OPAQUE = 0.9;  // opacity from which no thing of the host's is near,
 out vec4 pixel;
 
 void main() {
-    if (host_has_drawn(host_depth_here())) {
+#ifndef TILED
+    if (is_drawn(host_depth_here())) {
         discard;
     }
+#endif
     vec4 drawn = upsampled(at);
     if (drawn.a < LEAST) {
         discard;
     }
     pixel = vec4(min(drawn.rgb / drawn.a, 1.0), 1.0);
+#if defined(DEEP) || !defined(TILED)
     gl_FragDepth = drawn.a < OPAQUE ? farthest : texture(small_depth, at).r;
+#endif
 }

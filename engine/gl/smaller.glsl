@@ -25,8 +25,8 @@ float host_depth_here() {
     return texelFetch(host_depth, ivec2(gl_FragCoord.xy) - corner, 0).r;
 }
 
-// Whether a depth is of something that the host has drawn.
-bool host_has_drawn(float depth) {
+// Whether a depth is of something that has been drawn.
+bool is_drawn(float depth) {
     return depth != farthest;
 }
 

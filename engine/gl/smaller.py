@@ -12,6 +12,7 @@ from .functions import ENUMS, functions_of
 from .guest import aside, colourless, depth_ends, farthest_depth, set_depth_test
 from .occlusion import OcclusionQuery
 from .outputs import has_depth
+from .rasteriser import draws_in_software
 from .shaders import program
 from .stream import release_all
 from .units import UNITS
@@ -29,14 +30,32 @@ MOST_SIZES = 4
 TEXTURE_UNITS = dict(zip(("host_depth", "small_color", "small_depth"), UNITS[-3:], strict=True))
 """Texture units of the samplers: the last ones, whose other users bind their textures anew before each use."""
 
+TILES_UNIT = TEXTURE_UNITS["host_depth"]
+"""Texture unit of the sorts of tiles: no pass reads the host's depth as well."""
+
+TILE = 16
+"""Width and height of a tile, which a card draws with depth or without [pixels of the smaller picture]."""
+
+TILE_VERTICES = 6
+"""Vertices of a tile's two triangles."""
+
+FLAT, OF_HOST, DEEP = 0.0, 0.5, 1.0
+"""Sorts of tiles: those without any depth, those of a picture where the host has drawn anything, those with depth."""
+
+GLSL = {"TILE": TILE, "TILE_FLAT": FLAT, "TILE_OF_HOST": OF_HOST, "TILE_DEEP": DEEP, "TILE_VERTICES": TILE_VERTICES}
+
 PASSES = {"find": ">", "bring": "1", "fit": ">", "deepen": "<", "enlarge": "1", "lay": "1"}
-"""Depth test of each pass.
+"""Depth test of each pass that fills the viewport.
 
 `find` asks whether the host has drawn any pixel, and `bring` copies the host's depth to the smaller buffer. `fit`
 blends the picture over the host's pixels, and `deepen` writes its depth there. `enlarge` writes colour and depth where
 the host has drawn nothing. `find` and `fit` draw at the far plane. `lay`, where nothing else has depth, replaces `fit`,
 `deepen` and `enlarge`: it draws the picture over everything.
 """
+
+TILED = {FLAT: "flat", DEEP: "deep"}
+"""Passes over tiles of a sort, by which a card enlarges the picture where the host has drawn nothing at all: most of a
+frame's depth would be that of the sky, which is there already. `sort` finds out which tiles are of which sort."""
 
 
 def smaller_size(size: Size, scale: float, /) -> Size:
@@ -47,12 +66,14 @@ def smaller_size(size: Size, scale: float, /) -> Size:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Buffers:
-    """A smaller framebuffer with its textures of colour and depth, and a copy of the host's depth."""
+    """A smaller framebuffer with its textures of colour and depth, a copy of the host's depth, and sorts of tiles."""
 
     host_depth: moderngl.Texture
     color: moderngl.Texture
     depth: moderngl.Texture
     target: moderngl.Framebuffer
+    tiles: moderngl.Texture
+    sorting: moderngl.Framebuffer
 
     @classmethod
     def made(cls, ctx: moderngl.Context, full: Size, small: Size, /, *, floats: bool = False) -> "Buffers":
@@ -66,7 +87,9 @@ class Buffers:
             texture.repeat_x = texture.repeat_y = False
         for texture in (host_depth, depth):
             texture.compare_func, texture.filter = "", (moderngl.NEAREST, moderngl.NEAREST)
-        return cls(host_depth, color, depth, ctx.framebuffer([color], depth))
+        tiles = ctx.texture((-(-small[0] // TILE), -(-small[1] // TILE)), 1)
+        tiles.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        return cls(host_depth, color, depth, ctx.framebuffer([color], depth), tiles, ctx.framebuffer([tiles]))
 
     def use(self) -> None:
         """Bind the textures to the units of the passes' samplers."""
@@ -75,8 +98,8 @@ class Buffers:
         self.depth.use(TEXTURE_UNITS["small_depth"])
 
     def release(self) -> None:
-        """Release framebuffer and textures."""
-        release_all(self.target, self.host_depth, self.color, self.depth)
+        """Release framebuffers and textures."""
+        release_all(self.target, self.sorting, self.host_depth, self.color, self.depth, self.tiles)
 
 
 class Smaller:
@@ -94,6 +117,8 @@ class Smaller:
         self._uniforms: dict[str, object] = {}
         """Values of uniforms that all programs were given last, by name."""
         self._warned: set[str] = set()
+        self._by_tiles = not draws_in_software(ctx)
+        """Whether the picture is enlarged tile by tile where the host has drawn nothing: where a card finds that out."""
 
     @contextmanager
     def instead_of(
@@ -126,6 +151,8 @@ class Smaller:
                 with self._if_host_has_drawn(host), colourless(buffers.target):
                     self._run("bring")
             yield buffers.target
+            if is_whole and not is_alone:
+                self._sort(host, buffers)
         self._enlarge(host, buffers, is_whole=is_whole, is_alone=is_alone)
 
     def _enlarge(self, host: moderngl.Framebuffer, buffers: Buffers, *, is_whole: bool, is_alone: bool) -> None:
@@ -138,13 +165,38 @@ class Smaller:
             host.depth_mask = True
             return
         self._set_uniforms({"whole": is_whole, "corner": (x, y)})
+        if is_whole and self._by_tiles:
+            self._draw_tiles(host, buffers)
         with self._if_host_has_drawn(host) if is_whole else nullcontext():
+            host.depth_mask = False
             self._run("fit", blending=OVER, everywhere=not is_whole)
             host.depth_mask = True
             with colourless(host):
                 self._run("deepen")
-        if is_whole:
+            if is_whole and self._by_tiles:
+                self._run("enlarge")
+        if is_whole and not self._by_tiles:
             self._run("enlarge")
+
+    def _sort(self, host: moderngl.Framebuffer, buffers: Buffers) -> None:
+        """Sort the tiles of the smaller picture."""
+        if not self._by_tiles:
+            return
+        self._bind(buffers)
+        buffers.sorting.scissor = None  # type: ignore[assignment]
+        buffers.sorting.use()
+        self._run("sort", everywhere=True)
+        with self._if_host_has_drawn(host):
+            self._gl.glClearBufferfv(ENUMS["COLOR"], 0, (c_float * 4)(*(OF_HOST,) * 4))
+
+    def _draw_tiles(self, host: moderngl.Framebuffer, buffers: Buffers) -> None:
+        """Draw the smaller picture over the host's where the host has drawn nothing."""
+        buffers.tiles.use(TILES_UNIT)
+        columns, rows = buffers.tiles.size
+        for sort, name in TILED.items():
+            host.depth_mask = sort == DEEP
+            self._run(name, everywhere=sort == FLAT, vertices=TILE_VERTICES * columns * rows)
+        buffers.host_depth.use(TEXTURE_UNITS["host_depth"])
 
     def _find(self, host: moderngl.Framebuffer, buffers: Buffers) -> None:
         """Let the card find out whether the host has drawn anything with depth: mostly it has not."""
@@ -175,23 +227,34 @@ class Smaller:
         for what, values in (("COLOR", (0.0,) * 4), ("DEPTH", (farthest_depth(),))):
             self._gl.glClearBufferfv(ENUMS[what], 0, (c_float * len(values))(*values))
 
-    def _run(self, name: str, *, blending: tuple[int, int] | None = None, everywhere: bool = False) -> None:
+    def _run(
+        self, name: str, *, blending: tuple[int, int] | None = None, everywhere: bool = False, vertices: int = 3
+    ) -> None:
         """Draw one of the passes, with its depth test unless `everywhere`."""
         ctx = self._ctx
         tested = moderngl.NOTHING if everywhere else moderngl.DEPTH_TEST
         ctx.enable_only(tested if blending is None else tested | moderngl.BLEND)
         ctx.blend_func = blending or (moderngl.ONE, moderngl.ZERO)
-        set_depth_test(ctx, PASSES[name])
-        self._passes[name].render(moderngl.TRIANGLES, 3)
+        set_depth_test(ctx, PASSES.get(name, "1"))
+        self._passes[name].render(moderngl.TRIANGLES, vertices)
         set_depth_test(ctx, "<=")
 
     def make_ready(self) -> None:
         """Make the programs of the passes, at the first call."""
         for name in PASSES.keys() - self._passes.keys():
-            self._programs[name] = program(self._ctx, "engine/gl/fill.vert", f"engine/gl/{name}.frag")
-            self._passes[name] = self._ctx.vertex_array(self._programs[name], [])
-            self._uniforms.clear()
+            self._add(name, program(self._ctx, "engine/gl/fill.vert", f"engine/gl/{name}.frag"))
+        if self._by_tiles and TILED[FLAT] not in self._passes:
+            self._add("sort", program(self._ctx, "engine/gl/fill.vert", "engine/gl/sort.frag"))
+            for sort, name in TILED.items():
+                defines = {"TILED": 1, "DEEP": 1} if sort == DEEP else {"TILED": 1}
+                self._add(name, program(self._ctx, "engine/gl/tile.vert", "engine/gl/enlarge.frag", defines=defines))
+                self._programs[name]["sort"], self._programs[name]["tiles"] = sort, TILES_UNIT
         self._set_uniforms(TEXTURE_UNITS)
+
+    def _add(self, name: str, made: moderngl.Program) -> None:
+        """Add the program of a pass."""
+        self._programs[name], self._passes[name] = made, self._ctx.vertex_array(made, [])
+        self._uniforms.clear()
 
     def _is_obstructed(self, host: moderngl.Framebuffer) -> bool:
         """Return whether the host's framebuffer cannot be replaced by a smaller one; log the reason once."""

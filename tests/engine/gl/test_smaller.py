@@ -56,8 +56,10 @@ def host(ctx: moderngl.Context) -> Iterator[Host]:
     release_all(made.target, made.color, made.depth)
 
 
-@pytest.fixture
-def smaller(ctx: moderngl.Context) -> Iterator[Smaller]:
+@pytest.fixture(params=["software", "card"])
+def smaller(ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> Iterator[Smaller]:
+    if request.param == "card":
+        monkeypatch.setenv(rasteriser.AS_CARD, "1")
     made = Smaller(ctx)
     yield made
     made.release()
@@ -88,6 +90,20 @@ def test_n11_what_is_drawn_smaller_fills_the_hosts_viewport_and_is_as_deep(
         fill(RED, depth=0.5)
     assert (host.picture() == (255, 0, 0, 255)).all()
     np.testing.assert_allclose(host.depths(), 0.75, atol=1e-6)
+
+
+@pytest.mark.parametrize("left", [-1.0, -0.3, 0.5, 0.9])
+def test_n11_depth_is_written_where_the_smaller_picture_has_any_and_nowhere_else(
+    ctx: moderngl.Context, host: Host, smaller: Smaller, fill: Fill, left: float
+) -> None:
+    with guest(ctx) as target, smaller.instead_of(target, 0.5):
+        fill(RED, depth=1.0)
+        fill(GREEN, (left, 0.2, left + 0.1, 0.6), depth=0.5)
+    assert (host.picture()[..., :2].max(axis=-1) > 100).all()
+    expected = np.ones(SIZE[::-1], np.float32)
+    column = round(0.25 * SIZE[0] * (left + 1.0)) * 2
+    expected[18:24, column : column + 2] = 0.75
+    np.testing.assert_allclose(host.depths(), expected, atol=1e-6)
 
 
 @pytest.mark.parametrize("scale", [0.35, 0.5, 0.77])
@@ -151,11 +167,15 @@ def test_n11_where_nothing_else_has_depth_the_hosts_is_neither_read_nor_written(
     np.testing.assert_array_equal(host.depths(), before)
 
 
-@pytest.mark.parametrize("passes", [2, 5], ids=["nothing", "something"])
+OVER_TILES = 2 * 2 * 2
+"""Triangles of both passes over the two tiles of a small picture."""
+
+
+@pytest.mark.parametrize("smaller", ["card"], indirect=True)
+@pytest.mark.parametrize("passes", [2, 6], ids=["nothing", "something"])
 def test_n11_a_card_brings_nothing_over_and_fits_nothing_where_the_host_has_drawn_nothing(
-    ctx: moderngl.Context, host: Host, smaller: Smaller, fill: Fill, monkeypatch: pytest.MonkeyPatch, passes: int
+    ctx: moderngl.Context, host: Host, smaller: Smaller, fill: Fill, passes: int
 ) -> None:
-    monkeypatch.setenv(rasteriser.AS_CARD, "1")
     if passes > 2:
         fill(GREEN, (0.9, 0.9, 1.0, 1.0), depth=0.8)
     host.target.scissor = 0, 0, 10, 10  # which that is beside
@@ -163,20 +183,20 @@ def test_n11_a_card_brings_nothing_over_and_fits_nothing_where_the_host_has_draw
     counted = ctx.query(primitives=True)
     with guest(ctx) as target, counted, smaller.instead_of(target, 0.5):
         pass
-    assert counted.primitives == passes
+    assert counted.primitives == passes + OVER_TILES
 
 
+@pytest.mark.parametrize("smaller", ["card"], indirect=True)
 def test_n11_where_nothing_is_shown_all_passes_are_done_so_that_drivers_get_ready(
-    ctx: moderngl.Context, host: Host, smaller: Smaller, monkeypatch: pytest.MonkeyPatch
+    ctx: moderngl.Context, host: Host, smaller: Smaller
 ) -> None:
-    monkeypatch.setenv(rasteriser.AS_CARD, "1")
     counted = ctx.query(primitives=True)
     host.target.use()
     with guest(ctx) as target, counted:
         target.scissor = 0, 0, 0, 0
         with smaller.instead_of(target, 0.5):
             pass
-    assert counted.primitives == 5
+    assert counted.primitives == 6 + OVER_TILES
 
 
 def test_n11_it_keeps_to_the_hosts_viewport_scissor_and_colours(
