@@ -118,7 +118,7 @@ class Smaller:
         """Values of uniforms that all programs were given last, by name."""
         self._warned: set[str] = set()
         self._by_tiles = not draws_in_software(ctx)
-        """Whether the picture is enlarged tile by tile where the host has drawn nothing: where a card finds that out."""
+        """Whether the picture is enlarged by tiles where the host has drawn nothing: where a card finds that out."""
 
     @contextmanager
     def instead_of(

@@ -25,9 +25,8 @@ void set_outline(Laid laid) {
 }
 
 // Set `past_strips` and `places`, the change of images among strips, over a crest and in the wind; return the place along blades and the
-// height of the lower leaf, then those of the leaf on top.
-vec4 set_places(Laid laid, float slope, vec2 bent) {
-    float on_strips = strips_met(place.xz, max(slope, TINY), laid.share, laid.tall, laid.stands).y;
+// height of the lower leaf, then those of the leaf on top. `on_strips` is the leaf area on strips above, as a fraction of the grass's.
+vec4 set_places(Laid laid, float slope, float on_strips, vec2 bent) {
     vec2 among = on_strips > 0.0 ? among_strips(on_strips, on_level, laid.share, laid.stands, laid.leaf_area) : vec2(1.0);
     float deep = deepest(slope, laid.curvature, laid.tall * laid.stands);
     deep = depth_factor(deep, on_level, laid.share, laid.curvature, laid.stands, laid.leaf_area);
@@ -55,7 +54,7 @@ void set_light(Light light, vec4 leaves) {
 }
 
 // Light the leaves that are met; return the haze before them.
-vec3 light_leaves(Laid laid, float slope) {
+vec3 light_leaves(Laid laid, float slope, float on_strips) {
     vec3 there = leaf_place(place, slope, laid.tall, laid.leaf_area);
     vec2 messages[KINDS];
     for (int kind = 0; kind < KINDS; kind++)
@@ -69,7 +68,7 @@ vec3 light_leaves(Laid laid, float slope) {
     canopy.light.sky *= fresh * fresh;
     bent_through = transmittance(canopy.bent.x);
     Light light = hazed(canopy.light, place);
-    set_light(light, set_places(laid, slope, canopy.bent.yz));
+    set_light(light, set_places(laid, slope, on_strips, canopy.bent.yz));
     return light.haze;
 }
 
@@ -115,19 +114,20 @@ void main() {
     Laid laid = lifted_on(place);
     mesh_share = laid.share;
     float slope = viewing_slope(laid.rise, place), from_above = max(slope, FLATTEST);
-    float before = strips_met(place.xz, from_above, laid.share, laid.tall, laid.stands).x;
+    vec2 before = strips_met(place.xz, from_above, laid.share, laid.tall, laid.stands);
     on_level = max(level_slope(max(slope, 0.0), laid.curvature, laid.share, laid.tall, laid.stands), FLATTEST);
     ByKind ripe;
-    met = kinds_met(laid.densities, on_level, laid.cut_height, height_past_strips(1.0 - before, laid.share), ripe);
+    met = kinds_met(laid.densities, on_level, laid.cut_height, height_past_strips(1.0 - before.x, laid.share), ripe);
     met = image_weights(met, laid.densities, on_level);
+    light_soil(seen_behind(place, laid.ground, from_above), light_leaves(laid, slope, before.y));
+    // Last comes what is simple: the fewer numbers a vertex has to keep meanwhile, the more of them a card computes at a time.
 #ifdef HEADS
     riper = ripe;
 #endif
     elevation = elevation_index(on_level, laid.leaf_area);
     blown = sway_of(met, laid.message) * laid.message;
-    set_sharpness(laid.tall);
-    light_soil(seen_behind(place, laid.ground, from_above), light_leaves(laid, slope));
     met = filled_covers(met);
-    set_outline(laid);  // last, as cards keep few numbers at a time
+    set_sharpness(laid.tall);
+    set_outline(laid);
     gl_Position = clip * vec4(place, 1.0);
 }

@@ -57,7 +57,9 @@ def host(ctx: moderngl.Context) -> Iterator[Host]:
 
 
 @pytest.fixture(params=["software", "card"])
-def smaller(ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> Iterator[Smaller]:
+def smaller(
+    ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+) -> Iterator[Smaller]:
     if request.param == "card":
         monkeypatch.setenv(rasteriser.AS_CARD, "1")
     made = Smaller(ctx)
