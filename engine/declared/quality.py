@@ -68,7 +68,7 @@ class Quality(Declaration):
 
     coarse: bool = False
     """Whether the carpet has one image of each kind, and the ground's mesh far off half as many points along a side: at
-    about two thirds of the cost. With more than four kinds, only the mesh is coarser. Clouds have fewer pixels, too."""
+    three fifths of the cost. With more than four kinds, only the mesh is coarser. Clouds have fewer pixels, too."""
 
     pixels: float = Field(default=1.0, ge=0.25, le=1.0)
     """Resolution along each side as a fraction of the picture's; below 1 the picture is scaled up afterwards."""

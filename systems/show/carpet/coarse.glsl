@@ -23,7 +23,7 @@ WITHIN PASSED float level;         // mip level of the images
 WITHIN PASSED float grain;         // gain of contrast about the mean of images
 WITHIN PASSED float past_strips;   // opacity of the grass among strips, from among_strips
 WITHIN PASSED float bent_through;  // transmittance of the additional leaves that a line of sight meets in bent grass
-WITHIN PASSED vec4 places;         // factors of the place along blades and of the height; then what images are added to, and their factor
+WITHIN PASSED vec4 places;         // place along blades and height of leaves on top; their parts that images do not change, and do
 WITHIN PASSED vec3 ground_light;   // radiance of a white leaf on the ground, as if light were linear in height
 WITHIN PASSED vec3 light_rise;     // its rise to the top of the canopy
 WITHIN PASSED vec3 air_light;      // radiance of haze and gloss before leaves
