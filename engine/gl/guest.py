@@ -13,7 +13,7 @@ from .current import current_functions, is_own, own_context
 from .functions import ENUMS, functions_of
 from .host import State, has_windows, is_hidden, loaded_gl, pyglet_context
 from .limits import limits_of
-from .outputs import colour_attachments, is_not_plain_2d
+from .outputs import is_not_plain_2d
 from .units import SCRATCH_UNIT
 
 _saved: list[State] = []
@@ -192,23 +192,23 @@ def _moderngl_restored(ctx: moderngl.Context, target: moderngl.Framebuffer, stat
 
 def _bound(ctx: moderngl.Context) -> moderngl.Framebuffer:
     """Return the framebuffer that the host has bound; its `size` may be out of date, where the host has resized it."""
-    gl = functions_of(ctx)
-    framebuffer = gl.number("DRAW_FRAMEBUFFER_BINDING")
-    return _detected(ctx, framebuffer, colour_attachments(gl) if framebuffer else 0)
+    state = _saved[-1]
+    return _detected(ctx, (state.gl.number("DRAW_FRAMEBUFFER_BINDING"), state.has_several_outputs))
 
 
 @lru_cache(maxsize=256)
-def _detected(ctx: moderngl.Context, framebuffer: int, _attachments: int, /) -> moderngl.Framebuffer:
-    """Return moderngl's object of the bound framebuffer of this number, which draws into all colour attachments.
+def _detected(ctx: moderngl.Context, sort: tuple[int, bool], /) -> moderngl.Framebuffer:
+    """Return moderngl's object of the bound framebuffer, of this number and with several outputs or not.
 
     moderngl never frees such an object, so that one a frame would fill the memory. Viewport and scissor box are set
-    whenever it is drawn into, so it serves until the host gives its number to one with more or fewer attachments.
+    whenever it is drawn into, and other outputs than the first are restored where there are several: so it serves
+    until the host gives its number to another sort.
 
     moderngl binds the first colour texture as 2D to query the size. Where that texture has several samples or layers,
     this leaves a GL error, which the host would take for its own.
     """
     found = ctx.detect_framebuffer()
-    if framebuffer and is_not_plain_2d(functions_of(ctx)):
+    if sort[0] and is_not_plain_2d(functions_of(ctx)):
         _ = ctx.error
     return found
 

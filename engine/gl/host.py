@@ -188,6 +188,11 @@ class State:
         return self._value["DRAW_FRAMEBUFFER_BINDING"][0]
 
     @property
+    def has_several_outputs(self) -> bool:
+        """Whether that framebuffer may have several colour attachments."""
+        return self._outputs.has_several
+
+    @property
     def flags(self) -> int:
         """Flags of moderngl that the host has enabled."""
         return sum(getattr(moderngl, name) for name in MODERNGLS if name in self._on)

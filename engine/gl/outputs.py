@@ -23,8 +23,9 @@ class Outputs:
         blend, self._blends = ENUMS["BLEND"], blends
         self._unlike = [output for output in OTHERS if bool(gl.glIsEnabledi(blend, output)) != blends]
         self._drawn = _drawn(gl) if framebuffer else None
-        several = self._drawn is not None and (any(self._drawn[1:]) or _attached(gl, ENUMS["COLOR_ATTACHMENT1"]))
-        self._masks = {output: _mask(gl, output) for output in OTHERS} if several else {}
+        self.has_several = self._drawn is not None and (any(self._drawn[1:]) or _attached(gl, "COLOR_ATTACHMENT1"))
+        """Whether there may be several attachments."""
+        self._masks = {output: _mask(gl, output) for output in OTHERS} if self.has_several else {}
 
     def restrict(self) -> None:
         """Write the first output alone, to the host's attachment of it."""
@@ -44,21 +45,14 @@ class Outputs:
 
 def has_depth(gl: Functions, framebuffer: int, /) -> bool:
     """Return whether the bound framebuffer has depth; `framebuffer` is its number, 0 for the window."""
-    return _attached(gl, ENUMS["DEPTH_ATTACHMENT" if framebuffer else "DEPTH"])
-
-
-def colour_attachments(gl: Functions, /) -> int:
-    """Return the number of colour attachments of the bound framebuffer, which is no window, up to the first gap."""
-    first = ENUMS["COLOR_ATTACHMENT0"]
-    return next((output for output in range(COUNT) if not _attached(gl, first + output)), COUNT)
+    return _attached(gl, "DEPTH_ATTACHMENT" if framebuffer else "DEPTH")
 
 
 def is_not_plain_2d(gl: Functions, /) -> bool:
     """Return whether the first colour attachment is a texture that moderngl has just failed to bind as a 2D texture."""
-    first = ENUMS["COLOR_ATTACHMENT0"]
-    if _asked(gl, first, "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE") != ENUMS["TEXTURE"]:
+    if _asked(gl, "COLOR_ATTACHMENT0", "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE") != ENUMS["TEXTURE"]:
         return False
-    return gl.number("TEXTURE_BINDING_2D") != _asked(gl, first, "FRAMEBUFFER_ATTACHMENT_OBJECT_NAME")
+    return gl.number("TEXTURE_BINDING_2D") != _asked(gl, "COLOR_ATTACHMENT0", "FRAMEBUFFER_ATTACHMENT_OBJECT_NAME")
 
 
 def _drawn(gl: Functions) -> list[int]:
@@ -70,13 +64,13 @@ def _drawn(gl: Functions) -> list[int]:
     return found[:]
 
 
-def _attached(gl: Functions, attachment: int) -> bool:
-    return _asked(gl, attachment, "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE") != ENUMS["NONE"]
+def _attached(gl: Functions, name: str) -> bool:
+    return _asked(gl, name, "FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE") != ENUMS["NONE"]
 
 
-def _asked(gl: Functions, attachment: int, question: str) -> int:
+def _asked(gl: Functions, name: str, question: str) -> int:
     found = (c_int * 1)()
-    gl.glGetFramebufferAttachmentParameteriv(ENUMS["DRAW_FRAMEBUFFER"], attachment, ENUMS[question], found)
+    gl.glGetFramebufferAttachmentParameteriv(ENUMS["DRAW_FRAMEBUFFER"], ENUMS[name], ENUMS[question], found)
     return found[0]
 
 
