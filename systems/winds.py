@@ -256,10 +256,9 @@ class Winds(Feature):
         """Return the new record of a source; `before` is the last one of the same entity."""
         wind = source.primitive
         try:
-            self.quarantine.ask_rates(source)
-            if before is not None and type(before.wind) is type(wind):
-                continued = partial(on_course, wind, before.wind, time=self._clock)
-                wind = self.quarantine.ask(source, "rates", continued)
+            last = before.wind if before is not None and type(before.wind) is type(wind) else None
+            go_on = (lambda: wind) if last is None else partial(on_course, wind, last, time=self._clock)
+            wind = self.quarantine.ask_rates(source, go_on)
             end = self.quarantine.ask_end(source, wind.ends)
         except QuarantinedError:
             return _Record(source, wind, inf)

@@ -155,11 +155,15 @@ class Quarantine:
             raise self.leave_out(source, "pose returned numbers far beyond any prairie")
         return pose
 
-    def ask_rates(self, source: WindSource, /) -> None:
-        """Ask for a wind's rates, before other answers need them; raises QuarantinedError where they are no numbers."""
-        rates = self.ask(source, "rates", source.primitive.rates)
+    def ask_rates(self, source: WindSource, go_on: Callable[[], WindPrimitive], /) -> WindPrimitive:
+        """Ask for a wind's rates, before other answers need them, and return what `go_on` makes by them.
+
+        Raises QuarantinedError where they are no numbers.
+        """
+        rates, wind = self.ask(source, "rates", lambda: (source.primitive.rates(), go_on()))
         self.must_be(source, "rates", rates, Sequence, np.ndarray)
         self._must_be_numbers(source, "rates", rates)
+        return wind
 
     def ask_end(self, source: WindSource, ends: Callable[[], float]) -> float:
         """Return the time when a wind is over for good [s], `inf` for never; raises QuarantinedError for no number."""
