@@ -12,6 +12,9 @@ Doubles = NDArray[np.float64]
 Ints = NDArray[np.int32]
 """Indices and cells, as the graphics card takes them."""
 
+Indices = NDArray[np.intp]
+"""Indices of rows, as numpy takes them."""
+
 Rows = NDArray[np.int64]
 """Rows of the patch table, and entities."""
 

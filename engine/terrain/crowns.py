@@ -1,7 +1,6 @@
 """Crowns over the grass: its density falls in the shade of trees."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...components.arrays import Doubles, Floats
 
@@ -28,45 +27,60 @@ class Crowns:
     """
 
     def __init__(self) -> None:
-        self.discs: Doubles = NO_DISCS
+        self._lasting = self._fading = _Grid(NO_DISCS)
+
+    @property
+    def discs(self) -> Doubles:
         """Each crown's trunk (x, z) [m], radius of its shade [m] and optical depth at the trunk, shape (n, 4)."""
-        self._lasting = 0
-        """Number of leading ones that last."""
-        self._corner, self._cell = np.zeros(2), CELL
-        self._shape = 0, 0
-        self._first: NDArray[np.intp] = np.zeros(1, np.intp)
-        self._listed: NDArray[np.intp] = np.zeros(0, np.intp)
+        return np.concatenate([self._lasting.discs, self._fading.discs])
+
+    def __len__(self) -> int:
+        return len(self._lasting.discs) + len(self._fading.discs)
 
     def stand(self, discs: Doubles, fading: Doubles = NO_DISCS, /) -> Doubles:
         """Replace all crowns by `discs` (n, 4), as in the field, and those that fade; return what differs, (m, 4)."""
-        lasting, others = self.discs[: self._lasting], self.discs[self._lasting :]
-        both = np.concatenate([*_without_same_ends(lasting, discs), others, fading])
+        before, now = _without_same_ends(self._lasting.discs, discs)
+        both = np.concatenate([before, now, self._fading.discs, fading])
+        if len(before) or len(now):  # most often only those that fade differ, which are few
+            self._lasting = _Grid(discs)
+        self._fading = _Grid(fading)
         _, back, count = np.unique(both, axis=0, return_inverse=True, return_counts=True)
-        self.discs, self._lasting = np.concatenate([discs, fading]), len(discs)
-        if len(self.discs):
-            self._sort()
         return np.asarray(both[count[back.reshape(-1)] == 1])
-
-    def _sort(self) -> None:
-        """Sort crowns by the cells that they cover; a crown is listed in each of its cells."""
-        reach = self.discs[:, 2:3]
-        low, high = self.discs[:, :2] - reach, self.discs[:, :2] + reach
-        self._corner = low.min(axis=0)
-        self._cell = max(CELL, float((high.max(axis=0) - self._corner).max()) / MOST_CELLS)
-        first, last = (((ends - self._corner) / self._cell).astype(np.intp) for ends in (low, high))
-        columns, rows = (last.max(axis=0) + 1).tolist()
-        self._shape = columns, rows
-        cells = last - first + 1
-        count = cells.prod(axis=1)
-        number = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
-        crown = np.repeat(np.arange(len(count)), count)
-        column, row = first[crown, 0] + number % cells[crown, 0], first[crown, 1] + number // cells[crown, 0]
-        cell = row * columns + column
-        self._listed = crown[np.argsort(cell, kind="stable")]
-        self._first = np.append(0, np.cumsum(np.bincount(cell, minlength=columns * rows)))
 
     def left_at(self, place: Floats, /) -> Floats | None:
         """Return density at ground positions (n, 2) [m] as a fraction of that in the open, (n,); None if all are 1."""
+        depths = [depth for grid in (self._lasting, self._fading) if (depth := grid.depth_at(place)) is not None]
+        if not depths:
+            return None
+        return np.asarray(SHADE_KEEPS + (1.0 - SHADE_KEEPS) * np.exp(-np.sum(depths, axis=0)), np.float32)
+
+
+class _Grid:
+    """Discs, sorted by the cells of a grid that they cover; a disc is listed in each of its cells."""
+
+    def __init__(self, discs: Doubles) -> None:
+        self.discs = discs
+        if not len(discs):
+            return
+        middle, reach = np.ascontiguousarray(discs.T[:2]), discs[:, 2]
+        low, high = middle - reach, middle + reach
+        corner = low.min(axis=1)
+        cell = max(CELL, float((high.max(axis=1) - corner).max()) / MOST_CELLS)
+        first, last = (((ends - corner[:, None]) / cell).astype(np.int32) for ends in (low, high))
+        columns, rows = (last.max(axis=1) + 1).tolist()
+        across, down = last - first + 1
+        count = across * down
+        disc = np.repeat(np.arange(len(discs)), count)
+        number = np.arange(len(disc), dtype=np.int32) - np.repeat(np.cumsum(count, dtype=np.int32) - count, count)
+        row, column = np.divmod(number, across[disc]) + first[::-1].take(disc, axis=1)
+        order = np.argsort(column.astype(np.int16), kind="stable")  # 16 bits are sorted by radix, much faster
+        order = order[np.argsort(row[order].astype(np.int16), kind="stable")]
+        self._corner, self._cell, self._shape = corner, cell, (columns, rows)
+        self._listed = disc[order]
+        self._first = np.append(0, np.cumsum(np.bincount(row * columns + column, minlength=columns * rows)))
+
+    def depth_at(self, place: Floats) -> Doubles | None:
+        """Return the sum of the discs' optical depths at ground positions (n, 2) [m], (n,); None far from all."""
         if not len(self.discs):
             return None
         at = np.floor((place - self._corner) / self._cell).astype(np.intp)
@@ -80,8 +94,9 @@ class Crowns:
         number = np.arange(len(below)) - np.repeat(np.cumsum(count) - count, count)
         disc = self.discs[self._listed[self._first[cell[below]] + number]]
         distance = ((place[below] - disc[:, :2]) ** 2).sum(axis=1) / disc[:, 2] ** 2
-        depth = np.bincount(below, disc[:, 3] * np.maximum(1.0 - distance, 0.0) ** 2, minlength=len(place))
-        return np.asarray(SHADE_KEEPS + (1.0 - SHADE_KEEPS) * np.exp(-depth), np.float32)
+        return np.asarray(
+            np.bincount(below, disc[:, 3] * np.maximum(1.0 - distance, 0.0) ** 2, minlength=len(place)), np.float64
+        )
 
 
 def _without_same_ends(before: Doubles, now: Doubles) -> tuple[Doubles, Doubles]:

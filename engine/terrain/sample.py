@@ -171,7 +171,7 @@ def density_on_lines(density: Density, x: Floats, z: Floats, /) -> Floats:
 
 def left_on_lines(density: Density, x: Floats, z: Floats, /) -> Floats | None:
     """Return the fraction of density in the shade of trees at crossings of lines, (m, n, n); None if all are 1."""
-    left = density.crowns.left_at(_met(x, z)) if len(density.crowns.discs) else None
+    left = density.crowns.left_at(_met(x, z)) if len(density.crowns) else None
     return None if left is None else left.reshape(*x.shape, x.shape[1])
 
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles, Floats, Ints
+from ...components.arrays import Doubles, Floats, Indices, Ints
 from ..space.cone import distance_in_order
 from ..space.frustum import outside_planes
 from ..space.window import cell_of
@@ -29,8 +29,6 @@ NEAREST = 0.1
 
 ANY_HEIGHT = 1e6
 """Height in the picture that stands for full detail [pixels]."""
-
-Indices = NDArray[np.intp]
 
 
 class Look(NamedTuple):

@@ -25,7 +25,7 @@ from .fading import FadingShade
 from .felled import Place, found_again
 from .forest import Forest, Gone, Rows
 from .habit import HABITS
-from .model import models_of
+from .model import MODELS, models_of
 from .place import placed
 from .scatter import SQUARE
 from .standing import STANDING, Standing, individualise
@@ -117,11 +117,12 @@ class Trees(Feature):
         changes = self._grown.ground.terrain.changes.count
         if changes != self._terrain_version:
             self._taken.make_all_anew()  # at other heights
-        if self._have_changed() or changes != self._terrain_version:
+        is_new = self._have_changed() or changes != self._terrain_version
+        if is_new:
             self._terrain_version = changes
             with uncollected():
                 self._update_rows(time)
-        if self._fading.step(time):
+        if self._fading.step(time) or is_new:
             self._shade_grass()
 
     def _have_changed(self) -> bool:
@@ -139,7 +140,7 @@ class Trees(Feature):
         if self._generation == self._world.check():
             return
         self._generation = self._world.generation
-        stood = {*self._taken.entities} if self._terrain_version >= 0 else {*self.entities}
+        stood = {*self._taken.entities.tolist()} if self._terrain_version >= 0 else {*self.entities}
         self._taken.forget()  # none counts as felled
         for number in [number for number, entity in enumerate(self.entities) if entity in stood]:
             self._replant(number)
@@ -161,7 +162,6 @@ class Trees(Feature):
         there = [*compress(found, self._world.standing([(entity, pose) for entity, _, pose in found], "the tree"))]
         self._fade_removed(self._taken.gone(kept, {entity for entity, _, _ in found}), time)
         self._taken.take(kept, there, partial(_rows, self._grown))
-        self._shade_grass()
 
     def _fade_removed(self, gone: list[int], time: float) -> None:
         """Begin to fade the shade of removed trees, but not of those removed as a viewer went away."""
@@ -298,19 +298,16 @@ def _boxes(discs: Doubles) -> Doubles:
 
 def _discs(rows: NDArray[np.void], grown: Grown) -> Doubles:
     """Return the discs by which crowns and trunks of records of `STANDING` shade the grass, as `Crowns` has them."""
-    discs, feet = np.zeros((2, len(rows), 4))
-    for number, kind in enumerate(grown.scene.trees.values()):
-        for which, model in enumerate(models_of(kind.habit, grown.scene.seed + number)):
-            mask = (rows["kind"] == number) & (rows["model"] == which)
-            scale = rows["height"][mask].astype(np.float64) / model.height
-            far, leaves, foot = model.shade
-            reach = np.maximum(scale * far, LEAST_SHADE)
-            discs[mask, :2], discs[mask, 2] = rows["root"][mask][:, ::2], reach
-            discs[mask, 3] = rows["foliage"][mask] * leaves * (scale / reach) ** 2
-            feet[mask, :2], feet[mask, 2] = discs[mask, :2], FOOT
-            feet[mask, 3] = rows["foliage"][mask] * np.minimum(foot * scale, FOOT_MEETS_MOST)
-    each = np.stack([discs, feet], axis=1).reshape(-1, 4)
-    return each[each[:, 3] > 0.0]
+    kinds = [models_of(kind.habit, grown.scene.seed + n) for n, kind in enumerate(grown.scene.trees.values())]
+    numbers = np.array([(model.height, *model.shade) for models in kinds for model in models]).reshape(-1, 4)
+    height, far, leaves, foot = numbers[rows["kind"] * MODELS + rows["model"]].T
+    scale, foliage = rows["height"] / height, rows["foliage"]
+    reach = np.maximum(scale * far, LEAST_SHADE)
+    each = np.empty((len(rows), 2, 4))
+    each[..., :2] = rows["root"][:, None, ::2]
+    each[:, 0, 2], each[:, 0, 3] = reach, foliage * leaves * (scale / reach) ** 2
+    each[:, 1, 2], each[:, 1, 3] = FOOT, foliage * np.minimum(foot * scale, FOOT_MEETS_MOST)
+    return each[each[..., 3] > 0.0]
 
 
 def _rows(grown: Grown, found: Posed) -> Rows:

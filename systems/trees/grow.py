@@ -3,12 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...components.arrays import Doubles, Floats
+from ...components.arrays import Doubles, Floats, Indices
 from .habit import GOLDEN, Habit, Shoots
-
-Rows = NDArray[np.intp]
 
 POINTS = 14, 9, 4
 """Points along a stem of each level."""
@@ -31,7 +28,7 @@ class Stems:
     spine: Doubles
     """Points from foot to tip [m], shape (n, points, 3); y is up."""
 
-    parent: Rows
+    parent: Indices
     """Index of the bearing stem in the level before, shape (n,)."""
 
     at: Doubles
@@ -62,7 +59,7 @@ class Twigs:
     length: Floats
     """[m], shape (n,)."""
 
-    limb: Rows
+    limb: Indices
     """Index of the limb that bears it, shape (n,)."""
 
 
@@ -75,7 +72,7 @@ class Tree:
     height: float
     """[m]."""
 
-    limb_of: Rows
+    limb_of: Indices
     """Index of the limb that bears each branch, shape (branches,)."""
 
 
@@ -133,7 +130,7 @@ def _shoots(
     return Stems(spine, parent, at, np.zeros((len(parent), points)))
 
 
-def _twigs(shoots: Shoots, branches: Stems, draw: np.random.Generator) -> tuple[Twigs, Rows]:
+def _twigs(shoots: Shoots, branches: Stems, draw: np.random.Generator) -> tuple[Twigs, Indices]:
     """Return the twigs, and the index of the branch that bears each."""
     stems = _shoots(shoots, branches, draw, points=3, relative=False)
     # One more twig continues each branch at its end.
@@ -152,14 +149,14 @@ def _twigs(shoots: Shoots, branches: Stems, draw: np.random.Generator) -> tuple[
     return Twigs(found[0], found[1], found[2], found[3], branches.parent[bearer]), bearer
 
 
-def _sampled(count: int, draw: np.random.Generator) -> tuple[Rows, float]:
+def _sampled(count: int, draw: np.random.Generator) -> tuple[Indices, float]:
     """Return the indices of twigs that are kept, in an order whose every start is a fair sample; and their scale."""
     order = draw.permutation(count)
     kept = order[:MOST_TWIGS]
     return kept, float(np.sqrt(count / len(kept)))
 
 
-def _thickened(trunk: Stems, limbs: Stems, branches: Stems, bearer: Rows, base: float) -> tuple[Stems, Stems, Stems]:
+def _thickened(trunk: Stems, limbs: Stems, branches: Stems, bearer: Indices, base: float) -> tuple[Stems, Stems, Stems]:
     """Return stems with radii that follow from the twigs each point carries; `base` is the trunk's at its foot [m]."""
     on_branch = np.bincount(bearer, minlength=len(branches.at)).astype(np.float64)
     last = POINTS[2] - 1
@@ -182,7 +179,7 @@ def _carried(stems: Stems, count: Doubles, bearers: int, points: int) -> Doubles
     return np.cumsum(sums[:, ::-1], axis=1)[:, ::-1]
 
 
-def _junctions(on: Stems, parent: Rows, at: Doubles, down: Doubles, around: Doubles) -> tuple[Doubles, Doubles]:
+def _junctions(on: Stems, parent: Indices, at: Doubles, down: Doubles, around: Doubles) -> tuple[Doubles, Doubles]:
     """Return the feet of shoots and their directions: angles `down` from the bearing stem and `around` it [rad]."""
     points = on.spine.shape[1]
     place = at * (points - 1)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles
+from ...components.arrays import Doubles, Indices
 from ..space.frustum import outside_planes
 from .model import Model
 from .twig import BLOCK, RANKS
@@ -14,8 +14,6 @@ from .twig import BLOCK, RANKS
 GROUPED_FROM = 2 / 3
 """Share of a tree's twigs from which on its blocks are of neighbours: from near to far they hide one another, and those
 outside the picture are left out. Below it, they are of the first twigs that are drawn."""
-
-Indices = NDArray[np.intp]
 
 
 class Blocks(NamedTuple):

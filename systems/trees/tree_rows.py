@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from ...components.arrays import Indices
 from ...components.pose import Pose
 from ...components.tree import Tree
 from .forest import Rows
@@ -17,14 +18,14 @@ class TreeRows:
 
     def __init__(self) -> None:
         self.rows: Rows = np.zeros(0, STANDING)
-        self.entities: list[int] = []
+        self.entities = np.zeros(0, np.int64)
         """Entity of each row."""
-        self._parts: dict[int, tuple[int, Tree, Pose]] = {}
-        """Row, tree and pose of each entity whose row is valid."""
+        self._parts: dict[int, tuple[Tree, Pose]] = {}
+        """Tree and pose of each entity whose row is valid."""
 
     def forget(self) -> None:
         """Forget all rows."""
-        self.rows, self.entities = self.rows[:0], []
+        self.rows, self.entities = self.rows[:0], self.entities[:0]
         self._parts = {}
 
     def make_all_anew(self) -> None:
@@ -33,29 +34,33 @@ class TreeRows:
 
     def changed(
         self, trees: Sequence[tuple[int, Tree]], poses: Sequence[Pose | None], /
-    ) -> tuple[list[tuple[int, Tree, Pose | None]], list[int]]:
+    ) -> tuple[list[tuple[int, Tree, Pose | None]], Indices]:
         """Return the entities whose tree or pose is another object than in their row, and the rows of all others."""
         find, other, kept = self._parts.get, list[tuple[int, Tree, Pose | None]](), list[int]()
         for (entity, tree), pose in zip(trees, poses, strict=True):
             had = find(entity)
-            if had is not None and had[1] is tree and had[2] is pose:
-                kept.append(had[0])
+            if had is not None and had[0] is tree and had[1] is pose:
+                kept.append(entity)
             else:
                 other.append((entity, tree, pose))
-        return other, kept
+        return other, np.searchsorted(self.entities, np.array(kept, np.int64))
 
-    def gone(self, kept: Sequence[int], there: set[int], /) -> list[int]:
+    def gone(self, kept: Indices, there: set[int], /) -> list[int]:
         """Return the rows that are neither `kept` nor those of entities that are still `there`."""
+        return [row for row in self._but(kept).tolist() if int(self.entities[row]) not in there]
+
+    def take(self, kept: Indices, added: Posed, make: Callable[[Posed], Rows], /) -> None:
+        """Keep these rows, and make others of entities added or changed."""
+        for entity in self.entities[self._but(kept)].tolist():
+            self._parts.pop(entity, None)
+        self._parts |= {entity: (tree, pose) for entity, tree, pose in added}
+        entities = np.append(self.entities[kept], np.array([entity for entity, _, _ in added], np.int64))
+        order = np.argsort(entities)
+        self.rows = np.concatenate([self.rows.take(kept), make(added)]).take(order)
+        self.entities = entities[order]
+
+    def _but(self, kept: Indices) -> Indices:
+        """Return all rows but these."""
         mask = np.ones(len(self.entities), np.bool_)
         mask[kept] = False
-        return [row for row in np.flatnonzero(mask).tolist() if self.entities[row] not in there]
-
-    def take(self, kept: Sequence[int], added: Posed, make: Callable[[Posed], Rows], /) -> None:
-        """Keep these rows, and make others of entities added or changed."""
-        parts, entities = self._parts, [self.entities[row] for row in kept]
-        posed: Posed = [(entity, *parts[entity][1:]) for entity in entities] + added
-        order = np.argsort(np.array([entity for entity, _, _ in posed], np.int64)).tolist()
-        self.rows = np.concatenate([self.rows.take(kept), make(added)]).take(order)
-        posed = [posed[each] for each in order]
-        self.entities = [entity for entity, _, _ in posed]
-        self._parts = {entity: (row, tree, pose) for row, (entity, tree, pose) in enumerate(posed)}
+        return np.flatnonzero(mask)

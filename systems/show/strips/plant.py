@@ -92,7 +92,7 @@ def _samples(ground: Ground, margin: float) -> Floats:
     finest = min(ground.density.size[0] / columns, ground.density.size[1] / rows)
     if ground.density.sown.any:
         finest = min(finest, CELL)
-    if len(ground.density.crowns.discs):
+    if len(ground.density.crowns):
         finest = min(finest, SHADE)
     if ground.terrain.holes is not None:
         finest = min(finest, ground.terrain.cell)

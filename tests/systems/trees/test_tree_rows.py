@@ -30,7 +30,7 @@ def test_rows_are_kept_until_their_tree_or_pose_is_another_object() -> None:
     rows = TreeRows()
     trees = {entity: (Tree("ash", height=float(entity)), Pose(float(entity), 0.0)) for entity in (4, 9, 2, 7)}
     assert update(rows, trees) == ([4, 9, 2, 7], [])
-    assert rows.entities == [2, 4, 7, 9]
+    assert rows.entities.tolist() == [2, 4, 7, 9]
     assert update(rows, trees) == ([], [])
     trees[4] = trees[4][0], Pose(40.0, 0.0)
     trees[9] = ASH, trees[9][1]
@@ -38,7 +38,7 @@ def test_rows_are_kept_until_their_tree_or_pose_is_another_object() -> None:
     trees[1] = ASH, Pose(1.0, 0.0)
     anew, gone = update(rows, trees)
     assert (sorted(anew), gone) == ([1, 4, 9], [2.0])
-    assert rows.entities == [1, 4, 7, 9]
+    assert rows.entities.tolist() == [1, 4, 7, 9]
     assert rows.rows["root"][:, 0].tolist() == [1.0, 40.0, 7.0, 9.0]
     rows.make_all_anew()
     assert sorted(update(rows, trees)[0]) == [1, 4, 7, 9]
