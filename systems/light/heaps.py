@@ -1,10 +1,12 @@
 """The cloud map as the sky's shaders read it: density, and its slopes along x and z."""
 
+from functools import lru_cache
+
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from .repeating import SIDE, repeating_levels
+from .repeating import CACHED_SEEDS, SIDE, repeating_levels
 
 STEEPEST = 24.0
 """Largest slope that a texel can hold, along an axis [1 / side]."""
@@ -15,6 +17,7 @@ SLOPE_CUT = 40.0
 GLSL = {"HEAPS_STEEPEST": STEEPEST}
 
 
+@lru_cache(maxsize=CACHED_SEEDS)
 def heap_texels(*, seed: int) -> NDArray[np.uint8]:
     """Return the density of a scene's cloud map and its slopes along x and z as three channels, (SIDE, SIDE, 3)."""
     density = repeating_levels(seed=seed)[0][..., 0] / 255.0

@@ -54,7 +54,7 @@ MOST_EXPONENT = 600.0
 LITTER_ONE = 128
 """Texel value of ground of mean brightness."""
 
-_CACHED_SEEDS = 4
+CACHED_SEEDS = 4
 """Number of seeds whose maps stay in memory, less than a megabyte each: a scene read again often has the same seed."""
 
 SUFFIX, MOST_FILES = ".ground", 24
@@ -222,7 +222,7 @@ def repeating_texture(ctx: moderngl.Context, *, seed: int) -> moderngl.Texture:
     return texture
 
 
-@lru_cache(maxsize=_CACHED_SEEDS)
+@lru_cache(maxsize=CACHED_SEEDS)
 def repeating_levels(*, seed: int) -> tuple[NDArray[np.uint8], ...]:
     """Return the mip levels of `cloud_map` and `ground_maps` as three channels, shapes (SIDE, SIDE, 3) to (1, 1, 3).
 
