@@ -78,7 +78,6 @@ class Game:
 
     def on_mouse_motion(self, x: int, y: int, dx: int, dy: int) -> None:
         """Look around."""
-        del x, y
         self.yaw += 0.003 * dx
         self.pitch = max(-pi / 2.1, min(pi / 2.1, self.pitch + 0.003 * dy))
 

@@ -80,9 +80,8 @@ def _culms(kind: GrassKind, stand: Blades, plant: NDArray[np.intp], /) -> Stems:
     return Stems(plant, stems.branch, 0.5 * (stems.height + kind.height[1]), 0.6 * stems.rest)
 
 
-def _single(kind: GrassKind, layout: Layout, stand: Blades, random: np.random.Generator, /) -> Stems:
+def _single(_kind: GrassKind, layout: Layout, stand: Blades, _random: np.random.Generator, /) -> Stems:
     """Return one stem for each plant."""
-    del kind, random
     return _stems_of(stand, np.arange(layout.plants))
 
 

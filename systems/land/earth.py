@@ -14,7 +14,7 @@ from ...components.shadow_map import held_number
 from ...engine.gl.functions import functions_of
 from ...engine.handed import NUMBER_TYPES
 from ..frame.block import FrameBlock
-from ..frame.feature import Feature, Part
+from ..frame.feature import Feature, Part, Start
 from ..space.grown import Grown
 
 log = logging.getLogger("tallgrass")
@@ -29,7 +29,7 @@ COVERS_TERRAIN = -1.0
 class Earth(Feature):
     """Feature: the ground texture that a game has handed in, if any."""
 
-    def __init__(self) -> None:
+    def __init__(self, start: Start, /) -> None:
         self.texture: Any = None
         self.side: float | None = None
         self.power = ENCODED
@@ -47,7 +47,6 @@ class Earth(Feature):
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "EarthPart":
         """Return the part that writes the texture into the frame block."""
-        del units
         return EarthPart(ctx, block, self)
 
 
@@ -61,7 +60,6 @@ class EarthPart(Part):
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Write the texture's number, side and exponent."""
-        del grown
         earth, row = self._earth, record[0]
         self._block.earth = number = self._number_or_zero(earth.texture)
         row["earth_power"] = earth.power

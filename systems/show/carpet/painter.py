@@ -125,7 +125,6 @@ class CarpetPainter(RepresentationPainter):
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Draw with every program, as if grass were trodden and ended somewhere."""
-        del record
         self.ground.rehearse()
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
