@@ -97,14 +97,9 @@ class Game:
         self.text.draw()
 
 
-def main() -> None:
-    """Walk until the window is closed."""
+if __name__ == "__main__":
     game = Game()
     game.window.set_exclusive_mouse()
     pyglet.clock.schedule_interval(game.update, 1 / 60)
     pyglet.app.run()
     game.prairie.release()
-
-
-if __name__ == "__main__":
-    main()
