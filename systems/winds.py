@@ -288,7 +288,7 @@ def matched(
     rows: list[tuple[WindSource, WindSource | None]] = []
     for number, wind in enumerate(winds):
         old = found.get(number)
-        name = old.name if old else next(name for k in count(number) if (name := declared_name(k, wind)) not in taken)
+        name = old.name if old else next(name for k in count(number) if (name := f"wind[{k}] {wind.kind}") not in taken)
         taken.add(name)
         same = old is not None and _likeness(old.primitive, wind) == inf
         rows.append((old if old and same else WindSource(wind, name), old))
@@ -300,11 +300,6 @@ def _must_be_pose(thing: object) -> None:
         raise TypeError(f"a wind is put at a Pose such as Pose(x=3.0, z=-5.0), not at {shortened(thing)}")
     if not is_somewhere(thing):
         raise ValueError(f"a wind is put where {SOMEWHERE}, not at {thing}")
-
-
-def declared_name(number: int, wind: WindPrimitive) -> str:
-    """Return the name of the wind with a number in a scene's list."""
-    return f"wind[{number}] {wind.kind}"
 
 
 def _likeness(one: WindPrimitive, other: WindPrimitive) -> float:
