@@ -235,7 +235,8 @@ class Walk:
 
     def save_picture(self) -> None:
         """Write the picture, without overlays, as the next numbered PNG in the working folder."""
-        name = _free_name(Path(self.take.scene).stem)
+        stem = Path(self.take.scene).stem
+        name = next(name for k in count(1) if not Path(name := f"tallgrass-{stem}-{k:03d}.png").exists())
         with Offscreen(self.window.get_framebuffer_size(), self.ctx) as offscreen:
             offscreen.begin()
             governor = self.prairie.governor
@@ -363,7 +364,3 @@ def _problem_lines(error: SceneError) -> list[str]:
     lines = [line for problem in error.problems[:MOST_TOLD] for line in str(problem).splitlines()]
     more = len(error.problems) - MOST_TOLD
     return lines + ([f"and {more} more problems"] if more > 0 else [])
-
-
-def _free_name(stem: str) -> str:
-    return next(name for k in count(1) if not Path(name := f"tallgrass-{stem}-{k:03d}.png").exists())

@@ -1,7 +1,7 @@
 """Writing changed values back into a YAML text, without touching any other character."""
 
 from collections.abc import Iterator, Sequence
-from itertools import compress
+from itertools import compress, groupby
 from typing import Any
 
 from ...engine.scene import SceneError
@@ -104,13 +104,10 @@ def _list(text: str, node: Node, value: list[Any]) -> Iterator[Splice]:
 
 def _runs(gone: list[bool]) -> Iterator[tuple[int, int]]:
     """Yield the runs of entries that are gone, each as its first index and the index after its last."""
-    first = None
-    for number, each in enumerate([*gone, False]):
-        if each and first is None:
-            first = number
-        elif not each and first is not None:
-            yield first, number
-            first = None
+    for is_gone, run in groupby(range(len(gone)), gone.__getitem__):
+        if is_gone:
+            first, *others = run
+            yield first, first + len(others) + 1
 
 
 def _dash(text: str, item: Node) -> int:
