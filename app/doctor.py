@@ -141,7 +141,9 @@ def window(answer: dict[str, str], /, *, has_display: bool) -> Finding:
         return Finding("window", "ok", "{version}, {renderer}".format(**answer))
     if has_display:
         return Finding("window", "missing", answer["error"], cure(answer["error"]))
-    return Finding("window", "note", "there is no display: films and pictures only", _virtual_display())
+    run = "xvfb-run -a tallgrass walk"
+    virtual = run if shutil.which("xvfb-run") else f"{_debian('xvfb xauth')} && {run}"
+    return Finding("window", "note", "there is no display: films and pictures only", virtual)
 
 
 def winds(kinds: WindKinds, entries: Sequence[EntryPoint], /) -> list[Finding]:
@@ -173,11 +175,6 @@ def _debian(names: str) -> str:
         return f"install what Debian calls {names}"
     root = "" if hasattr(os, "geteuid") and os.geteuid() == 0 else "sudo "
     return f"{root}apt-get install -y --no-install-recommends {names}"
-
-
-def _virtual_display() -> str:
-    run = "xvfb-run -a tallgrass walk"
-    return run if shutil.which("xvfb-run") else f"{_debian('xvfb xauth')} && {run}"
 
 
 def _has_packages() -> bool:

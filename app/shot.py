@@ -5,9 +5,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
-from ..engine.camera import Camera, Heights
+from ..engine.camera import Camera
 from ..engine.scene import LoadedScene, read_scene
 from .grow import grow_ahead
 from .studio.encode import picture_writer
@@ -30,7 +28,8 @@ def shot(take: Take, output: str, *, time: float = 0.0, camera: Camera | None = 
         studio.prairie.advance(time)
         view = math.radians(studio.prairie.scene.camera.view)
         place = studio.camera(None) if camera is None else replace(camera, view=view)
-        depth = _below(place, studio.prairie.height_at)
+        x, y, z = place.position
+        depth = float(studio.prairie.height_at([(x, z)])[0]) - y
         if depth > 0.0:
             print(f"the camera is {depth:.1f} m below the ground: y is a height in the scene", file=sys.stderr)
         metadata = about(studio.prairie.scene, take, time=studio.prairie.time)
@@ -42,9 +41,3 @@ def _spare(output: str, loaded: LoadedScene) -> None:
     for name, path in loaded.paths.items():
         if Path(output).resolve() == path.resolve():
             raise InputError(f"-o: {output}: the scene reads '{name}': choose another name")
-
-
-def _below(camera: Camera, height_at: Heights) -> float:
-    """Return the depth of a camera below the ground [m]."""
-    x, y, z = camera.position
-    return float(height_at(np.array([[x, z]], np.float32))[0]) - y

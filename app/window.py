@@ -235,7 +235,8 @@ class Walk:
 
     def save_picture(self) -> None:
         """Write the picture, without overlays, as the next numbered PNG in the working folder."""
-        name = _free_name(Path(self.take.scene).stem)
+        stem = Path(self.take.scene).stem
+        name = next(name for k in count(1) if not Path(name := f"tallgrass-{stem}-{k:03d}.png").exists())
         with Offscreen(self.window.get_framebuffer_size(), self.ctx) as offscreen:
             offscreen.begin()
             governor = self.prairie.governor
@@ -276,7 +277,6 @@ class Walk:
 
     def on_key_press(self, symbol: int, modifiers: int) -> bool:
         """Hold a key down, or do its action; always handled, so that pyglet does not close the window on Escape."""
-        del modifiers
         if symbol in MOVES:
             self._held.add(symbol)
         elif symbol in _ACTIONS:
@@ -287,17 +287,14 @@ class Walk:
 
     def on_key_release(self, symbol: int, modifiers: int) -> None:
         """Let a key go."""
-        del modifiers
         self._held.discard(symbol)
 
     def on_mouse_press(self, x: int, y: int, button: int, modifiers: int) -> None:
         """Catch the mouse."""
-        del x, y, button, modifiers
         self._capture(caught=True)
 
     def on_mouse_motion(self, x: int, y: int, dx: int, dy: int) -> None:
         """Look around."""
-        del x, y
         if self.captured:
             self.look(dx, dy)
 
@@ -311,7 +308,6 @@ class Walk:
 
     def on_mouse_drag(self, x: int, y: int, dx: int, dy: int, buttons: int, modifiers: int) -> None:
         """Look around with a button held as well."""
-        del buttons, modifiers
         self.on_mouse_motion(x, y, dx, dy)
 
     def on_deactivate(self) -> None:
@@ -325,7 +321,6 @@ class Walk:
         return pyglet.event.EVENT_HANDLED
 
     def _time_is_up(self, dt: float) -> None:
-        del dt
         self.leaving = True
 
     def _capture(self, *, caught: bool) -> None:
@@ -369,7 +364,3 @@ def _problem_lines(error: SceneError) -> list[str]:
     lines = [line for problem in error.problems[:MOST_TOLD] for line in str(problem).splitlines()]
     more = len(error.problems) - MOST_TOLD
     return lines + ([f"and {more} more problems"] if more > 0 else [])
-
-
-def _free_name(stem: str) -> str:
-    return next(name for k in count(1) if not Path(name := f"tallgrass-{stem}-{k:03d}.png").exists())

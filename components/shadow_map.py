@@ -31,35 +31,22 @@ class ShadowMap:
 
     def __post_init__(self) -> None:
         """Raise TypeError and ValueError as above."""
-        texture_number(self.texture)
+        texture_number(self.texture, "a shadow map's texture is a 2D depth texture")
+        if getattr(self.texture, "depth", True) is False:
+            raise TypeError(f"a shadow map's texture is a depth texture, not one of colours: {shortened(self.texture)}")
         object.__setattr__(self, "matrix", _matrix(self.matrix))
         if not is_between(0.0, self.bias, FARTHEST_BIAS):
             raise ValueError(f"a shadow map's bias is from 0 to {FARTHEST_BIAS:g} m, not {shortened(self.bias)}")
 
 
-def texture_number(texture: object, /) -> int:
-    """Return a texture's number in GL; raises TypeError for anything but a depth texture."""
-    number = held_number(texture)
-    if not isinstance(number, int) or isinstance(number, bool) or number < 1:
-        raise TypeError(
-            "a shadow map's texture is a depth texture of moderngl or pyglet, or its number in GL, "
-            f"not {shortened(texture)}"
-        )
-    if getattr(texture, "depth", True) is False or type(texture).__name__ in {
-        "TextureArray",
-        "TextureCube",
-        "Texture3D",
-    }:
-        raise TypeError(
-            f"a shadow map's texture is a 2D depth texture, not one of colours or layers: {shortened(texture)}"
-        )
+def texture_number(texture: object, what: str = "a texture is a 2D one", /) -> int:
+    """Return the number in GL of a game's 2D texture; raises TypeError for anything else, as it is not `what`."""
+    held = (getattr(texture, name, None) for name in ("glo", "id", "value"))  # moderngl's, pyglet's, or a `c_uint`
+    number = next((found for found in held if found is not None), texture)
+    is_other = type(texture).__name__ in {"TextureArray", "TextureCube", "Texture3D"}
+    if not isinstance(number, int) or isinstance(number, bool) or number < 1 or is_other:
+        raise TypeError(f"{what} of moderngl or pyglet, or its number in GL, not {shortened(texture)}")
     return number
-
-
-def held_number(texture: object, /) -> object:
-    """Return the number in a texture of moderngl or pyglet, or in a `c_uint`; anything else unchanged."""
-    held = (getattr(texture, name, None) for name in ("glo", "id", "value"))
-    return next((found for found in held if found is not None), texture)
 
 
 def _matrix(matrix: object) -> Doubles:

@@ -196,14 +196,14 @@ class WindPrimitive(Declaration, metaclass=Plain):
         """Return the time from which it is over for good [s]; `inf` is never. A wind that is over costs nothing."""
         return inf if self.stop is None else self.stop
 
-    def parts(self, *, time: float, seed: int) -> Sequence["WindPrimitive"]:  # noqa: ARG002 - for those that repeat
+    def parts(self, *, time: float, seed: int) -> Sequence["WindPrimitive"]:
         """Return the winds of which it consists at `time` [s]; by default itself alone.
 
         Randomness comes from `seed`, which is the wind's own.
         """
         return (self,)
 
-    def pose(self, *, time: float) -> Pose:  # noqa: ARG002 - for those that move
+    def pose(self, *, time: float) -> Pose:
         """Return the pose of its own frame at `time` [s]; by default, the world's.
 
         `mask` and `action` get places in this frame.
@@ -218,7 +218,7 @@ class WindPrimitive(Declaration, metaclass=Plain):
         """
         return None
 
-    def extent(self, *, time: float) -> Extent | None:  # noqa: ARG002 - for those that end somewhere
+    def extent(self, *, time: float) -> Extent | None:
         """Return the rectangle of its frame outside of which its mask is 0 at `time` [s]; None for no limit.
 
         Only patches that overlap the rectangle cost anything.
@@ -241,7 +241,7 @@ class WindPrimitive(Declaration, metaclass=Plain):
         grass there.
         """
 
-    def twin_values(self, *, time: float, seed: int) -> TwinValues:  # noqa: ARG002 - for those that have a twin
+    def twin_values(self, *, time: float, seed: int) -> TwinValues:
         """Return the values that the twin reads at `time` [s]; `seed` is the wind's own, as for `action`."""
         return TwinValues()
 

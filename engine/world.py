@@ -280,7 +280,6 @@ class Advance(esper.Processor):
 
     def process(self, dt: object = None, *args: object, **options: object) -> None:
         """Advance by `dt` [s]; without it, time stands still. A game's other arguments are ignored."""
-        del args, options
         if dt is None:
             return
         if not isinstance(dt, NUMBER_TYPES):

@@ -45,13 +45,8 @@ class Game:
         self.text.draw()
 
 
-def main() -> None:
-    """Play until the window is closed."""
+if __name__ == "__main__":
     game = Game()
     pyglet.clock.schedule_interval(game.update, 1 / 60)
     pyglet.app.run()
     game.prairie.release()
-
-
-if __name__ == "__main__":
-    main()

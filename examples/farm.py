@@ -77,7 +77,6 @@ class Game:
 
     def on_key_press(self, symbol: int, modifiers: int) -> None:
         """Sow, save or load."""
-        del modifiers
         if symbol == key.P:
             self.prairie.sow("poppy", Footprint(radius=2.0), 0.7, soft=1.0, pose=self.pose)
         elif symbol == key.S:
@@ -105,13 +104,8 @@ class Game:
         self.text.draw()
 
 
-def main() -> None:
-    """Farm until the window is closed."""
+if __name__ == "__main__":
     game = Game()
     pyglet.clock.schedule_interval(game.update, 1 / 60)
     pyglet.app.run()
     game.prairie.release()
-
-
-if __name__ == "__main__":
-    main()

@@ -78,7 +78,6 @@ class Game:
 
     def on_mouse_motion(self, x: int, y: int, dx: int, dy: int) -> None:
         """Look around."""
-        del x, y
         self.yaw += 0.003 * dx
         self.pitch = max(-pi / 2.1, min(pi / 2.1, self.pitch + 0.003 * dy))
 
@@ -98,14 +97,9 @@ class Game:
         self.text.draw()
 
 
-def main() -> None:
-    """Walk until the window is closed."""
+if __name__ == "__main__":
     game = Game()
     game.window.set_exclusive_mouse()
     pyglet.clock.schedule_interval(game.update, 1 / 60)
     pyglet.app.run()
     game.prairie.release()
-
-
-if __name__ == "__main__":
-    main()

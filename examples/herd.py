@@ -100,13 +100,8 @@ class Game:
         self.begun = perf_counter()
 
 
-def main() -> None:
-    """Wander until the window is closed."""
+if __name__ == "__main__":
     game = Game()
     pyglet.clock.schedule_interval(esper.process, 1 / 60)
     pyglet.app.run()
     game.prairie.release()
-
-
-if __name__ == "__main__":
-    main()

@@ -140,13 +140,8 @@ class Game:
         self.prairie.draw(view, projection)
 
 
-def main() -> None:
-    """Show the lake until the window is closed."""
+if __name__ == "__main__":
     game = Game()
     pyglet.clock.schedule_interval(game.update, 1 / 60)
     pyglet.app.run()
     game.prairie.release()
-
-
-if __name__ == "__main__":
-    main()

@@ -100,13 +100,8 @@ class Game:
         self.prairie.draw(self.window.view, self.window.projection)
 
 
-def main() -> None:
-    """Run until the window is closed."""
+if __name__ == "__main__":
     game = Game()
     pyglet.clock.schedule_interval(game.update, 1 / 60)
     pyglet.app.run()
     game.prairie.release()
-
-
-if __name__ == "__main__":
-    main()

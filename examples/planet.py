@@ -134,13 +134,8 @@ class Game:
         self.prairie.draw(view, projection, parts=("ground", "grass", "beyond"))
 
 
-def main() -> None:
-    """Show the planet until the window is closed."""
+if __name__ == "__main__":
     game = Game()
     pyglet.clock.schedule_interval(game.update, 1 / 60)
     pyglet.app.run()
     game.prairie.release()
-
-
-if __name__ == "__main__":
-    main()

@@ -97,15 +97,10 @@ class Game:
         pyglet.shapes.Rectangle(20, 20, 300 * self.player.volume, 8, (255, 255, 255, 200)).draw()
 
 
-def main() -> None:
-    """Ride until the window is closed."""
+if __name__ == "__main__":
     game = Game()
     game.player.play()
     pyglet.clock.schedule_interval(game.update, 1 / 60)
     pyglet.app.run()
     game.player.delete()
     game.prairie.release()
-
-
-if __name__ == "__main__":
-    main()

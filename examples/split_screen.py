@@ -118,13 +118,8 @@ class Game:
         pyglet.shapes.Box((width - MAP) / 2, 12, MAP, MAP, 2, INK).draw()
 
 
-def main() -> None:
-    """Play until the window is closed."""
+if __name__ == "__main__":
     game = Game()
     pyglet.clock.schedule_interval(game.update, 1 / 60)
     pyglet.app.run()
     game.prairie.release()
-
-
-if __name__ == "__main__":
-    main()

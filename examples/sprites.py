@@ -84,7 +84,6 @@ class Game:
 
     def on_mouse_press(self, x: int, y: int, button: int, modifiers: int) -> None:
         """Catch what is under the mouse."""
-        del button, modifiers
         near = [one for one in self.flying if abs(one.sprite.x - x) < 24 and abs(one.sprite.y - y) < 24]
         self.caught += len(near)
         for one in near:
@@ -92,13 +91,8 @@ class Game:
             one.sprite.delete()
 
 
-def main() -> None:
-    """Play until the window is closed."""
+if __name__ == "__main__":
     game = Game()
     pyglet.clock.schedule_interval(game.update, 1 / 60)
     pyglet.app.run()
     game.prairie.release()
-
-
-if __name__ == "__main__":
-    main()

@@ -190,13 +190,8 @@ class Game:
         self.prairie.draw(view, projection, parts=("sky", "grass", "beyond"))
 
 
-def main() -> None:
-    """Show the village until the window is closed."""
+if __name__ == "__main__":
     game = Game()
     pyglet.clock.schedule_interval(game.prairie.advance, 1 / 60)
     pyglet.app.run()
     game.prairie.release()
-
-
-if __name__ == "__main__":
-    main()

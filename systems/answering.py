@@ -21,7 +21,7 @@ from ..engine.world import World
 from .around.clearing import Clearings
 from .around.outlook import Outlooks
 from .entities import PatchEntities
-from .features import begin_all, feature_of
+from .features import FEATURES, feature_of
 from .frame.feature import Start
 from .grow.record import Postures
 from .light.feature import Lighting
@@ -54,7 +54,8 @@ class Answering(Underflowing):
         self.site: Site = site
         self.world = world
         self.viewers, self.clearings = Outlooks(world), Clearings()
-        self.features = begin_all(Start(world, site, Quarantine(live=live, come_back=world.come_back), live))
+        start = Start(world, site, Quarantine(live=live, come_back=world.come_back), live)
+        self.features = [feature(start) for feature in FEATURES]
         self.winds, self.pressers = feature_of(Winds, self.features), feature_of(Pressers, self.features)
         self._mown, self._shining = feature_of(Mowing, self.features).mown, feature_of(Lighting, self.features).shining
         self._clock, self._never_drawn = 0.0, set[str]()

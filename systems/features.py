@@ -5,7 +5,7 @@ from typing import TypeVar
 
 from ..engine.gl.units import UNITS as FREE
 from .bodies.feature import Bodies
-from .frame.feature import Feature, Start
+from .frame.feature import Feature
 from .lamps.feature import Lamps
 from .land.earth import Earth
 from .land.part import Land
@@ -68,11 +68,6 @@ UNITS = (
 """Texture unit of each sampler."""
 
 OneFeature = TypeVar("OneFeature", bound=Feature)
-
-
-def begin_all(start: Start, /) -> list[Feature]:
-    """Return all features, begun for one prairie."""
-    return [feature.begin(start) for feature in FEATURES]
 
 
 def feature_of(kind: type[OneFeature], features: Iterable[Feature], /) -> OneFeature:

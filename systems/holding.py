@@ -207,14 +207,10 @@ class Holding:
         if is_ahead:
             self._deferred = self._making_deferred(site)
 
-    def _cancel_deferred(self) -> None:
-        """Stop making programs that no frame has drawn with yet."""
-        self._compiler.release()
-        self._deferred = iter(())
-
     def _release_grass(self) -> None:
         """Release everything that draws grass; some of it is missing before the first frame, and where that failed."""
-        self._cancel_deferred()
+        self._compiler.release()
+        self._deferred = iter(())
         grass, self.painters = [*self.painters.values()], {}
         release_all(*grass, *([vars(self).pop("air")] if "air" in vars(self) else []))
 

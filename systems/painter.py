@@ -25,7 +25,7 @@ from .show.blades.draw import BladeDrawing
 from .show.blades.plant import record_of
 from .show.representation import RepresentationPainter
 from .site import Site
-from .wind.blow import ReceiverArrays, mean_yaw
+from .wind.blow import mean_yaw
 from .winds import Winds
 
 WHOLE = Asked()
@@ -124,7 +124,11 @@ class Painter(Holding):
         scene, blown = site.scene, outlook.noted(Blown, Blown())
         yaw = mean_yaw(scene.wind)
         air.write(blown.winds, time=blown.time, seed=scene.seed, mixing=scene.mixing, yaw=yaw)
-        air.tell(partial(_receivers, outlook, site), self.quarantine, numbers=partial(numbers_of, outlook, self._first))
+        air.tell(
+            lambda: receivers_shown(outlook, site.growths, patch=site.ground.patch, margin=site.margin),
+            self.quarantine,
+            numbers=partial(numbers_of, outlook, self._first),
+        )
         with aside(self.ctx, target):
             calls = self._prepare()
             air.use()
@@ -300,11 +304,6 @@ def _is_open(outlook: Outlook, site: Site | None) -> bool:
     patches = outlook.patches
     has_holes = site is not None and site.ground.terrain.holes is not None
     return has_holes or bool((patches.alive & ~patches.grows).any())
-
-
-def _receivers(outlook: Outlook, site: Site) -> ReceiverArrays:
-    """Return the receivers of everything that a viewer is shown."""
-    return receivers_shown(outlook, site.growths, patch=site.ground.patch, margin=site.margin)
 
 
 def _draw_among(painter: RepresentationPainter, part: Part) -> int:

@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import compress
 from math import ceil, floor, pi
-from typing import Self
 
 import moderngl
 import numpy as np
@@ -13,15 +12,11 @@ from ..components.arrays import Doubles, Floats
 from ..components.pose import Pose
 from ..components.presser import Presser
 from ..engine.declared.presser import PresserOnPath
-from ..engine.declared.scene import Scene
 from ..engine.declared.way import Waypoint
 from ..engine.handed import as_places_of, is_somewhere
-from ..engine.terrain.record import Density
-from ..engine.world import World
 from .around.outlook import Outlook
 from .frame.block import FrameBlock
 from .frame.feature import Feature, Start
-from .grow.record import Growth
 from .press.card import PressPart
 from .press.lie import combined_message, pressed, recoveries, touches
 from .press.marks import UNTRODDEN, Memory, Trodden
@@ -73,9 +68,9 @@ class Pressers(Feature):
 
     samplers = ("pressed",)
 
-    def __init__(self, world: World, scene: Scene, growths: Sequence[Growth], density: Density) -> None:
-        self._world, self._density, self._wearing = world, density, Wearing()
-        self._generation = world.generation
+    def __init__(self, start: Start, /) -> None:
+        self._world, self._grown, self._wearing = start.world, start.grown, Wearing()
+        self._generation = start.world.generation
         self._declared: dict[int, PresserOnPath] = {}
         """The scene's pressers by their entities, in its order."""
         self._scene_walk, self._game_walk = _walk_of_scene(), Walk(Trail())
@@ -83,50 +78,38 @@ class Pressers(Feature):
         self._memory = Memory([self._scene_walk.trail, self._game_walk.trail])
         self._is_anew = True
         """Whether the whole way of the scene's pressers is still to be replayed."""
-        self._scene = scene
         self.trodden = UNTRODDEN
         """All marks so far."""
-        self.change(scene, growths)
-
-    @classmethod
-    def begin(cls, start: Start, /) -> Self:
-        """Return the pressers of a prairie's world."""
-        return cls(start.world, start.grown.scene, start.grown.growths, start.grown.ground.density)
+        self.settle(start.grown, start.grown, time=0.0)
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
-        """Take over a scene that was read again."""
-        del before, time
-        self._density = grown.ground.density
-        self.change(grown.scene, grown.growths)
-
-    def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> PressPart:
-        """Return the part that uploads marks for passes over receivers."""
-        del block
-        return PressPart(ctx, units["pressed"])
-
-    def change(self, scene: Scene, growths: Sequence[Growth]) -> None:
         """Take over a scene's kinds of grass and pressers, at first or when it was read again.
 
         If the pressers or the time that grass remembers have changed, all their marks are trodden again.
         """
-        self.recovery: Floats = recoveries(scene)
-        swings = [growth.response.step * len(growth.response.fall) for growth in growths]
-        lasts, before = REMEMBERED * max(float(self.recovery.max()), *swings), self._scene
-        self._scene = scene
-        if before.pressers != scene.pressers or lasts != self._memory.lasts:
+        self.recovery: Floats = recoveries(grown.scene)
+        swings = [growth.response.step * len(growth.response.fall) for growth in grown.growths]
+        lasts = REMEMBERED * max(float(self.recovery.max()), *swings)
+        self._grown = grown
+        if before.scene.pressers != grown.scene.pressers or lasts != self._memory.lasts:
             self._memory.lasts = lasts
-            self._declare(scene.pressers)
+            self._declare(grown.scene.pressers)
+
+    def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> PressPart:
+        """Return the part that uploads marks for passes over receivers."""
+        return PressPart(ctx, units["pressed"])
 
     def note(self, time: float) -> Trodden:
         """Move all pressers to their poses at `time` [s], and return what has been trodden."""
         self._place_declared(time)
         found = self._world.both(Presser, Pose)
         if len(found) < len(self._world.rows(Presser)):
-            self._report_without_pose()
+            bare = (entity for entity, _ in self._world.all(Presser) if self._world.find(entity, Pose) is None)
+            self._world.standing([(entity, None) for entity in bare], "the presser")  # logs them
         if not found and not self._scene_walk.pressers and not self._game_walk.pressers and not self.trodden:
             return self.trodden
         wearing = [row for row in found if row[1].wear and row[0] not in self._declared and is_somewhere(row[2])]
-        self._wearing.go(wearing, self._density)
+        self._wearing.go(wearing, self._grown.ground.density)
         pressers, poses = self._posed(found)
         is_declared = np.array([entity in self._declared for entity, _ in pressers], np.bool_)
         own, declared = ([*compress(pressers, which)] for which in (~is_declared, is_declared))
@@ -134,11 +117,6 @@ class Pressers(Feature):
         if self._walk_declared(declared, poses[is_declared], time) or is_new:
             self.trodden = self._memory.at(time)
         return self.trodden
-
-    def _report_without_pose(self) -> None:
-        """Log which pressers have no `Pose`."""
-        every = (entity for entity, _ in self._world.all(Presser))
-        self._world.standing([(each, None) for each in every if self._world.find(each, Pose) is None], "the presser")
 
     def _posed(self, found: list[tuple[int, Presser, Pose]]) -> tuple[list[EntityPresser], Doubles]:
         """Return the pressers whose pose is finite, and their poses (x, z, yaw), shape (n, 3)."""
@@ -233,11 +211,11 @@ class Pressers(Feature):
 
     def _place_declared(self, time: float) -> None:
         """Put the scene's pressers at their poses of `time` [s]; those that a game has deleted stay away."""
-        if not self._scene.pressers:
+        if not self._grown.scene.pressers:
             return
         if self._generation != self._world.check():
             self._declared = {}  # other entities may have their numbers by now
-            self._declare(self._scene.pressers)
+            self._declare(self._grown.scene.pressers)
             self._generation = self._world.generation
         for entity, declared in self._declared.items():
             if self._world.find(entity, Presser) is not None:

@@ -62,7 +62,8 @@ class Ripening:
             if moved is site or not waits:
                 break
             site = moved
-        return self._with_progress(moved, time)
+        came = () if self._seasons.batch is None else self._seasons.batch.came(moved.scene.grass, time)
+        return moved if came == moved.came else moved.come(came)
 
     def _next(self, site: Site, time: float, *, waits: bool) -> _Pending | None:
         """Return the next site that is due, if there is one."""
@@ -107,10 +108,6 @@ class Ripening:
             self._seasons.batch = replace(pending.batch, since=time)
         self._pending = None
         return made
-
-    def _with_progress(self, site: Site, time: float) -> Site:
-        came = () if self._seasons.batch is None else self._seasons.batch.came(site.scene.grass, time)
-        return site if came == site.came else site.come(came)
 
     def release(self) -> None:
         """Cancel what is pending, and grow no more."""

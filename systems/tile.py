@@ -56,13 +56,8 @@ def cells_touching(cells: Ints, parts: NDArray[np.int64], /, *, patch: float) ->
 
 def patch_models(cell: Ints, /, *, seed: int, models: int) -> tuple[Ints, Ints]:
     """Return the index of the patch model on each cell (n, 2), and its number of quarter turns, each (n,)."""
-    hashed = hash_cells(seed, cell)
+    hashed = hash3(seed, cell[..., 0], cell[..., 1])
     return (hashed % np.uint32(models)).astype(np.int32), ((hashed >> np.uint32(16)) % np.uint32(4)).astype(np.int32)
-
-
-def hash_cells(seed: int, cell: Ints) -> NDArray[np.uint32]:
-    """Return a hash of the seed and each cell (n, 2), shape (n,)."""
-    return hash3(seed, cell[..., 0], cell[..., 1])
 
 
 def cell_stood_in(eye: tuple[float, float, float], before: Ints, /, *, patch: float) -> Ints:

@@ -8,28 +8,23 @@ from functools import partial
 from itertools import count
 from math import inf
 from reprlib import repr as shortened
-from typing import Self
 
 import numpy as np
 
 from ..components.arrays import Floats
 from ..components.pose import Pose
 from ..components.wind import WindPrimitive, WindSource, must_be_name, must_be_wind, on_course
-from ..engine.declared.scene import Scene
 from ..engine.handed import SOMEWHERE, is_somewhere
 from ..engine.plugins import wind_kinds
 from ..engine.terrain.sample import height_at
-from ..engine.world import World
 from .bodies.fly import foot, hover_of, hovering
 from .frame.feature import Feature, Start
-from .grow.record import Growth
-from .space.canopy import canopy_height, top_over
-from .space.ground import Ground, densest_kind
+from .space.ground import densest_kind
 from .space.grown import Grown
 from .wind.blow import Blowing, ReceiverArrays, blowing, hear, lone_receivers, mean_index, mean_yaw
 from .wind.card import SAMPLERS
 from .wind.grass import grass_of
-from .wind.quarantine import Quarantine, QuarantinedError
+from .wind.quarantine import QuarantinedError
 
 log = logging.getLogger("tallgrass")
 
@@ -56,57 +51,38 @@ class Winds(Feature):
 
     pass_samplers = SAMPLERS
 
-    def __init__(
-        self,
-        world: World,
-        scene: Scene,
-        ground: Ground,
-        growths: Sequence[Growth],
-        quarantine: Quarantine | None = None,
-    ) -> None:
-        self._world = world
-        self._generation = world.generation
+    def __init__(self, start: Start, /) -> None:
+        self._world = start.world
+        self._generation = start.world.generation
         self._declared: list[int] = []
         self._added: dict[int, int] = {}
         """Generation of the world in which each wind was added, by its handle."""
-        self.quarantine = quarantine or Quarantine()
+        self.quarantine = start.quarantine
         self._clock = 0.0
         self._records: dict[int, _Record] = {}
-        self.change(scene, ground, growths)
-
-    @classmethod
-    def begin(cls, start: Start, /) -> Self:
-        """Return the winds of a prairie."""
-        grown = start.grown
-        return cls(start.world, grown.scene, grown.ground, grown.growths, start.quarantine)
+        self.change(start.grown)
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
         """Take over another site: its winds too, unless they and the ground are the same objects."""
-        del time
         if grown.scene.wind is before.scene.wind and grown.ground is before.ground:
-            self._set_site(grown.scene, grown.ground, grown.growths)
+            self._grown = grown
         else:
-            self.change(grown.scene, grown.ground, grown.growths)
+            self.change(grown)
 
-    def change(self, scene: Scene, ground: Ground, growths: Sequence[Growth]) -> None:
+    def change(self, grown: Grown, /) -> None:
         """Take over the winds that a scene declares, at first or when it was read again.
 
         An unchanged wind keeps its entity and its random numbers. A changed wind keeps its name, which gives it the
         same random numbers. Winds that a game added are not touched.
         """
-        self._set_site(scene, ground, growths)
+        self._grown = grown
         there = dict(self._world.all(WindSource))
         before = {entity: there[entity] for entity in self._declared if entity in there}
-        after = matched(list(before.values()), scene.wind)
+        after = matched(list(before.values()), grown.scene.wind)
         entities = {source: entity for entity, source in before.items()}
         self._declared = [self._declare(source, old, entities) for source, old in after]
         for entity in set(before) - set(self._declared):
             self._world.delete(entity)
-
-    def _set_site(self, scene: Scene, ground: Ground, growths: Sequence[Growth]) -> None:
-        self._scene, self._ground, self._growths = scene, ground, growths
-        self._height_at = partial(height_at, ground.terrain)
-        self._canopy = tuple(map(canopy_height, growths))
 
     def _declare(self, source: WindSource, old: WindSource | None, entities: dict[WindSource, int]) -> int:
         """Return the entity of a declared wind: a new one, or that of the `old` wind, which it replaces."""
@@ -214,7 +190,7 @@ class Winds(Feature):
         A wind is at the `Pose` of its entity, if it has one; else where the jet of its hovering body meets the ground,
         if it has one; else at its own pose.
         """
-        top_at = top_over(self._ground, self._canopy)
+        grown, top_at = self._grown, self._grown.top_at
         sources, poses, winds = list[WindSource](), list[Pose | None](), list[WindPrimitive]()
         for entity, record in self._ongoing(time):
             source, pose = record.source, self._world.find(entity, Pose)
@@ -224,12 +200,11 @@ class Winds(Feature):
                 if pose is not None:
                     hover_of(source, self.quarantine)  # if it fails, the wind is left out of this frame already
                 elif (body := hovering(source, top_at, self.quarantine, time=time)) is not None:
-                    pose = foot(body, self._height_at)
+                    pose = foot(body, partial(height_at, grown.ground.terrain))
             sources.append(source)
             poses.append(pose)
             winds.append(record.wind)
-        seed = self._scene.seed
-        return blowing(sources, self.quarantine, time=time, seed=seed, poses=poses, winds=winds)
+        return blowing(sources, self.quarantine, time=time, seed=grown.scene.seed, poses=poses, winds=winds)
 
     def _ongoing(self, time: float) -> list[tuple[int, _Record]]:
         """Return the winds that are not over at `time` [s], after noting what a game has changed.
@@ -270,8 +245,9 @@ class Winds(Feature):
 
     def messages_to(self, receivers: ReceiverArrays, /, *, time: float) -> Floats:
         """Return the messages (n, 2) of all winds together to receivers at `time` [s]."""
-        seed, mixing, yaw = self._scene.seed, self._scene.mixing, mean_yaw(self._scene.wind)
-        return hear(self.acting(time), receivers, self.quarantine, time=time, seed=seed, mixing=mixing, yaw=yaw)
+        scene, acting = self._grown.scene, self.acting(time)
+        yaw = mean_yaw(scene.wind)
+        return hear(acting, receivers, self.quarantine, time=time, seed=scene.seed, mixing=scene.mixing, yaw=yaw)
 
     def messages_at(self, place: Floats, /, *, time: float, kind: int | None = None) -> Floats:
         """Return the messages (n, 2) at ground positions (n, 2) [m] to a kind of grass, or to the densest there."""
@@ -279,15 +255,15 @@ class Winds(Feature):
 
     def receivers_at(self, place: Floats, /, *, kind: int | None) -> ReceiverArrays:
         """Return receivers of a kind of grass, or of the densest there, at ground positions (n, 2) [m]."""
-        kinds = densest_kind(self._ground.density, place) if kind is None else np.full(len(place), kind, np.intp)
-        return lone_receivers(place, grass_of(self._growths, kinds))
+        kinds = densest_kind(self._grown.ground.density, place) if kind is None else np.full(len(place), kind, np.intp)
+        return lone_receivers(place, grass_of(self._grown.growths, kinds))
 
     def _revive(self) -> None:
         """Make the scene's winds entities again after the game has cleared its world, and log that once."""
         if self._generation == self._world.check():
             return
         self._declared, self._records = [], {}  # other entities may have their numbers by now
-        self.change(self._scene, self._ground, self._growths)  # raises if the world is gone, or another is current
+        self.change(self._grown)  # raises if the world is gone, or another is current
         self._generation = self._world.generation
         log.warning("the esper world was cleared: what the scene declares is there again, added winds are gone")
 
@@ -312,7 +288,7 @@ def matched(
     rows: list[tuple[WindSource, WindSource | None]] = []
     for number, wind in enumerate(winds):
         old = found.get(number)
-        name = old.name if old else next(name for k in count(number) if (name := declared_name(k, wind)) not in taken)
+        name = old.name if old else next(name for k in count(number) if (name := f"wind[{k}] {wind.kind}") not in taken)
         taken.add(name)
         same = old is not None and _likeness(old.primitive, wind) == inf
         rows.append((old if old and same else WindSource(wind, name), old))
@@ -324,11 +300,6 @@ def _must_be_pose(thing: object) -> None:
         raise TypeError(f"a wind is put at a Pose such as Pose(x=3.0, z=-5.0), not at {shortened(thing)}")
     if not is_somewhere(thing):
         raise ValueError(f"a wind is put where {SOMEWHERE}, not at {thing}")
-
-
-def declared_name(number: int, wind: WindPrimitive) -> str:
-    """Return the name of the wind with a number in a scene's list."""
-    return f"wind[{number}] {wind.kind}"
 
 
 def _likeness(one: WindPrimitive, other: WindPrimitive) -> float:

@@ -138,8 +138,7 @@ def systems_on(site: Site, outlooks: Sequence[Outlook], world: World, /, *, hear
     return schedule
 
 
-def _calm(receivers: ReceiverArrays, /, *, time: float) -> Floats:
-    del time
+def _calm(receivers: ReceiverArrays, /, **_: float) -> Floats:
     return np.zeros_like(receivers.place)
 
 

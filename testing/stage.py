@@ -9,13 +9,13 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ..components.arrays import Floats
 from ..engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ..engine.gl.headless import standalone_context
 from ..engine.gl.stream import release_all
 from ..systems.prairie import Prairie
 
 Picture = NDArray[np.float64]
-Matrix = NDArray[np.float32]
 
 
 def looking(x: float, y: float, z: float, *, yaw: float = 0.0, pitch: float = 0.0, view: float = 45.0) -> Camera:
@@ -62,7 +62,7 @@ class Stage:
         self.color, self.depth_map = ctx.texture(size, 3, alignment=1), ctx.depth_texture(size)
         self.target = ctx.framebuffer([self.color], self.depth_map)
 
-    def matrices(self, camera: Camera, /) -> tuple[Matrix, Matrix]:
+    def matrices(self, camera: Camera, /) -> tuple[Floats, Floats]:
         """Return a camera's view and projection matrix for this stage's size, shape (4, 4) each."""
         must_be_camera(camera)
         width, height = self.size
@@ -89,7 +89,7 @@ class Stage:
         data = np.frombuffer(self.target.read(components=3, alignment=1), np.uint8)
         return data.reshape(height, width, 3)[::-1].astype(np.float64)
 
-    def depth(self) -> Matrix:
+    def depth(self) -> Floats:
         """Return the depth of each pixel, 1 for sky, top row first, shape (height, width)."""
         width, height = self.size
         return np.frombuffer(self.depth_map.read(alignment=1), np.float32).reshape(height, width)[::-1]

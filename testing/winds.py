@@ -97,7 +97,10 @@ def _behaviour(wind: WindPrimitive, seed: int) -> list[str]:
         first = {time: _answers(wind, report, time, seed) for time in times}
         _answers(wind, report, times[0], MOST_SEED)
         for time in reversed(times):
-            _again(first[time], _answers(wind, report, time, seed), report, time)
+            answers = _answers(wind, report, time, seed)
+            if [each.tobytes() for each in answers] != [each.tobytes() for each in first[time]]:
+                kept = f"it keeps something between calls: at {time:g} s it answers differently after other times"
+                report.add("time", kept)
         _cost(wind, report, max(times, key=lambda time: sum(len(one) for one in first[time])), seed)
     except FailedError:
         pass
@@ -137,11 +140,6 @@ def _answers(wind: WindPrimitive, report: Report, time: float, seed: int) -> lis
     if _parts(wind, report, time, seed) != parts:
         report.add("parts again", f"parts answers differently when it is asked again (at {time:g} s)")
     return [answer for part in parts for answer in try_part(part, report, time=time, seed=seed)]
-
-
-def _again(first: list[Floats], second: list[Floats], report: Report, time: float) -> None:
-    if [answer.tobytes() for answer in first] != [answer.tobytes() for answer in second]:
-        report.add("time", f"it keeps something between calls: at {time:g} s it answers differently after other times")
 
 
 def _cost(wind: WindPrimitive, report: Report, time: float, seed: int) -> None:

@@ -60,7 +60,7 @@ def _frame(results: Sequence[Result]) -> Figure:
     left, right = figure.subplots(1, 2, width_ratios=(3, 2))
     percentiles = [(f"frame {part}", [each["frame_ms"][part] for each in results]) for part in ("p50", "p95", "p99")]
     kinds = (("CPU", "cpu_ms"), ("GPU", "gpu_ms"))
-    alone = [(what, [_inner(each[key], "p50") for each in results]) for what, key in kinds]
+    alone = [(what, [each[key] and each[key]["p50"] for each in results]) for what, key in kinds]
     bars(left, [*percentiles, *alone, ("sky and ground", [each["floor_ms"] for each in results])], unit="ms")
     against = [("all in view", "ratio_to_seen_3d"), ("all there are", "ratio_to_all_3d")]
     bars(right, [(what, [each[key] for each in results]) for what, key in against], unit="every blade in 3D, in frames")
@@ -122,10 +122,6 @@ def _pop(results: Sequence[Result]) -> Figure:
     names = list(dict.fromkeys(name for each in reversed(found) for name in each))
     bars(right, [(name, [each.get(name) for each in found]) for name in names], unit="mean drift")
     return figure
-
-
-def _inner(value: dict[str, float] | None, key: str) -> float | None:
-    return None if value is None else value[key]
 
 
 PLOTS = (

@@ -33,12 +33,11 @@ SIDES = (100.0, 1000.0, 10000.0)
 """Sides of the terrains [m]."""
 
 
-def scale_measured(take: Take, output: str | None = None, /) -> dict[str, Any]:
+def scale_measured(take: Take, _output: str | None = None, /) -> dict[str, Any]:
     """Return the benchmark's figures of a scene on larger and larger terrains, each in a process of its own.
 
-    It writes no pictures to `output`. Raises InputError where the scene's terrain is not made from noise.
+    Raises InputError where the scene's terrain is not made from noise.
     """
-    del output
     if read_scene(take.scene).scene.terrain.heights is not None:
         raise InputError(f"{take.scene}: its terrain comes from a file; only one from noise can be stretched")
     with Studio(take) as studio:  # this grows and caches the grass, so that no row includes it
@@ -68,12 +67,11 @@ def _measured(take: Take, side: float) -> Row:
     }
 
 
-def measured_apart(take: Take, output: str | None = None, /) -> dict[str, Any]:
+def measured_apart(take: Take, _output: str | None = None, /) -> dict[str, Any]:
     """Return the result of `scale_measured` from a new process: a worker's process may not start others.
 
     Raises InputError and MachineError with that process's message.
     """
-    del output
     command = [sys.executable, "-m", "tallgrass", "bench", "scale", "--json", *words_of(take)]
     done = subprocess.run(  # noqa: S603 - it is our own command
         command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,

@@ -2,13 +2,14 @@
 
 from typing import Self
 
+from ...components.arrays import Floats
 from ...systems.lod import farthest
 from ...systems.prairie import Prairie
 from ...systems.reference import cropped, draw_truth
 from ...systems.room import room_for
 from ..studio.encode import Picture
 from ..studio.offscreen import Offscreen
-from ..studio.studio import Matrix, Studio
+from ..studio.studio import Studio
 from ..studio.take import SAMPLES
 from .flicker import TILE
 from .stroll import Leg, Moment, advance_to, moments, raise_gusts
@@ -59,13 +60,13 @@ class Truth:
         first, part = (corner[0] - 1, corner[1] - 1), (TILE + 2, TILE + 2)
         return self._near(moment, (view, cropped(projection, first, part, self._studio.take.size)), part)
 
-    def _near(self, moment: Moment, matrices: tuple[Matrix, Matrix], size: tuple[int, int]) -> Picture:
+    def _near(self, moment: Moment, matrices: tuple[Floats, Floats], size: tuple[int, int]) -> Picture:
         room = room_for(self._studio.prairie.site.reach, self._prairie.viewers["main"].lens.factor)
         reach = farthest(room)[-1]
         seen_at = tuple(each.camera.position for each in moments(self._prairie, moment.leg))
         return draw_truth(self._prairie, *matrices, size, samples=SAMPLES, reach=reach, seen_at=seen_at).picture
 
-    def _go(self, moment: Moment) -> tuple[Matrix, Matrix]:
+    def _go(self, moment: Moment) -> tuple[Floats, Floats]:
         matrices = self._studio.matrices(moment.camera)
         if self._at != moment:
             advance_to(self._prairie, moment.time)

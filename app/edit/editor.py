@@ -81,11 +81,6 @@ class Editor:
         """The picked wind, None if it is gone."""
         return self.winds[self.picked] if self.picked is not None and self.picked < len(self.winds) else None
 
-    @property
-    def is_preset(self) -> bool:
-        """Whether the command line's preset replaces the scene's quality."""
-        return self.prairie.preset is not None
-
     def is_said(self, way: Way) -> bool:
         """Return whether the file has a value at a way."""
         return value_at(self.history.now.values, way) is not NOTHING

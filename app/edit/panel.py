@@ -54,7 +54,9 @@ class Panel:
         self._brush()
         if imgui.begin_tab_bar("tabs"):
             if self._tab("scene"):
-                self._follow_picked()
+                if self.editor.picked not in (self._picked, None):  # it was picked on the ground
+                    self.tree.open(("wind", self.editor.picked))
+                self._picked = self.editor.picked
                 imgui.begin_child("keys")
                 self.tree.show()
                 imgui.end_child()
@@ -112,12 +114,6 @@ class Panel:
         shown = bool(imgui.begin_tab_item(name)[0])
         self._remember(name)
         return shown
-
-    def _follow_picked(self) -> None:
-        """Open the wind that was picked on the ground."""
-        if self.editor.picked != self._picked and self.editor.picked is not None:
-            self.tree.open(("wind", self.editor.picked))
-        self._picked = self.editor.picked
 
     def _settle(self) -> None:
         """End the step of a change when its field is released."""

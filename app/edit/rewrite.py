@@ -1,14 +1,12 @@
 """Writing changed values back into a YAML text, without touching any other character."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
-from itertools import compress
+from itertools import compress, groupby
 from typing import Any
-
-import yaml
 
 from ...engine.scene import SceneError
 from ...engine.scene.compose import read_document
+from ...engine.scene.document import Node
 from .values import yaml_text
 
 Splice = tuple[int, int, str]
@@ -16,79 +14,6 @@ Splice = tuple[int, int, str]
 
 GONE = NEW = 0.55
 """Costs of removing and of adding an item: together more than the largest cost of altering one."""
-
-
-@dataclass(slots=True, eq=False)
-class Span:
-    """The range of a value in the text."""
-
-    start: int
-    """Index of its first character."""
-
-    end: int
-    """Index after its last character."""
-
-    column: int
-    """Number of characters before it on its line."""
-
-    data: Any = None
-    """The value itself."""
-
-    flow: bool = False
-    """Whether it is in flow style, in brackets or braces."""
-
-    items: list["Span"] = field(default_factory=list)
-    """Values of a mapping or a list, in their order."""
-
-    keys: dict[str, "Span"] = field(default_factory=dict)
-    """Spans of a mapping's keys, by key."""
-
-    def value(self, key: str) -> "Span":
-        """Return the span of a mapping's value by its key."""
-        return self.items[list(self.keys).index(key)]
-
-
-def spans(text: str, /) -> Span:
-    """Return the spans of a YAML text; raises what `read_document` raises for its problems."""
-    data = read_document(text, file="").root.data
-    events = [event for event in yaml.parse(text, Loader=yaml.CSafeLoader) if isinstance(event, _COUNT)]
-    return _Spans(events).read(data)
-
-
-_COUNT = (yaml.NodeEvent, yaml.CollectionEndEvent)
-
-
-class _Spans:
-    """Makes spans from YAML events in their order; their values are known already."""
-
-    def __init__(self, events: list[Any]) -> None:
-        self.events, self.at = events, 0
-
-    def read(self, data: Any) -> Span:
-        event = self._next()
-        found = Span(event.start_mark.index, event.end_mark.index, event.start_mark.column, data)
-        if isinstance(event, yaml.CollectionStartEvent):
-            found.flow = bool(event.flow_style)
-            self._fill(found, event)
-        return found
-
-    def _fill(self, found: Span, event: yaml.CollectionStartEvent) -> None:
-        while not isinstance(self.events[self.at], yaml.CollectionEndEvent):
-            if isinstance(event, yaml.SequenceStartEvent):
-                found.items.append(self.read(found.data[len(found.items)]))
-                continue
-            key = self.events[self.at].value
-            found.keys[key] = self.read(key)
-            found.items.append(self.read(found.data[key]))
-        closed = self._next()
-        if found.flow:
-            found.end = closed.end_mark.index
-        elif found.items:
-            found.end = found.items[-1].end  # libyaml lets it end after the comments that follow
-
-    def _next(self) -> Any:
-        self.at += 1
-        return self.events[self.at - 1]
 
 
 class RewriteError(ValueError):
@@ -100,7 +25,7 @@ def rewritten(text: str, values: dict[str, Any], /) -> str:
 
     `read_document` must be able to read the text. Raises RewriteError where the change cannot be written.
     """
-    splices = sorted(_splices(text, spans(text), values), key=lambda splice: splice[:2])
+    splices = sorted(_splices(text, read_document(text, file="").root, values), key=lambda splice: splice[:2])
     result = text
     for start, end, new in reversed(splices):  # from the back; of several at one index the first one stands first
         result = result[:start] + new + result[end:]
@@ -125,90 +50,92 @@ def _same(one: Any, other: Any) -> bool:
     return yaml_text(one) == yaml_text(other)
 
 
-def _splices(text: str, span: Span, value: Any, key: Span | None = None) -> Iterator[Splice]:
-    """Yield the splices that make the text of `span` read as `value`; `key` is the span of its key in a mapping."""
-    if _same(span.data, value):
+def _splices(text: str, node: Node, value: Any, key: Node | None = None) -> Iterator[Splice]:
+    """Yield the splices that make the text of `node` read as `value`; `key` is the node of its key in a mapping."""
+    if _same(node.data, value):
         return
-    if isinstance(span.data, dict) and isinstance(value, dict) and span.keys.keys() & value.keys():
-        yield from _mapping(text, span, value)
-    elif isinstance(span.data, list) and isinstance(value, list) and span.items and value:
-        yield from _list(text, span, value)
+    if text.startswith("*", node.start):  # an alias: what it repeats stays
+        yield from _replacement(text, node, value, key)
+    elif isinstance(node.data, dict) and isinstance(value, dict) and node.keys.keys() & value.keys():
+        yield from _mapping(text, node, value)
+    elif isinstance(node.data, list) and isinstance(value, list) and node.below and value:
+        yield from _list(text, node, value)
     else:
-        yield from _replacement(text, span, value, key)
+        yield from _replacement(text, node, value, key)
 
 
-def _replacement(text: str, span: Span, value: Any, key: Span | None) -> Iterator[Splice]:
+def _replacement(text: str, node: Node, value: Any, key: Node | None) -> Iterator[Splice]:
     new = yaml_text(value)
-    if isinstance(value, str) and text[span.start : span.start + 1] == "'" and "'" not in value and value.isprintable():
+    if isinstance(value, str) and text[node.start : node.start + 1] == "'" and "'" not in value and value.isprintable():
         new = f"'{value}'"
-    if key is not None and span.items and not span.flow:  # a block: comments may stand beside its key
+    if key is not None and node.below and not node.flow:  # a block: comments may stand beside its key
         colon = text.index(":", key.end) + 1
         yield colon, colon, " " + new
-        yield _line_start(text, span.start), _line_end(text, span.end), ""
+        yield _line_start(text, node.start), _line_end(text, node.end), ""
     else:
-        end = span.start + len(text[span.start : span.end].rstrip())  # a block text spans its last line break
-        yield span.start, end, " " + new if text[span.start - 1 : span.start] in (":", "-") else new
+        end = node.start + len(text[node.start : node.end].rstrip())  # a block text spans its last line break
+        yield node.start, end, " " + new if text[node.start - 1 : node.start] in (":", "-") else new
 
 
-def _mapping(text: str, span: Span, value: dict[str, Any]) -> Iterator[Splice]:
-    for key, where in span.keys.items():
+def _mapping(text: str, node: Node, value: dict[str, Any]) -> Iterator[Splice]:
+    for key, where in node.keys.items():
         if key in value:
-            yield from _splices(text, span.value(key), value[key], where)
-    starts = [each.start for each in span.keys.values()]
-    for first, last in _runs([key not in value for key in span.keys]):
-        yield _removal(text, span, starts, first, last)
-    new = [f"{yaml_text(key)}: {yaml_text(each)}" for key, each in value.items() if key not in span.keys]
+            yield from _splices(text, node.below[key], value[key], where)
+    starts = [each.start for each in node.keys.values()]
+    for first, last in _runs([key not in value for key in node.keys]):
+        yield _removal(text, node, starts, first, last)
+    new = [f"{yaml_text(key)}: {yaml_text(each)}" for key, each in value.items() if key not in node.keys]
     if new:
-        yield _addition(text, span, new)
+        yield _addition(text, node, new)
 
 
-def _list(text: str, span: Span, value: list[Any]) -> Iterator[Splice]:
-    starts = [item.start if span.flow else _dash(text, item) for item in span.items]
-    stays = _staying([item.data for item in span.items], value)
+def _list(text: str, node: Node, value: list[Any]) -> Iterator[Splice]:
+    items = [*node.below.values()]
+    starts = [item.start if node.flow else _dash(text, item) for item in items]
+    stays = _staying(node.data, value)
     for first, last in _runs([not each for each in stays]):
-        yield _removal(text, span, starts, first, last)
-    for item, new in zip(compress(span.items, stays), value, strict=False):
+        yield _removal(text, node, starts, first, last)
+    for item, new in zip(compress(items, stays), value, strict=False):
         yield from _splices(text, item, new)
     added = [yaml_text(item) for item in value[sum(stays) :]]
     if added:
-        yield _addition(text, span, added if span.flow else [f"- {each}" for each in added])
+        yield _addition(text, node, added if node.flow else [f"- {each}" for each in added])
 
 
 def _runs(gone: list[bool]) -> Iterator[tuple[int, int]]:
     """Yield the runs of entries that are gone, each as its first index and the index after its last."""
-    first = None
-    for number, each in enumerate([*gone, False]):
-        if each and first is None:
-            first = number
-        elif not each and first is not None:
-            yield first, number
-            first = None
+    for is_gone, run in groupby(range(len(gone)), gone.__getitem__):
+        if is_gone:
+            first, *others = run
+            yield first, first + len(others) + 1
 
 
-def _dash(text: str, item: Span) -> int:
+def _dash(text: str, item: Node) -> int:
     return text.rindex("-", 0, item.start)
 
 
-def _removal(text: str, span: Span, starts: list[int], first: int, last: int) -> Splice:
+def _removal(text: str, node: Node, starts: list[int], first: int, last: int) -> Splice:
     """Return the splice that removes the entries from `first` to the one before `last`."""
-    if span.flow and last < len(starts):
+    ends = [item.end for item in node.below.values()]
+    if node.flow and last < len(starts):
         return starts[first], starts[last], ""
-    if span.flow:
-        return (span.items[first - 1].end if first else starts[0]), span.items[last - 1].end, ""
+    if node.flow:
+        return (ends[first - 1] if first else starts[0]), ends[last - 1], ""
     line = _line_start(text, starts[first])
     if text[line : starts[first]].strip() and last < len(starts):  # it shares its line with a dash
         return starts[first], starts[last], ""
-    return line, _line_end(text, span.items[last - 1].end), ""
+    return line, _line_end(text, ends[last - 1]), ""
 
 
-def _addition(text: str, span: Span, new: list[str]) -> Splice:
+def _addition(text: str, node: Node, new: list[str]) -> Splice:
     """Return the splice that appends entries."""
-    end = span.items[-1].end
-    if span.flow:
+    items = [*node.below.values()]
+    end = items[-1].end
+    if node.flow:
         return end, end, "".join(f", {each}" for each in new)
     newline = "\r\n" if "\r\n" in text else "\n"
-    first = span.start if span.keys else _dash(text, span.items[0])
-    indent = " " * (first - _line_start(text, first))
+    start = node.start if node.keys else _dash(text, items[0])
+    indent = " " * (start - _line_start(text, start))
     lines = newline.join(indent + each for each in new)
     place = _line_end(text, end)
     return place, place, lines + newline if text[:place].endswith("\n") else newline + lines

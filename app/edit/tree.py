@@ -85,7 +85,7 @@ class Tree:
         self._name(key, way)
         if new is not NOTHING:
             self._set(key, new, way)
-        if way == ("quality",) and self.editor.is_preset:
+        if way == ("quality",) and self.editor.prairie.preset is not None:
             imgui.text_colored(UNSAID, "--preset replaces it while you walk")
         if key.model is not None and isinstance(value, BaseModel):
             self._branch(key, value, way)

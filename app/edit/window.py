@@ -160,7 +160,6 @@ class EditWalk(Walk):
 
     def on_mouse_drag(self, x: int, y: int, dx: int, dy: int, buttons: int, modifiers: int) -> None:
         """Pull, paint, or look around."""
-        del modifiers
         self._point(x, y)
         place = self._pointed()
         if self._grip is not None and place is not None:

@@ -5,10 +5,9 @@ from pathlib import Path
 from typing import Self
 
 import moderngl
-import numpy as np
-from numpy.typing import NDArray
 
 from ... import __version__
+from ...components.arrays import Floats
 from ...engine.camera import Camera, camera_at, projection_matrix, view_matrix
 from ...engine.declared.scene import Scene
 from ...engine.scene import LoadedScene, read_scene
@@ -18,8 +17,6 @@ from ...systems.reference import draw_truth
 from .encode import Picture
 from .offscreen import Offscreen
 from .take import SAMPLES, Take
-
-Matrix = NDArray[np.float32]
 
 
 class Studio:
@@ -58,7 +55,7 @@ class Studio:
         """GL context of the framebuffer."""
         return self._offscreen.ctx
 
-    def matrices(self, camera: Camera) -> tuple[Matrix, Matrix]:
+    def matrices(self, camera: Camera) -> tuple[Floats, Floats]:
         """Return the camera's view and projection matrices for pictures of the take's size."""
         width, height = self.take.size
         return view_matrix(camera), projection_matrix(camera.view, width / height)

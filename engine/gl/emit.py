@@ -44,7 +44,7 @@ def block(name: str, record: np.dtype[np.void], /) -> str:
         kind, offset = record[field], _offset(record, field)
         if kind.base.names:
             structs += struct(field.capitalize(), kind.base)
-        expected += 0 if _is_padding(kind) else -expected % _alignment(kind)
+        expected += 0 if _is_padding(kind) else -expected % {(): 4, (2,): 8}.get(kind.shape, 16)
         if expected != offset:
             raise ValueError(f"{name}.{field} is at {offset}, and std140 has it at {expected}")
         expected += kind.itemsize
@@ -95,7 +95,3 @@ def _member(name: str, kind: np.dtype[np.void]) -> str:
 
 def _is_padding(kind: np.dtype[np.void]) -> bool:
     return kind.base.kind == "V" and not kind.base.names
-
-
-def _alignment(kind: np.dtype[np.void]) -> int:
-    return {(): 4, (2,): 8}.get(kind.shape, 16)

@@ -51,7 +51,8 @@ def limits_of(gl: Functions) -> Limits:
             f"a prairie is drawn with OpenGL 3.3 or newer, and this context has {found}: ask for version 3.3 and a "
             "core profile when the window is made, on macOS for a forward compatible one too"
         )
-    extensions = _extensions(gl)
+    numbers = range(gl.number("NUM_EXTENSIONS"))
+    extensions = {_text(gl.glGetStringi(ENUMS["EXTENSIONS"], number)) for number in numbers}
     several = version >= (4, 1) or "GL_ARB_viewport_array" in extensions
     bits = (c_int * 1)()
     gl.glGetQueryiv(ENUMS["TIMESTAMP"], ENUMS["QUERY_COUNTER_BITS"], bits)
@@ -73,11 +74,6 @@ def version_of(gl: Functions, /) -> tuple[tuple[int, int], bool]:
     text = _text(gl.glGetString(ENUMS["VERSION"]))
     number = re.search(r"(\d+)\.(\d+)", text)
     return (int(number[1]), int(number[2])) if number else (0, 0), text.startswith("OpenGL ES")
-
-
-def _extensions(gl: Functions) -> frozenset[str]:
-    numbers = range(gl.number("NUM_EXTENSIONS"))
-    return frozenset(_text(gl.glGetStringi(ENUMS["EXTENSIONS"], number)) for number in numbers)
 
 
 def _text(text: bytes | None) -> str:

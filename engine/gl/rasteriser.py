@@ -45,8 +45,4 @@ def early_flush(ctx: moderngl.Context, /) -> Callable[[], None]:
     It would start only at the end of the frame, and its threads idle until then. For a card the function does nothing:
     it needs no flush, and a tile-based one would process its tiles twice.
     """
-    return functions_of(ctx).glFlush if draws_in_software(ctx) else _nothing
-
-
-def _nothing() -> None:
-    pass
+    return functions_of(ctx).glFlush if draws_in_software(ctx) else lambda: None

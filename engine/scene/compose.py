@@ -1,7 +1,7 @@
 """Parsing the bytes of a scene file to its values: YAML by the core schema of version 1.2, within limits."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NoReturn
 
 import yaml
@@ -111,6 +111,8 @@ class _Composer:
                 self._begin(event)
             case yaml.MappingEndEvent() | yaml.SequenceEndEvent():
                 ended = self.open.pop()
+                if ended.node.flow:
+                    ended.node.end = _range(event)[1]
                 self._place(ended.node, ended.anchor)
             case yaml.DocumentStartEvent() if self.root is not None:
                 self._stop(event, "a scene file holds one document; leave out the second '---'")
@@ -133,10 +135,12 @@ class _Composer:
         if node is None:
             self._stop(event, f"the alias '*{name}' stands inside what it repeats")
         self._limit(event, node.depth, node.count)
-        return node
+        start, end = _range(event)
+        return replace(node, start=start, end=end, flow=True)
 
     def _begin(self, event: yaml.MappingStartEvent | yaml.SequenceStartEvent) -> None:
         node = self._node(event, {} if isinstance(event, yaml.MappingStartEvent) else [])
+        node.flow = bool(event.flow_style)
         self._refuse_tag(event)
         if event.anchor:
             self.anchors[event.anchor] = None
@@ -144,7 +148,7 @@ class _Composer:
 
     def _node(self, event: yaml.NodeEvent, data: object) -> Node:
         self._limit(event, 1, 1)
-        return Node(*_place(event), data)
+        return Node(*_place(event), data, *_range(event))
 
     def _limit(self, event: yaml.Event, depth: int, count: int) -> None:
         self.count += count
@@ -185,6 +189,8 @@ class _Composer:
         parent.below[step] = node
         parent.depth = max(parent.depth, node.depth + 1)
         parent.count += node.count
+        if not parent.flow:
+            parent.end = node.end  # libyaml lets it end after the comments that follow
         if isinstance(step, int):
             parent.data.append(node.data)
         else:
@@ -207,6 +213,11 @@ class _Composer:
 def _place(event: yaml.Event) -> tuple[int, int]:
     mark = event.start_mark
     return (mark.line, mark.column) if mark else (0, 0)
+
+
+def _range(event: yaml.Event) -> tuple[int, int]:
+    first, last = event.start_mark, event.end_mark
+    return (first.index, last.index) if first and last else (0, 0)
 
 
 def scalar(text: str, /) -> Scalar:

@@ -25,6 +25,12 @@ class Node:
     data: Any
     """Plain value: text, number, true, false, null, list or mapping."""
 
+    start: int = 0
+    """Index of its first character in the text."""
+
+    end: int = 0
+    """Index after its last character; a block ends where its last value does."""
+
     below: dict[str | int, "Node"] = field(default_factory=dict)
     """Values of a mapping by key, or of a list by index."""
 
@@ -36,6 +42,9 @@ class Node:
 
     count: int = 1
     """Number of values, itself included, each as often as aliases repeat it."""
+
+    flow: bool = False
+    """Whether it is in flow style, in brackets or braces, or an alias."""
 
 
 def noded(data: Any, old: Node, /) -> Node:

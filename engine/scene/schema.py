@@ -47,7 +47,6 @@ class _Readable(GenerateJsonSchema):
     ignored_warning_kinds = {"skipped-choice", "non-serializable-default"}  # noqa: RUF012 - as its base declares it
 
     def field_title_should_be_set(self, schema: CoreSchema | Any) -> bool:
-        del schema
         return False
 
 

@@ -52,7 +52,8 @@ class Plots(Log):
 
     def __init__(self, size: tuple[float, float], kind: np.dtype[Any], channels: tuple[int, ...] = ()) -> None:
         super().__init__()
-        self.half = half_of(size)
+        across, along = (max(ceil(side / 2.0 / SIDE - 1e-6), 1) for side in size)
+        self.half = across, along
         """Number of plots from the middle of the terrain to its edges, along x and z."""
         self.pages: Values = np.empty((0, CELLS, CELLS, *channels), kind)
         self.written: NDArray[np.int64] = np.zeros(0, np.int64)
@@ -268,12 +269,6 @@ class Plots(Log):
         self._alike = {pages[page, :1, :1].tobytes(): page for page in np.flatnonzero(same).tolist()}
         self.last.clear()
         self.count = count
-
-
-def half_of(size: tuple[float, float], /) -> tuple[int, int]:
-    """Return the number of plots from the middle of a terrain of this size [m] to its edges, along x and z."""
-    across, along = (max(ceil(side / 2.0 / SIDE - 1e-6), 1) for side in size)
-    return across, along
 
 
 def middles(part: Rectangle, /) -> Floats:

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from math import dist
-from typing import Self
 
 import moderngl
 import numpy as np
@@ -12,13 +11,11 @@ from ...components.body import Body
 from ...components.shade import Shade
 from ...engine.gl.shaders import Texts
 from ...engine.gl.stream import release_all
-from ...engine.world import World
 from ..around.outlook import Outlook
 from ..frame.block import BODIES, FrameBlock
 from ..frame.feature import Feature, Part, Start
 from ..shadows.shades import round_shade
 from ..space.grown import Grown
-from ..wind.quarantine import Quarantine
 from .draw import BodyPainter, programs_of_bodies, shade_of, texts_of_bodies
 from .fly import flying, may_fly
 
@@ -26,17 +23,11 @@ from .fly import flying, may_fly
 class Bodies(Feature):
     """Feature: entities of one world with a `Body`, and bodies that hover over its winds."""
 
-    def __init__(self, world: World, grown: Grown, quarantine: Quarantine) -> None:
-        self._world, self._grown, self._quarantine = world, grown, quarantine
-
-    @classmethod
-    def begin(cls, start: Start, /) -> Self:
-        """Return the bodies of a prairie's world."""
-        return cls(start.world, start.grown, start.quarantine)
+    def __init__(self, start: Start, /) -> None:
+        self._world, self._grown, self._quarantine = start.world, start.grown, start.quarantine
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
         """Take the new grass, over which bodies fly."""
-        del before, time
         self._grown = grown
 
     def flying(self, time: float, /) -> list[Body]:
@@ -62,7 +53,6 @@ class BodiesPart(Part):
 
     def make_ready(self, grown: Grown, /) -> None:
         """Make the painter before anything flies."""
-        del grown
         self._make()
 
     def texts(self) -> Iterator[Texts]:
@@ -115,7 +105,6 @@ class BodiesPart(Part):
 
     def draw_soft(self, beyond: float = 0.0) -> int:
         """Draw their soft silhouettes."""
-        del beyond
         return 0 if self.painter is None else self.painter.draw_border()
 
     def release(self) -> None:

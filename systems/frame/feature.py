@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Protocol, Self, TypeVar
+from typing import ClassVar, Protocol, TypeVar
 
 import moderngl
 import numpy as np
@@ -71,7 +71,6 @@ class Part:
 
     def take_wind(self, wind: "WindTextures", /) -> int:
         """Take over the wind at the patches around the viewer; return the number of draw calls."""
-        del wind
         return 0
 
     def prepare(self) -> int:
@@ -80,7 +79,6 @@ class Part:
 
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Draw the shadow casters of a light at (x, y, z) [m] into a shadow map; return the number of draw calls."""
-        del light
         return 0
 
     def draw_solid(self) -> int:
@@ -100,7 +98,6 @@ class Part:
 
         Things nearer than `beyond` along the ground [m] are left for later calls.
         """
-        del beyond
         return 0
 
     def soft_distance(self) -> float | None:
@@ -139,11 +136,8 @@ class Feature:
     own: ClassVar[tuple[str, ...]] = ()
     """Names of its samplers that it binds itself whenever it draws."""
 
-    @classmethod
-    def begin(cls, start: Start, /) -> Self:
-        """Return the feature of a new prairie."""
-        del start
-        return cls()
+    def __init__(self, start: Start, /) -> None:
+        """Begin on a new prairie."""
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
         """Take over a site that has changed or been replaced, at `time` [s]; `before` is the old one."""
@@ -159,7 +153,6 @@ class Feature:
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> Part:
         """Return the feature's part in a GL context."""
-        del ctx, block, units
         return Part()
 
 

@@ -48,7 +48,8 @@ def _parts(
     kind: GrassKind, layout: Layout, stand: Blades, leaves: Blades, variants: int, random: np.random.Generator, /
 ) -> list[Rows]:
     """Return the blades, stems, leaves and heads of a patch model."""
-    bears = _bearing(layout)
+    due = np.arange(layout.plants + 1) * layout.bearing // layout.plants
+    bears = np.diff(due) > 0  # of any number of first plants the same share
     if kind.plant == "grass":
         culms = _culms(kind, stand, np.flatnonzero(bears))
         parts = [_blade_rows(leaves, np.flatnonzero(~bears)), _stem_rows(kind, culms)]
@@ -60,12 +61,6 @@ def _parts(
         arched = min(variants - hanging_of(variants), variants - 1)
         parts += grow_heads(kind.head, layout, culms, random, arched=arched)
     return parts
-
-
-def _bearing(layout: Layout, /) -> NDArray[np.bool_]:
-    """Return a mask of the plants that bear heads, (plants,): any number of first plants has the same share of them."""
-    due = np.arange(layout.plants + 1) * layout.bearing // layout.plants
-    return np.diff(due) > 0
 
 
 def _stems_of(stand: Blades, plant: NDArray[np.intp], /) -> Stems:
@@ -80,9 +75,8 @@ def _culms(kind: GrassKind, stand: Blades, plant: NDArray[np.intp], /) -> Stems:
     return Stems(plant, stems.branch, 0.5 * (stems.height + kind.height[1]), 0.6 * stems.rest)
 
 
-def _single(kind: GrassKind, layout: Layout, stand: Blades, random: np.random.Generator, /) -> Stems:
+def _single(_kind: GrassKind, layout: Layout, stand: Blades, _random: np.random.Generator, /) -> Stems:
     """Return one stem for each plant."""
-    del kind, random
     return _stems_of(stand, np.arange(layout.plants))
 
 

@@ -46,7 +46,7 @@ def grow_postures(kind: GrassKind, /, *, variants: int = 4, rows: int = 129, see
     sagged = np.moveaxis(_hang(kind), 1, 0)[:hanging]
     rising = np.stack(
         [_resample(angle[: flat_step(angle) + 1], level) for angle in bent]
-        + [_resample(angle[: _flat_chord_step(angle) + 1], level) for angle in sagged]
+        + [_resample(angle[: int(np.argmax(chord_angle(angle) >= NEAR_FLAT)) + 1], level) for angle in sagged]
     )
     both = np.concatenate([-rising[:, :0:-1], rising], axis=1)
     index = np.concatenate([-level[:0:-1], level])
@@ -67,11 +67,6 @@ def _hang(kind: GrassKind, /) -> Doubles:
     factors[1, _FOLDED_AT] = _FOLD_STIFFNESS
     sagged = sag(kind, factors, np.geomspace(_LIGHTEST, _HEAVIEST, _WEIGHTS))
     return np.concatenate([np.zeros_like(sagged[:1]), sagged])
-
-
-def _flat_chord_step(angle: Doubles, /) -> int:
-    """Return the first step at which the line from root to tip of a leaf (steps, links) is near flat."""
-    return int(np.argmax(chord_angle(angle) >= NEAR_FLAT))
 
 
 def rest_in_winds(chain: Chain, /) -> tuple[Doubles, Doubles]:

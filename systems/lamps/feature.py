@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Self
 
 import moderngl
 import numpy as np
@@ -12,7 +11,6 @@ from ...components.pose import Pose
 from ...components.shade import Shade
 from ...engine.declared.lamp import LampOnPath
 from ...engine.terrain.sample import height_at
-from ...engine.world import World
 from ..frame.block import FrameBlock
 from ..frame.feature import Eye, Feature, Start
 from ..space.grown import Grown
@@ -24,24 +22,17 @@ class Lamps(Feature):
 
     samplers = ("listed",)
 
-    def __init__(self, world: World, grown: Grown) -> None:
-        self._world, self._grown = world, grown
+    def __init__(self, start: Start, /) -> None:
+        self._world, self._grown = start.world, start.grown
         self.shining: list[Lit] = []
         """Lamps of this frame, with their poses."""
 
-    @classmethod
-    def begin(cls, start: Start, /) -> Self:
-        """Return the lamps and shades of a prairie's world."""
-        return cls(start.world, start.grown)
-
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
         """Take over a scene that was read again."""
-        del before, time
         self._grown = grown
 
     def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
         """Collect all lamps with their poses at a time [s]; raise ValueError for one without a position."""
-        del viewer, eye
         declared = self._grown.scene.lamps
         self.shining = self._games() + (self._scenes(declared, time) if declared else [])
 
@@ -65,7 +56,6 @@ class Lamps(Feature):
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> LampPart:
         """Return the part that uploads lamps and shades."""
-        del block
         return LampPart(ctx, units["listed"], lambda: self.shining, self._shades)
 
     def _shades(self) -> tuple[list[Shade], float]:

@@ -10,11 +10,11 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.shadow_map import held_number
+from ...components.shadow_map import texture_number
 from ...engine.gl.functions import functions_of
 from ...engine.handed import NUMBER_TYPES
 from ..frame.block import FrameBlock
-from ..frame.feature import Feature, Part
+from ..frame.feature import Feature, Part, Start
 from ..space.grown import Grown
 
 log = logging.getLogger("tallgrass")
@@ -29,7 +29,7 @@ COVERS_TERRAIN = -1.0
 class Earth(Feature):
     """Feature: the ground texture that a game has handed in, if any."""
 
-    def __init__(self) -> None:
+    def __init__(self, start: Start, /) -> None:
         self.texture: Any = None
         self.side: float | None = None
         self.power = ENCODED
@@ -40,14 +40,13 @@ class Earth(Feature):
         It repeats every `side` [m]; with None it covers the terrain once. `linear` says that its texels are linear.
         """
         if texture is not None:
-            number_of(texture)
+            texture_number(texture, "a ground's texture is a 2D one")
         if side is not None and not (isinstance(side, NUMBER_TYPES) and 0.0 < side < inf):
             raise ValueError(f"the side of a ground's texture is above 0 m, not {shortened(side)}")
         self.texture, self.side, self.power = texture, side, LINEAR if linear else ENCODED
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "EarthPart":
         """Return the part that writes the texture into the frame block."""
-        del units
         return EarthPart(ctx, block, self)
 
 
@@ -61,7 +60,6 @@ class EarthPart(Part):
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Write the texture's number, side and exponent."""
-        del grown
         earth, row = self._earth, record[0]
         self._block.earth = number = self._number_or_zero(earth.texture)
         row["earth_power"] = earth.power
@@ -71,20 +69,9 @@ class EarthPart(Part):
         """Return the GL name of a texture, 0 for none or a released one; log a released one once."""
         if texture is None:
             return 0
-        number = number_of(texture)
+        number = texture_number(texture)
         is_gone = isinstance(getattr(texture, "mglo", None), moderngl.InvalidObject) or not self._gl.glIsTexture(number)
         if is_gone and self._reported is not texture:
             self._reported = texture
             log.warning("texture %d of a game's ground has been released: the scene's own ground is drawn", number)
         return 0 if is_gone else number
-
-
-def number_of(texture: object, /) -> int:
-    """Return a texture's GL name; raise TypeError for anything but a 2D texture."""
-    number = held_number(texture)
-    is_other = type(texture).__name__ in {"TextureArray", "TextureCube", "Texture3D"}
-    if not isinstance(number, int) or isinstance(number, bool) or number < 1 or is_other:
-        raise TypeError(
-            f"a ground's texture is a 2D one of moderngl or pyglet, or its number, not {shortened(texture)}"
-        )
-    return number

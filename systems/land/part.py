@@ -56,7 +56,6 @@ class Land(Feature):
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "LandPart":
         """Return the part that holds the land's textures."""
-        del block
         return LandPart(ctx, units)
 
 

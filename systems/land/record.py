@@ -57,9 +57,8 @@ class Figures:
 
 
 @while_it_lives
-def _cached_figures(growth: Growth, /) -> dict[tuple[object, ...], Figures]:
+def _cached_figures(_growth: Growth, /) -> dict[tuple[object, ...], Figures]:
     """Return the cache of a growth's figures, which is kept with it, keyed by taper, profile and patch side."""
-    del growth
     return {}
 
 

@@ -6,7 +6,6 @@ Zero Dawn, 2015). Each texel also holds the gradient of the noise, from which a 
 """
 
 from functools import cache
-from itertools import product
 
 import moderngl
 import numpy as np
@@ -15,7 +14,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Floats
 from ...engine.gl.functions import ENUMS, functions_of
 from ...engine.kept import code_hash, keep, kept
-from .repeating import CLOUDS_SIDE
+from .repeating import CLOUDS_SIDE, heaps
 
 SIDE = 64
 """Texels along a side of the block."""
@@ -44,26 +43,10 @@ GLSL = {"BILLOWS_STEEPEST": STEEPEST, "BILLOWS_TEXELS": float(SIDE), "BILLOWS_SI
 def billow_noise() -> Floats:
     """Return the noise, scaled to [0, 1] and clipped at the lowest and highest 0.5 %, shape (SIDE,) * 3."""
     random = np.random.default_rng(SEED)
-    field = sum(GAIN**number * _heaps(count, random) for number, count in enumerate(OCTAVES))
+    points = (random.random((3, count, count, count), np.float32) for count in OCTAVES)
+    field = sum(GAIN**number * heaps(each, SIDE) for number, each in enumerate(points))
     low, high = np.quantile(field, (0.005, 0.995))
     return np.asarray(np.clip((field - low) / (high - low), 0.0, 1.0), np.float32)
-
-
-def _heaps(count: int, random: np.random.Generator) -> Floats:
-    """Return inverted Worley noise with one random point in each of `count`**3 cubes, shape (SIDE,) * 3.
-
-    It is minus the distance to the nearest point, in sides of a cube, and tileable.
-    """
-    offsets, side = random.random((3, count, count, count), np.float32), SIDE // count
-    middles = (np.arange(side, dtype=np.float32) + 0.5) / side
-    nearest = np.full((count, side) * 3, np.inf, np.float32)
-    for cell in product((-1, 0, 1), repeat=3):
-        points = np.roll(offsets, tuple(-each for each in cell), (1, 2, 3))
-        down, across, along = (((points[axis] + np.float32(cell[axis]))[..., None] - middles) ** 2 for axis in range(3))
-        squared = down.transpose(0, 3, 1, 2)[..., None, :, None] + across.transpose(0, 1, 3, 2)[:, None, :, :, :, None]
-        squared = squared + along[:, None, :, None]
-        np.minimum(nearest, squared, out=nearest)
-    return -np.sqrt(nearest.reshape((SIDE,) * 3))
 
 
 @cache

@@ -7,7 +7,6 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Floats
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.light import Light
 from ...engine.gl.stream import release_all
@@ -61,7 +60,8 @@ class LightPart(Part):
             before and before.ground.terrain is grown.ground.terrain and before.scene.seed == grown.scene.seed
         ):
             self._lay(grown.ground.terrain, seed=grown.scene.seed)
-        record["lie_origin"] = self.lie.follow(_pair(record["terrain_origin"][0]))
+        x, z = record["terrain_origin"][0].tolist()
+        record["lie_origin"] = self.lie.follow((x, z))
         shining, light = self._shining, self._shining.light
         if shining.leaps != self._leaps:
             self.lie.leap()
@@ -108,11 +108,6 @@ class LightPart(Part):
     def release(self) -> None:
         """Release all GL objects."""
         release_all(self._array, self._array.program, self._sky, self._clouds, self.lie, self._repeating)
-
-
-def _pair(place: Floats) -> tuple[float, float]:
-    x, z = place.tolist()
-    return x, z
 
 
 def write_light(record: NDArray[np.void], declared: Light, light: Daylight, kinds: Sequence[GrassKind], /) -> None:

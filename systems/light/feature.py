@@ -1,7 +1,6 @@
 """The feature of light: a prairie's sun and sky."""
 
 from collections.abc import Mapping
-from typing import Self
 
 import moderngl
 
@@ -18,13 +17,8 @@ class Lighting(Feature):
     samplers = ("lie", "repeating")
     own = ("sky", "clouds", "billows", "heaps")
 
-    def __init__(self, shining: Shining) -> None:
-        self.shining = shining
-
-    @classmethod
-    def begin(cls, start: Start, /) -> Self:
-        """Return the light that a scene declares."""
-        return cls(Shining(start.grown.scene.light, live=start.live))
+    def __init__(self, start: Start, /) -> None:
+        self.shining = Shining(start.grown.scene.light, live=start.live)
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
         """Take the light of a scene that was read again, if it has changed."""
@@ -33,7 +27,6 @@ class Lighting(Feature):
 
     def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
         """Advance the light to a time [s]."""
-        del eye
         self.shining.step(viewer, time=time)
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> LightPart:

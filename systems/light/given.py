@@ -11,7 +11,7 @@ from ...components.arrays import Doubles
 from ...components.colour import hex_of, is_colour
 from ...engine.handed import as_floats
 from ..frame.block import FrameBlock
-from ..frame.feature import Feature, Part
+from ..frame.feature import Feature, Part, Start
 from ..space.grown import Grown
 from .color import shown_as, srgb
 
@@ -50,7 +50,7 @@ def fitted(radiance: Doubles, /) -> Doubles:
 class GivenHaze(Feature):
     """Feature: haze whose colours a game gives."""
 
-    def __init__(self) -> None:
+    def __init__(self, start: Start, /) -> None:
         self.haze: Haze | None = None
         self.colours: Doubles | None = None
         """Its colours in all sampled directions, as `colours_around` returns them; None for the scene's own haze."""
@@ -62,7 +62,6 @@ class GivenHaze(Feature):
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "GivenHazePart":
         """Return the part that writes the haze into the frame block."""
-        del ctx, block, units
         return GivenHazePart(self)
 
 
@@ -75,7 +74,6 @@ class GivenHazePart(Part):
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Write the haze's coefficients, if its colours have changed."""
-        del grown
         colours = self._given.colours
         if colours is self._written:
             return

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from functools import lru_cache
 from hashlib import blake2b
-from itertools import pairwise
+from itertools import pairwise, product
 
 import moderngl
 import numpy as np
@@ -98,27 +98,31 @@ def cloud_map(*, seed: int) -> NDArray[np.uint8]:
     amplitude *= np.exp(-((wave_number / BROAD_CUT) ** 2))
     spectrum = amplitude * np.exp(2j * np.pi * random.random((SIDE, SIDE)))
     broad = np.fft.ifft2(spectrum).real
-    heaps = np.fft.ifft2(np.fft.fft2(_heaps(random)) * np.exp(-((wave_number / HEAPS_CUT) ** 2))).real
-    field = broad / broad.std() + HEAPS_AMPLITUDE * heaps / heaps.std()
+    points = random.random((HEAPS, HEAPS, 2), np.float32).transpose(2, 0, 1)
+    heaped = np.fft.ifft2(np.fft.fft2(heaps(points, SIDE)) * np.exp(-((wave_number / HEAPS_CUT) ** 2))).real
+    field = broad / broad.std() + HEAPS_AMPLITUDE * heaped / heaped.std()
     rank = np.empty(field.size)
     rank[np.argsort(field, axis=None, kind="stable")] = np.arange(field.size) / field.size
     return np.asarray(np.floor(rank * 256.0), np.uint8).reshape(SIDE, SIDE)
 
 
-def _heaps(random: np.random.Generator) -> Floats:
-    """Return inverted Worley noise with one random point in each of `HEAPS`**2 squares, shape (SIDE, SIDE).
+def heaps(points: Floats, side: int, /) -> Floats:
+    """Return inverted Worley noise, tileable, shape (side,) * d: minus the distance to the nearest point, in cells.
 
-    It is minus the distance to the nearest point, in sides of such a square, and tileable.
+    `points` has one in each of n**d cells, at a part of the cell's sides, shape (d, n, ..., n).
     """
-    offsets, side = random.random((HEAPS, HEAPS, 2), np.float32), SIDE // HEAPS
-    middles = (np.arange(side, dtype=np.float32) + 0.5) / side
-    nearest = np.full((HEAPS, side, HEAPS, side), np.inf, np.float32)
-    for down in (-1, 0, 1):
-        for right in (-1, 0, 1):
-            points = np.roll(offsets, (-down, -right), (0, 1)) + np.array([down, right], np.float32)
-            squared = (points[..., None] - middles) ** 2  # by row and column of squares, axis, texel along a side
-            np.minimum(nearest, squared[:, :, 0].transpose(0, 2, 1)[..., None] + squared[:, None, :, 1], out=nearest)
-    return -np.sqrt(nearest.reshape(SIDE, SIDE))
+    axes, count = range(len(points)), points.shape[1]
+    middles = (np.arange(side // count, dtype=np.float32) + 0.5) / (side // count)
+    nearest = np.full((count, side // count) * len(axes), np.inf, np.float32)
+    for cell in product((-1, 0, 1), repeat=len(axes)):
+        moved = np.roll(points, tuple(-each for each in cell), tuple(axis + 1 for axis in axes))
+        squared: Floats = np.zeros((), np.float32)
+        for axis in axes:
+            apart = ((moved[axis] + np.float32(cell[axis]))[..., None] - middles) ** 2
+            others = tuple(2 * each + 1 for each in axes if each != axis)
+            squared = squared + np.expand_dims(np.moveaxis(apart, -1, axis + 1), others)
+        np.minimum(nearest, squared, out=nearest)
+    return -np.sqrt(nearest.reshape((side,) * len(axes)))
 
 
 def litter_map(*, seed: int) -> Doubles:

@@ -114,9 +114,8 @@ def _stroke_few_plots(
         plots.put(part, partial(_replaced, after[slices]), untouched)
 
 
-def _replaced(values: Values, before: Values) -> Values:
+def _replaced(values: Values, _before: Values) -> Values:
     """Return new values whatever there was before."""
-    del before
     return values
 
 

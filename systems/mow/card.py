@@ -117,8 +117,9 @@ class PlotsPart(TexturePart):
             return
         most = self._most_rows * (WIDTH // CELLS) - 1
         self._last_sheet = dense.grow(cut.grow(self._last_sheet, most), most)
-        if not (cut.first_sheet.all() and dense.first_sheet.all()):
-            self._report_full()
+        if not (self._is_full or (cut.first_sheet.all() and dense.first_sheet.all())):
+            self._is_full = True
+            _log.warning("more has been cut and sown than a texture has room for: some of it is not shown")
         rows = -(-(self._last_sheet + 1) * CELLS // WIDTH)
         if rows > self._rows:
             self._make_texture(1 << (rows - 1).bit_length())
@@ -160,12 +161,6 @@ class PlotsPart(TexturePart):
         self.texture.write(self._index, viewport=(0, 0, WIDTH, len(self._index) // WIDTH), alignment=1)
         for sheets in self._sheets or ():
             sheets.forget()
-
-    def _report_full(self) -> None:
-        """Log once that the texture is full."""
-        if not self._is_full:
-            self._is_full = True
-            _log.warning("more has been cut and sown than a texture has room for: some of it is not shown")
 
     def _upload_pages(self, sheets: _Sheets, encoder: Encoder) -> None:
         """Upload the stale pages of a map, in runs of neighbouring sheets."""

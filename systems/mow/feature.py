@@ -1,7 +1,6 @@
 """The feature of mowing: what a game has cut, sown and cleared."""
 
 from collections.abc import Mapping
-from typing import Self
 
 import moderngl
 
@@ -19,17 +18,11 @@ class Mowing(Feature):
 
     samplers = ("plots",)
 
-    def __init__(self, mown: Mown) -> None:
-        self.mown = mown
-
-    @classmethod
-    def begin(cls, start: Start, /) -> Self:
-        """Return the feature with nothing cut."""
-        return cls(Mown(start.grown.ground.terrain))
+    def __init__(self, start: Start, /) -> None:
+        self.mown = Mown(start.grown.ground.terrain)
 
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
         """Carry over what is cut, sown and cleared to another terrain, or other kinds and painted densities."""
-        del time
         self.mown.change(grown.ground.terrain)
         if grown.ground.density is not before.ground.density:
             names = list(before.scene.grass)
@@ -42,5 +35,4 @@ class Mowing(Feature):
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> PlotsPart:
         """Return the part that uploads both maps."""
-        del block
         return PlotsPart(ctx, units["plots"], self.mown)

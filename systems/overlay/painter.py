@@ -2,17 +2,14 @@
 
 import moderngl
 import numpy as np
-from numpy.typing import NDArray
 
-from ...components.arrays import Bytes
+from ...components.arrays import Bytes, Floats
 from ...engine.gl.shaders import program
 from ...engine.gl.smaller import OVER
 from ...engine.gl.stream import Stream, attributes, release_all
 from ...engine.gl.texture import by_texel
 from ...engine.gl.units import FIRST_UNIT
 from .marks import LINE, SHAPE, Marks
-
-Matrix = NDArray[np.float32]
 
 LINE_CORNERS = np.array([[0, -1], [1, -1], [0, 1], [1, 1]], np.float32)
 IMAGE_CORNERS = np.array([[0, 0], [1, 0], [0, 1], [1, 1]], np.float32)
@@ -47,7 +44,7 @@ class MarkPainter:
             made["screen"] = size[0] / 2, size[1] / 2
         self.programs[1]["scale"] = scale_of(size)
 
-    def draw(self, marks: Marks, onto: Matrix) -> None:
+    def draw(self, marks: Marks, onto: Floats) -> None:
         """Draw marks; `onto` (4, 4) is the matrix from their space to clip space, for column vectors."""
         matrix = tuple(onto.T.reshape(-1).tolist())
         self.shapes.write(marks.shapes)
@@ -86,6 +83,6 @@ def scale_of(size: tuple[int, int], /) -> float:
     return float(np.clip(size[1] / 540.0, 0.6, 4.0))
 
 
-def pixels_onto_clip(size: tuple[int, int], /) -> Matrix:
+def pixels_onto_clip(size: tuple[int, int], /) -> Floats:
     """Return the matrix from pixels, counted from the lower left, to clip space, shape (4, 4)."""
     return np.array([[2 / size[0], 0, 0, -1], [0, 2 / size[1], 0, -1], [0, 0, 0, 0], [0, 0, 0, 1]], np.float32)

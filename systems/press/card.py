@@ -47,12 +47,10 @@ class PressPart(TexturePart):
 
     def make_ready(self, grown: Grown, /) -> None:
         """Make room for the marks of many pressers."""
-        del grown
         self._grow(FRESH_ROOM, SETTLED_ROOM)
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Take over the kinds' responses and recovery times."""
-        del record
         if grown is not self._grown:
             self._grown = grown
             self._write_responses(grown.growths, recoveries(grown.scene))
@@ -69,7 +67,6 @@ class PressPart(TexturePart):
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Upload the marks; settled ones only when they have changed."""
-        del record
         self._upload(outlook.noted(Trodden, UNTRODDEN))
 
     def _upload(self, trodden: Trodden) -> None:

@@ -111,7 +111,8 @@ class Trail:
         jumped, moved = distance > JUMP + FASTEST * elapsed, distance > 0.0
         stood = moved & ~jumped & (stretches[:, LEFT] - stretches[:, CAME] > LONGEST_STAND)
         stood |= moved & ~jumped & (stretches[:, LEFT] % self.every == 0.0) & (stretches[:, BEGUN] < stretches[:, LEFT])
-        self._close(jumped | stood)
+        if (ended := jumped | stood).any():
+            self.closed.append(self.open[ended])
         stretches[stood, FIRST], stretches[stood, BEGUN] = stretches[stood, LAST], stretches[stood, LEFT]
         self.way[stood] = 0.0
         completing = np.flatnonzero(moved & ~jumped & (self.way + distance >= _stretch_length(stretches[:, REACH])))
@@ -142,11 +143,6 @@ class Trail:
             end[rows_left] += length[rows_left]
             rows_left = rows_left[end[rows_left] <= distance[rows_left]]
         self.way[rows] = -(end - length)  # `tread` adds the whole step
-
-    def _close(self, which: NDArray[np.bool_]) -> None:
-        """Add the present stretches of some discs to the closed ones."""
-        if which.any():
-            self.closed.append(self.open[which])
 
     def _new_stretches(self, discs: Discs, rows: NDArray[np.intp], time: float) -> Stretches:
         """Return new stretches of length 0 for some discs, each on a new way."""

@@ -16,7 +16,7 @@ from ...engine.gl.guest import borrow, guest_clip
 from ...engine.gl.units import BORROWED
 from ..around.outlook import Outlook
 from ..frame.block import MAPS, FrameBlock
-from ..frame.feature import Feature, Part
+from ..frame.feature import Feature, Part, Start
 
 log = logging.getLogger("tallgrass")
 
@@ -27,7 +27,7 @@ UNITS = {f"map_{number}": unit for number, unit in enumerate(BORROWED)}
 class Shadows(Feature):
     """Feature: shadow maps that a game has handed in."""
 
-    def __init__(self) -> None:
+    def __init__(self, start: Start, /) -> None:
         self.maps: tuple[ShadowMap, ...] = ()
 
     def hand_in(self, maps: Iterable[ShadowMap], origin: tuple[float, float, float], /) -> None:
@@ -50,7 +50,6 @@ class Shadows(Feature):
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> "ShadowPart":
         """Return the part that binds the maps."""
-        del block, units
         return ShadowPart(ctx, self)
 
 
@@ -78,7 +77,6 @@ class ShadowPart(Part):
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Write the matrices and biases of the maps whose textures exist."""
-        del outlook
         sun = np.asarray(record["sun"][0], np.float64)
         present = [each for each in self._shadows.maps if self._is_there(each)]
         self._bound = [(each, is_reversed_depth(each.matrix, sun)) for each in present]

@@ -117,7 +117,7 @@ class RepresentationPainter(Part, ABC):
         """Return the messages at the patches around the viewer; only the representation on the ground has them."""
         raise NotImplementedError
 
-    def draw_ground(self, *, alone: bool) -> int:  # noqa: ARG002 - for overrides
+    def draw_ground(self, *, alone: bool) -> int:
         """Draw the bare ground, and with `alone` the ground under grass too; return the number of draw calls."""
         return 0
 
@@ -134,7 +134,6 @@ class RepresentationPainter(Part, ABC):
 
     def draw_thin(self, target: moderngl.Framebuffer, /) -> int:
         """Draw the part that `draw_dense` leaves out, over soft edges behind it; return the number of draw calls."""
-        del target
         return 0
 
     @property
@@ -147,7 +146,6 @@ class RepresentationPainter(Part, ABC):
 
         Distances are those of `distance_in_order`. `draw` then leaves these patches out.
         """
-        del distance
         return 0
 
     def look_anew(self) -> int:
@@ -204,22 +202,22 @@ class Representation(ABC):
         """Return the largest discrete distance at which a patch is to have this representation."""
 
     @staticmethod
-    def depends(kind: GrassKind, quality: Quality, /) -> object:  # noqa: ARG004 - for overrides
+    def depends(kind: GrassKind, quality: Quality, /) -> object:
         """Return the plain values that pictures depend on, apart from the blades."""
         return None
 
     @staticmethod
-    def grow(seedling: Seedling, /) -> tuple[Any, ...]:  # noqa: ARG004 - for overrides
+    def grow(seedling: Seedling, /) -> tuple[Any, ...]:
         """Return the pictures of a patch model, grown from its blades: objects of the class `record`."""
         return ()
 
     @staticmethod
-    def fits(pictures: tuple[Any, ...], quality: Quality, blades: int, /) -> bool:  # noqa: ARG004 - for overrides
+    def fits(pictures: tuple[Any, ...], quality: Quality, blades: int, /) -> bool:
         """Return whether pictures read from disk have the right shapes for a quality and a number of blades."""
         return not pictures
 
     @staticmethod
-    def layers(quality: Quality, /) -> int:  # noqa: ARG004 - for overrides
+    def layers(quality: Quality, /) -> int:
         """Return the number of texture layers that the pictures of a patch model take."""
         return 0
 
@@ -237,7 +235,7 @@ class Representation(ABC):
         """Return the same grass on another ground."""
         return replace(self, ground=ground)
 
-    def defines(self, grown: Grown, /) -> Mapping[str, str | int]:  # noqa: ARG002 - for overrides
+    def defines(self, grown: Grown, /) -> Mapping[str, str | int]:
         """Return the shader defines that a scene's kinds need in all programs."""
         return {}
 
@@ -252,7 +250,7 @@ class Representation(ABC):
         """Return the ring of each sub-level (n,), shape (n,)."""
         return sublevel
 
-    def keep(self, patches: PatchTable, side: int, /) -> Kept:  # noqa: ARG002 - for overrides
+    def keep(self, patches: PatchTable, side: int, /) -> Kept:
         """Return an empty store for one viewer, with room for `side` by `side` patches."""
         return Kept()
 
@@ -260,18 +258,18 @@ class Representation(ABC):
         """Return the largest distance of a receiver outside its patch [m]."""
         return 0.0
 
-    def components(self, outlook: Outlook, rows: list[int], /) -> list[tuple[object, ...]]:  # noqa: ARG002 - for overrides
+    def components(self, outlook: Outlook, rows: list[int], /) -> list[tuple[object, ...]]:
         """Return the components that the representation adds to the entities of the patches in some rows."""
         return [()] * len(rows)
 
-    def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:  # noqa: ARG002
+    def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:
         """Return the sub-levels that patches (n,) are to have, shape (n,); `held` (n,) are their present ones.
 
         Hysteresis: the limit to a coarser sub-level lies `slack` patches farther out than the limit back.
         """
         return np.zeros(len(rows), np.int8)
 
-    def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:  # noqa: ARG002 - for overrides
+    def unfit(self, outlook: Outlook, rows: Rows, has: Mask, /, *, slack: int) -> Mask:
         """Return whether the representation would look wrong on each patch (n,), as strips do from above.
 
         These patches get a coarser one. `has` (n,) says which patches have this one already: with a `slack` above 0
@@ -279,7 +277,7 @@ class Representation(ABC):
         """
         return np.zeros(len(rows), np.bool_)
 
-    def remaining(self, outlook: Outlook, rows: Rows, away: NDArray[np.float32], /) -> NDArray[np.float32]:  # noqa: ARG002 - for overrides
+    def remaining(self, outlook: Outlook, rows: Rows, away: NDArray[np.float32], /) -> NDArray[np.float32]:
         """Return the part of the representation that shows on each patch (n,): it falls from 1 to 0 before `unfit`.
 
         `away` (n,) is the distance of the patch's middle from the eye [patch sides]. It is not rounded, so that the
@@ -294,7 +292,7 @@ class Representation(ABC):
     def plant(self, outlook: Outlook, /) -> None:  # noqa: B027 - optional
         """Plant the shown patches that are not planted yet."""
 
-    def carry_ahead(self, before: "Representation", kept: Kept, patches: PatchTable, /) -> bool:  # noqa: ARG002 - for overrides
+    def carry_ahead(self, before: "Representation", kept: Kept, patches: PatchTable, /) -> bool:
         """Prepare `carry`, in a frame before it; return whether that was already done."""
         return True
 

@@ -137,7 +137,7 @@ def bark_of(tree: Tree, area: Doubles, first_limb: int, /) -> tuple[NDArray[np.v
     parts: list[_Part] = []
     for stems, sides, shade, limbs in zip(levels, SIDES, shades, limb_of, strict=True):
         tubes, of_trunk = _tubes(stems, sides), limbs is None
-        foot = _rings_of_foot(stems) if of_trunk else 0
+        foot = int((stems.spine[0, :, 1] < FOOT_ENDS * stems.radius[0, 0]).sum()) if of_trunk else 0
         for ribbon, vertices in enumerate((_flared(tubes) if of_trunk else tubes, _ribbons(stems))):
             vertices["shading"] = shade.reshape(*stems.spine.shape[:2], 1, 4)
             if limbs is not None:
@@ -206,11 +206,6 @@ def _with_foot(trunk: Stems) -> Stems:
     thick = np.interp(high, spine[:, 1], radius)
     spine, radius = np.concatenate([foot, spine[above]]), np.concatenate([thick, radius[above]])
     return Stems(spine[None], trunk.parent, trunk.at, radius[None])
-
-
-def _rings_of_foot(trunk: Stems) -> int:
-    """Return the number of rings of a trunk that are widened, and so not round."""
-    return int((trunk.spine[0, :, 1] < FOOT_ENDS * trunk.radius[0, 0]).sum())
 
 
 def _flared(vertices: NDArray[np.void]) -> NDArray[np.void]:

@@ -74,7 +74,6 @@ class TreePart(Part):
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Grow the scene's kinds of trees where they have changed."""
-        del record
         scene = grown.scene
         self._wind = mean_wind(scene.wind)
         declared = tuple(scene.trees.values()), scene.seed
@@ -103,7 +102,6 @@ class TreePart(Part):
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Draw a tree of each model in every way in the next frame."""
-        del record
         self._rehearsing = True
 
     def _forget(self) -> None:
@@ -276,7 +274,6 @@ class TreePart(Part):
 
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Draw into the depth of a shadow map; return the number of draw calls."""
-        del light
         return draw(self._pass_calls(HARD, casts=True), self._uniforms)
 
     def begin_soft(self) -> None:

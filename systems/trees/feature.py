@@ -4,7 +4,6 @@ import logging
 from collections.abc import Mapping, Sequence
 from functools import partial
 from itertools import compress
-from typing import Self
 
 import moderngl
 import numpy as np
@@ -15,7 +14,7 @@ from ...components.pose import Pose
 from ...components.tree import HIGHEST, LOWEST, Tree
 from ...engine.declared.tree import TreeKind
 from ...engine.terrain.sample import height_at
-from ...engine.world import World, uncollected
+from ...engine.world import uncollected
 from ..frame.block import FrameBlock
 from ..frame.feature import Eye, Feature, Start
 from ..space.grown import Grown
@@ -42,8 +41,8 @@ class Trees(Feature):
 
     own = ("tree_twigs", "tree_cards", "tree_far", "tree_depths", "tree_air", "tree_mean")
 
-    def __init__(self, world: World, grown: Grown, *, live: bool) -> None:
-        self._world, self._grown, self._live = world, grown, live
+    def __init__(self, start: Start, /) -> None:
+        self._world, self._grown, self._live = start.world, start.grown, start.live
         self._seedlings: list[Seedling] = []
         """The scene's single trees, as planted."""
         self.entities: list[int] = []
@@ -53,7 +52,7 @@ class Trees(Feature):
         self._world_changes = -1
         self._last_seen: tuple[list[tuple[int, Tree]], list[Pose | None]] = [], []
         self._terrain_version = -1
-        self._generation = world.check()
+        self._generation = start.world.check()
         self._unknown: set[str] = set()
         """Kinds without a declaration that were already reported."""
         self._taken = TreeRows()
@@ -63,14 +62,8 @@ class Trees(Feature):
         self._shading_of: object = None
         self._plant()
 
-    @classmethod
-    def begin(cls, start: Start, /) -> Self:
-        """Return the trees of a prairie's world, with those of its scene planted."""
-        return cls(start.world, start.grown, live=start.live)
-
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
         """Go on with a scene read again: replant all if its trees, ground or seed have changed."""
-        del time
         self._grown = grown
         if _planting_inputs(grown) != _planting_inputs(before):
             for entity in self.entities:

@@ -131,8 +131,7 @@ class GpuKind:
         off = SHOOTS_OFF if self.habit.leaf.shoots > 1 else HANGING_OFF
         numbers = {**_leaf_uniforms(leaf, self.habit.twigs.length), "finer": (finer,), "shoots_off": (off,)}
 
-        def draw_twig(number: int) -> None:
-            del number
+        def draw_twig(_: int) -> None:
             self.set_uniforms(twig.program, self.models[0], numbers)
             _set_matrix(twig.program, matrix)
             twig.render(moderngl.TRIANGLES, vertices=QUAD * leaf.quads, instances=1)

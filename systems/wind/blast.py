@@ -176,8 +176,7 @@ def _pictured(name: str, folder: Path, width: float) -> Outline:
 
 
 @lru_cache(maxsize=64)
-def _picture(path: str, changed: int, width: float) -> Outline:
-    del changed
+def _picture(path: str, _changed: int, width: float) -> Outline:
     # Pillow warns of a damaged file before it raises, and the exception becomes a problem of the scene.
     with catch_warnings(action="ignore", category=UserWarning), Image.open(path) as opened:
         opened.thumbnail((FINE, FINE))

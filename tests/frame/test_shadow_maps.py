@@ -352,7 +352,7 @@ def test_a_map_whose_texture_was_released_is_named_once_and_drawn_without(
             ValueError,
             r"a shadow map's bias is from 0 to 100 m, not -1\.0",
         ),
-        (lambda _: ShadowMap("map.png", np.eye(4)), TypeError, r"a shadow map's texture is a depth texture of "),
+        (lambda _: ShadowMap("map.png", np.eye(4)), TypeError, r"a shadow map's texture is a 2D depth texture of "),
         (lambda _: ShadowMap(None, np.eye(4)), TypeError, r"a shadow map's texture .* or its number in GL, not None"),
         (
             lambda t: t.ctx.texture((2, 2), 1),
@@ -370,6 +370,6 @@ def test_what_is_no_shadow_map_is_refused_in_a_sentence(
     ShadowMap(c_uint(texture.glo), np.eye(4))  # as pyglet's glGenTextures has it
     with pytest.raises(error, match=f"^{why}"):
         prairie.shadows(maps(texture))
-    with pytest.raises(TypeError, match=r"^a shadow map's texture is a 2D depth texture, not one of colours or layers"):
+    with pytest.raises(TypeError, match=r"^a shadow map's texture is a depth texture, not one of colours"):
         ShadowMap(ctx.texture((2, 2), 1), np.eye(4))
     texture.release()

@@ -15,7 +15,9 @@ from tallgrass.components.wind import Extent, Grass, WindPrimitive
 from tallgrass.engine.terrain.sample import height_at
 from tallgrass.engine.world import World
 from tallgrass.systems.bodies.fly import carried, flying, foot
+from tallgrass.systems.frame.feature import Start
 from tallgrass.systems.site import Site
+from tallgrass.systems.wind.quarantine import Quarantine
 from tallgrass.systems.winds import Winds
 
 
@@ -98,7 +100,7 @@ def site(laid: Callable[..., Site]) -> Site:
 @pytest.fixture
 def winds(world: World, site: Site) -> Winds:
     """Winds of a site on uneven ground, none at first."""
-    return Winds(world, site.scene, site.ground, site.growths)
+    return Winds(Start(world, site, Quarantine(), live=False))
 
 
 Bodies = Callable[[float], list[Body]]

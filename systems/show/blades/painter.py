@@ -151,7 +151,6 @@ class BladesPainter(RepresentationPainter):
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Take over the fraction of each kind that has become its next form."""
-        del record
         self._came = grown.came
 
     def fits(self, representation: Any, /) -> bool:
@@ -182,7 +181,6 @@ class BladesPainter(RepresentationPainter):
 
     def make_ready(self, grown: Grown, /) -> None:
         """Allocate more patch records than are usually shown, and make the programs that write depth."""
-        del grown
         self._rows = READY_ROWS
         for shelf in self.shelves:
             shelf.reserve(READY_ROWS)
@@ -191,7 +189,6 @@ class BladesPainter(RepresentationPainter):
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Let the frame draw one morphing blade and one of each group, if it has as many, so that all programs run."""
-        del record
         shelf = self.shelves.now
         if sum(shelf.counts) >= len(shelf.counts):
             shelf.counts, shelf.sent = [1] * len(shelf.counts), None

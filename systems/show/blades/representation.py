@@ -64,7 +64,6 @@ class BladeRepresentation(Representation):
 
     def keep(self, patches: PatchTable, side: int, /) -> BladesKept:
         """Return an empty pool of `side` by `side` patches."""
-        del patches
         return BladesKept(BladePool.allocate(side, self.stock.kinds), self.name)
 
     def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:

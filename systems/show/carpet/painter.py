@@ -125,7 +125,6 @@ class CarpetPainter(RepresentationPainter):
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Draw with every program, as if grass were trodden and ended somewhere."""
-        del record
         self.ground.rehearse()
 
     def receivers(self, outlook: Outlook, /) -> list[int]:
@@ -161,7 +160,10 @@ class CarpetPainter(RepresentationPainter):
         the carpet is whole; where a game has taken the grass away, there is none.
         """
         patches, viewer = outlook.patches, outlook.viewer
-        self._follow_rims()
+        self._rims.follow()
+        if self._rims_sent != self._rims.version:
+            self._rims_sent = self._rims.version
+            self.ground.write_rims(self._rims.distance)
         bare_to = self._bare_to(patches, cover)
         asked = outlook.noted(Asked, Asked())
         goes_on, self._deep = "beyond" in asked.parts, asked.is_deep
@@ -245,12 +247,6 @@ class CarpetPainter(RepresentationPainter):
     def _windows(self) -> tuple[object, ...]:
         """Identifies the terrain's window of its ground, and the rims known of it."""
         return self._rims, self._rims.version, self._ground.terrain.changes.moves
-
-    def _follow_rims(self) -> None:
-        self._rims.follow()
-        if self._rims_sent != self._rims.version:
-            self._rims_sent = self._rims.version
-            self.ground.write_rims(self._rims.distance)
 
     def _bare_to(self, patches: PatchTable, cover: Floats | None) -> int:
         """Return the discrete distance up to which there is no carpet: less than usual while ranges are shortened."""

@@ -50,7 +50,6 @@ class CarpetKept(Kept):
 
     def enlist(self, world: World, patches: PatchTable, /) -> None:
         """Make no entities: the patches' own carry the receivers."""
-        del patches
         self.receiving[0].messages.warned = world.warned
 
     @property

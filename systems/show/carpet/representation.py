@@ -44,7 +44,6 @@ class CarpetRepresentation(Representation):
     @staticmethod
     def depends(kind: GrassKind, quality: Quality, /) -> object:
         """Return the side of the images [texels]."""
-        del kind
         return quality.carpet
 
     @staticmethod
@@ -60,7 +59,6 @@ class CarpetRepresentation(Representation):
     @staticmethod
     def fits(pictures: tuple[Any, ...], quality: Quality, blades: int, /) -> bool:
         """Return whether there is exactly one record, and its arrays have the expected shapes."""
-        del blades
         side = quality.carpet
         shapes = (len(SLOPES),), (len(SLOPES), 4, side, side, 4), (BENT_SLOPES, BENDS, 3)
         return (
@@ -70,7 +68,6 @@ class CarpetRepresentation(Representation):
     @staticmethod
     def layers(quality: Quality, /) -> int:
         """Return the number of images of a patch model."""
-        del quality
         return 4 * len(SLOPES)
 
     @classmethod
@@ -82,7 +79,6 @@ class CarpetRepresentation(Representation):
 
     def keep(self, patches: PatchTable, side: int, /) -> CarpetKept:
         """Return a store of one receiver per patch."""
-        del side
         return CarpetKept(CarpetPool(patches, self.ground), self.name)
 
     def components(self, outlook: Outlook, rows: list[int], /) -> list[tuple[object, ...]]:
@@ -92,7 +88,6 @@ class CarpetRepresentation(Representation):
 
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> Rows:
         """Return the patches whose receivers feel the wind: those in the view cone, and their neighbours."""
-        del cover
         kept = outlook.keeps(CarpetKept)
         rows = (outlook.patches.alive & outlook.patches.near).nonzero()[0]
         kept.receiving[0].show(rows, rows)

@@ -120,7 +120,6 @@ class StripsPainter(RepresentationPainter):
 
     def make_ready(self, grown: Grown, /) -> None:
         """Reserve room for more than is usually shown, and compile the programs that write depth."""
-        del grown
         self._rows = READY_ROWS
         for shelf in self.shelves:
             shelf.reserve(READY_ROWS)
@@ -152,7 +151,6 @@ class StripsPainter(RepresentationPainter):
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Note how far each kind has changed into its next form."""
-        del record
         self._came = grown.came
 
     def fits(self, representation: Any, /) -> bool:
@@ -177,7 +175,6 @@ class StripsPainter(RepresentationPainter):
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Let the frame draw its first batch in all modes, so that the driver has run all programs."""
-        del record
         modes = ALL_BLADES, BY_RANK, EDGED
         self.batches = [Batch(first, count, mode) for first, count, _ in self.batches[:1] for mode in modes]
 
@@ -244,7 +241,6 @@ class StripsPainter(RepresentationPainter):
 
     def draw(self, target: moderngl.Framebuffer, /) -> int:
         """Draw the strips that this frame has not drawn yet; return the number of draw calls."""
-        del target
         calls = self._draw_to(None)
         self._drawn = 0
         return calls

@@ -69,7 +69,6 @@ class StripRepresentation(Representation):
     @staticmethod
     def depends(kind: GrassKind, quality: Quality, /) -> object:
         """Return each ring's number of strips and width of texels, and whether it is seen from far."""
-        del kind
         return [(ring.strips, ring.texel, _from_far(ring, quality)) for ring in quality.strip_rings]
 
     @staticmethod
@@ -131,7 +130,6 @@ class StripRepresentation(Representation):
 
     def keep(self, patches: PatchTable, side: int, /) -> StripsKept:
         """Return an empty pool for each ring."""
-        del patches
         pools = [
             StripPool(side, strips, ring.columns, self.quality.patch)
             for strips, ring in zip(self.stock.present, self.quality.strip_rings, strict=True)
@@ -250,7 +248,6 @@ class StripRepresentation(Representation):
 
     def carry(self, before: Representation, kept: Kept, patches: PatchTable, /) -> None:
         """Replace the strips of the pools; the same kinds grow on all patches as before."""
-        del before, patches
         assert isinstance(kept, StripsKept)
         for pool, strips in zip(kept.pools, self.stock.present, strict=True):
             pool.strips[:] = strips

@@ -32,14 +32,10 @@ class Atlas:
     empty parts that the page leaves out."""
 
 
-def strip_stock(growths: Sequence[Growth], ring: int) -> list[list[Strips]]:
-    """Return the strips of one ring, by kind and model."""
-    return [[strips_of(model)[ring] for model in growth.models] for growth in growths]
-
-
 def strip_stocks(growths: Sequence[Growth]) -> list[list[list[Strips]]]:
     """Return the strips of all rings, by ring, kind and model."""
-    return [strip_stock(growths, ring) for ring in range(len(strips_of(growths[0].models[0])))]
+    rings = range(len(strips_of(growths[0].models[0])))
+    return [[[strips_of(model)[ring] for model in growth.models] for growth in growths] for ring in rings]
 
 
 def strip_atlas(stock: Sequence[list[list[Strips]]], columns: Sequence[int]) -> Atlas:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tallgrass.app.edit.rewrite import RewriteError, rewritten, spans
+from tallgrass.app.edit.rewrite import RewriteError, rewritten
 from tallgrass.app.edit.values import NOTHING, Way, value_at, with_value
 from tallgrass.engine.scene import bundled_scenes
 from tallgrass.engine.scene.compose import read_document
@@ -204,5 +204,5 @@ def test_any_values_are_written_over_any_others(before: dict[str, Any], after: d
     import yaml  # noqa: PLC0415
 
     text = yaml.safe_dump(before, default_flow_style=flow, sort_keys=False)
-    assert spans(text).data == before
+    assert read(text) == before
     assert read(rewritten(text, after)) == after

@@ -23,7 +23,7 @@ from tallgrass.systems.show.strips.textures import (
     painted_extents,
     sending_strips,
     strip_atlas,
-    strip_stock,
+    strip_stocks,
 )
 
 
@@ -31,7 +31,7 @@ from tallgrass.systems.show.strips.textures import (
 def test_g1_each_picture_of_the_atlas_is_the_strip_that_planting_reckons_with(
     ctx: moderngl.Context, growths: list[Growth], ring: int
 ) -> None:
-    every = [strip_stock(growths, number) for number in (0, 1)]
+    every = strip_stocks(growths)
     made = strip_atlas(every, [2, 1])
     atlas, ranks = (at_once(sending_strips(ctx, levels)) for levels in (made.texels, made.ranks))
     width, height, pages = atlas.size
@@ -82,7 +82,7 @@ def test_pages_hold_every_picture_apart_and_little_else() -> None:
 
 @pytest.mark.parametrize("columns", [1, 2, 3])
 def test_nothing_is_painted_beyond_a_columns_extents(growths: list[Growth], columns: int) -> None:
-    for strips in strip_stock(growths, 0)[1]:
+    for strips in strip_stocks(growths)[0][1]:
         painted = strips.texels[..., 3].reshape(-1, *strips.texels.shape[2:4]) > 0
         layers, rows, width = painted.shape
         extents = painted_extents(strips, columns)
@@ -98,7 +98,7 @@ def test_nothing_is_painted_beyond_a_columns_extents(growths: list[Growth], colu
 
 
 def test_an_empty_column_has_no_extents(growths: list[Growth]) -> None:
-    strips = strip_stock(growths, 0)[0][0]
+    strips = strip_stocks(growths)[0][0][0]
     half = strips.texels.shape[3] // 2
     texels = strips.texels.copy()
     texels[:, :, :, :half] = 0
@@ -108,7 +108,7 @@ def test_an_empty_column_has_no_extents(growths: list[Growth]) -> None:
 
 
 def test_extents_stand_by_picture_of_the_atlas(ctx: moderngl.Context, growths: list[Growth]) -> None:
-    every = [strip_stock(growths, number) for number in (0, 1)]
+    every = strip_stocks(growths)
     texture = extent_texture(ctx, strip_atlas(every, [2, 1]).extents)
     read = np.frombuffer(texture.read(), np.float32).reshape(texture.height, 3, 4)
     fine = [painted_extents(strips, 2) for models in every[0] for strips in models]

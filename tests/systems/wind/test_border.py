@@ -1,6 +1,7 @@
 """One wind for blades, strips and `wind_at` (W1, W5, N1, N4)."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from tallgrass.engine.world import World
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.receivers import Receiving
 from tallgrass.systems.blow import Blow, Blown, Hear, receivers_shown
+from tallgrass.systems.frame.feature import Start
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.show.blades.pool import BladesKept
 from tallgrass.systems.show.strips.pool import StripsKept
@@ -22,6 +24,7 @@ from tallgrass.systems.wind.blast import Blast, Shape
 from tallgrass.systems.wind.blow import ReceiverArrays
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
+from tallgrass.systems.wind.quarantine import Quarantine
 from tallgrass.systems.wind.whirlwind import Whirlwind
 from tallgrass.systems.winds import Winds
 
@@ -74,7 +77,8 @@ def at_time(winds: Winds, time: float) -> Hear:
 
 def blown(world: World, flat: Seen, winds: list[WindPrimitive], mixing: Mixing, time: float = 2.6) -> Winds:
     site, _ = flat
-    made = Winds(world, site.scene.model_copy(update={"mixing": mixing}), site.ground, site.growths)
+    site = replace(site, scene=site.scene.model_copy(update={"mixing": mixing}))
+    made = Winds(Start(world, site, Quarantine(), live=False))
     for wind in winds:
         made.add(wind, wind.kind)
     blow(flat, at_time(made, time))
@@ -171,7 +175,7 @@ def test_n4_a_carpet_hears_what_is_asked_for_in_its_patchs_middle_less_the_small
     site = laid(terrain=FLAT, dense=dense)
     outlook = look(site, 1.0, 1.0)
     rows = np.flatnonzero(outlook.patches.alive & outlook.patches.visible)
-    made = Winds(world, site.scene, site.ground, site.growths)
+    made = Winds(Start(world, site, Quarantine(), live=False))
     gust = Gust(position=[-30.0, 0.0], direction=90.0, speed=8.0, width=80.0, tail=6.0)
     moving = made.add(gust, "gust")
     blow((site, outlook), at_time(made, 5.0))
