@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..components.arrays import Ints
 from ..engine.camera import View, view_of
+from ..engine.gl.guest import clear
 from ..engine.gl.stream import release_all
 from ..engine.terrain.sample import height_at
 from .around.outlook import Outlook
@@ -199,7 +200,7 @@ def patch_distances(prairie: Prairie, view: object, projection: object, size: tu
     target = ctx.framebuffer([ctx.renderbuffer(size)], depth)
     try:
         target.use()
-        target.clear(depth=1.0)
+        clear(target, depth=1.0)
         carpet = carpet_painter(every)
         carpet.lay_everywhere(prairie.viewers["main"], height=0.5)  # half the grass's height
         every.draw(seen, blades=[])
@@ -255,7 +256,7 @@ def draw_truth(
     try:
         quarantine.live = False  # so that no wind is left out part of the way
         target.use()
-        target.clear(depth=1.0)
+        clear(target, depth=1.0)
         site = prairie.site
         cells = cells_within(site.ground, every.outlook.viewer.eye, view_cone(seen), sway=site.sway)
         leaves_from = 0.0 if reach is None else samples * PICTURE_BELOW

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from ctypes import c_float
 from functools import lru_cache
 
 import moderngl
@@ -159,6 +160,18 @@ def aside(ctx: moderngl.Context, target: moderngl.Framebuffer, *, alike: bool = 
         target.scissor = scissor if is_boxed else None  # type: ignore[assignment]
         if target.glo == _saved[-1].framebuffer:
             _saved[-1].restrict_colour()
+
+
+def clear(target: moderngl.Framebuffer, *, depth: float | None = None) -> None:
+    """Clear a framebuffer that is bound: all colours to 0, and its depth to `depth` where it has one.
+
+    moderngl's own `clear` would leave these as the clear values of the host, who may have set them once for all frames.
+    """
+    gl, nothing = functions_of(target.ctx), (c_float * 4)()
+    for number in range(len(target.color_attachments or ())):
+        gl.glClearBufferfv(ENUMS["COLOR"], number, nothing)
+    if depth is not None:
+        gl.glClearBufferfv(ENUMS["DEPTH"], 0, (c_float * 1)(depth))
 
 
 @contextmanager

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import moderngl
 
 from .functions import ENUMS, functions_of
-from .guest import aside, colourless, depth_ends, farthest_depth, set_depth_test
+from .guest import aside, clear, colourless, depth_ends, farthest_depth, set_depth_test
 from .occlusion import OcclusionQuery
 from .outputs import has_depth
 from .rasteriser import draws_in_software
@@ -146,7 +146,7 @@ class Smaller:
             buffers.target.depth_mask = True
             buffers.target.scissor = None  # type: ignore[assignment]
             buffers.target.use()
-            self._clear()
+            clear(buffers.target, depth=farthest_depth())
             if not is_alone:
                 with self._if_host_has_drawn(host), colourless(buffers.target):
                     self._run("bring")
@@ -221,11 +221,6 @@ class Smaller:
     def release(self) -> None:
         """Release programs, vertex arrays, buffers and the query."""
         release_all(*self._passes.values(), *self._programs.values(), *self._buffers.values(), self._has_drawn)
-
-    def _clear(self) -> None:
-        """Clear the bound framebuffer by calls that do not change the host's clear values."""
-        for what, values in (("COLOR", (0.0,) * 4), ("DEPTH", (farthest_depth(),))):
-            self._gl.glClearBufferfv(ENUMS[what], 0, (c_float * len(values))(*values))
 
     def _run(
         self, name: str, *, blending: tuple[int, int] | None = None, everywhere: bool = False, vertices: int = 3

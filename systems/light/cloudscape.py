@@ -6,6 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...engine.gl.guest import clear
 from ...engine.gl.stream import release_all
 from ...engine.gl.texture import interpolated
 from ..frame.block import FrameBlock, joined
@@ -89,7 +90,7 @@ class Cloudscape:
         target, _ = self._picture(size)
         target.use()
         target.scissor = None  # type: ignore[assignment]
-        target.clear()
+        clear(target)
         first, end = rows_of_sky(row, size[1])
         target.scissor = 0, first, size[0], end - first
         self._array.render(moderngl.TRIANGLES, vertices=3)

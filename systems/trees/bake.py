@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Bytes, Doubles, Floats
+from ...engine.gl.guest import clear
 from ...engine.gl.mipmaps import mipmapped
 from ...engine.gl.stream import release_all
 from .far import COARSER, COLUMNS, EACH_ROW, FINER, FIRST_ROW, LEVELS, LINES, ROWS
@@ -47,7 +48,7 @@ def pictures(ctx: moderngl.Context, columns: int, rows: int, wide: int, tall: in
     target = ctx.framebuffer(colors, depth)
     try:
         target.use()
-        target.clear()
+        clear(target, depth=1.0)
         ctx.enable_only(moderngl.DEPTH_TEST)
         for number in range(columns * rows):
             target.viewport = number % columns * fine[0], number // columns * fine[1], *fine

@@ -39,6 +39,7 @@ NUMBERS = {
     "restart index": 0x8F9E, "logic": 0x0BF0,
     "provoking": 0x8E4F, "clip origin": 0x935C, "clip depth": 0x935D,
     "read buffer": 0x0C02, "stencil func": 0x0B92, "stencil mask": 0x0B98, "clear depth": 0x0B73,
+    "clear colour": 0x0C22,
 }  # fmt: skip
 STORES = {
     0x0CF5: 2, 0x0CF2: 999, 0x0CF0: 1, 0x0CF1: 1, 0x0CF3: 2, 0x0CF4: 3, 0x806D: 1, 0x806E: 7, 0x0D05: 8, 0x0D02: 999,

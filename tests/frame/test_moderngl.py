@@ -22,7 +22,7 @@ Said = dict[str, str]
 
 def said_by(program: str, scene: Path) -> Said:
     """Return the faults that the program reports, by check."""
-    scene.write_text(LITTLE + "wind: [{ kind: breeze, strength: 0.4 }]\n", "utf-8")
+    scene.write_text(LITTLE + "wind: [{ kind: breeze, strength: 0.4 }]\nlight: { clouds: 0.4 }\n", "utf-8")
     done = subprocess.run(
         [sys.executable, "-W", "error", PROGRAM, scene, program], capture_output=True, text=True, check=False
     )
