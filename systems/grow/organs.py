@@ -50,7 +50,7 @@ ORGANS: Final = (
     Organ((0.7, 1.0, 1.0, 0.9, 0.5), (0.2, 0.4), 0.35),
     Organ((0.6, 1.0, 0.95, 0.7, 0.15), (0.0, 0.3), 0.35),
     Organ((0.06, 0.06, 0.07, 0.9, 0.6), (0.1, 1.0), 0.35),
-    Organ((0.7, 1.0, 0.9, 0.6, 0.1), (0.8, 1.0), 0.8),
+    Organ((0.7, 1.0, 0.9, 0.6, 0.1), (0.8, 1.0), 0.8, teeth=16),
     Organ((0.5, 0.75, 0.65, 0.4, 0.05), (0.75, 1.0), 0.7),
     Organ((0.5, 0.9, 1.0, 0.8, 0.2), (0.7, 1.0), teeth=6),
     Organ((0.35, 0.8, 1.0, 0.85, 0.3), (0.0, 0.1), teeth=6),
@@ -61,8 +61,8 @@ ORGANS: Final = (
     Organ((0.45, 0.8, 1.0, 1.0, 0.8), (0.02, 0.12), 0.35),
 )
 """Sorts of organs, by the numbers above. `LEAF` belongs to a plant with a head, whose colour is the tip's, `FROND` to
-one without. `EYE` is the middle of an open head, `RAY` a ray of an umbel with florets at its end, `TUFT` a part of a
-plume. `WITHERED` grass is as pale as tips, thinner, and stiffer. `FLORETS` are several of a spike, one above another;
+one without. `EYE` is the middle of an open head, `RAY` a ray of an umbel with florets at its end, `TUFT` a branch of a
+plume with its spikelets, a centimetre apart as on a reed's. `WITHERED` grass is as pale as tips, thinner, and stiffer. `FLORETS` are several of a spike, one above another;
 a `SPRIG` is a shrub's short twig with its leaves. The wind bends both as far as their stems, so that they stay close.
 `STRAP` is a group of narrow petals side by side, in discs of many petals, as of dandelions and daisies. Heads with an
 eye of its own colour have `BLOTCHED` petals about `STAMENS` and a `CAPSULE`, as poppies; with many petals, these stand

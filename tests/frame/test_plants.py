@@ -96,6 +96,11 @@ HEATH = MEADOW.replace(
     'tip: "#b040a0", understorey: 0, plant: shrub, plants: 30, head: { form: spike }',
 )
 
+REEDS = MEADOW.replace(
+    'tip: "#d8b868", withered: 0',
+    'tip: "#b0977a", understorey: 0, height: [0.6, 0.9], head: { form: plume, size: [0.35, 0.35] }',
+)
+
 
 @pytest.fixture(scope="module")
 def garden(load: Load) -> Prairie:
@@ -243,6 +248,7 @@ DANDELIONS = (
     ("scene", "eye", "pitch", "view"),
     [
         pytest.param(HEATH, (0.0, 0.5, 3.0), -15.0, 15.0, id="florets and leaves of twigs"),
+        pytest.param(REEDS, (0.0, 0.8, 4.0), -10.0, 15.0, id="spikelets of plumes"),
         pytest.param(DANDELIONS, (0.0, 1.0, 50.0), -35.0, 12.0, id="petals of dandelions"),
     ],
 )

@@ -60,7 +60,7 @@ void main() {
     radiance *= vein_brightness(veined, aside / max(half_width, THINNEST), half_width);
 #endif
 #ifdef TOOTHED
-    if (tooth.z != 0.0) {
+    if (outlined != 0.0) {
         Outline outline = outline_at(aside, place, pixel_size);
         wide *= outline.width;
         radiance *= outline.brightness;
@@ -94,9 +94,9 @@ void main() {
     radiance *= vein_brightness(veined, place_across, half_wide);
 #endif
 #ifdef TOOTHED
-    if (tooth.z != 0.0) {
-        Outline outline = outline_at(tooth.y, place, pixel_size);
-        if (outline.coverage < 0.5 || abs(tooth.y) > outline.width && tooth.z > 0.0)
+    if (outlined != 0.0) {
+        Outline outline = outline_at(tooth_side.x, place, pixel_size);
+        if (outline.coverage < 0.5 || abs(tooth_side.x) > outline.width && outlined > 0.0)
             discard;
         radiance *= outline.brightness;
     }

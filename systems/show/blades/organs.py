@@ -31,7 +31,16 @@ def organ_defines(record: np.dtype[np.void], /) -> Mapping[str, str | int]:
 
 def any_teeth(growths: Sequence[Growth], /) -> bool:
     """Return whether any kind has organs with teeth or ligules."""
-    return any((TEETH + LIGULES)[model.blades.organ].any() for growth in growths for model in growth.models)
+    return _has_any(TEETH + LIGULES, growths)
+
+
+def any_ligules(growths: Sequence[Growth], /) -> bool:
+    """Return whether any kind has organs with ligules."""
+    return _has_any(LIGULES, growths)
+
+
+def _has_any(counts: NDArray[np.int64], growths: Sequence[Growth]) -> bool:
+    return any(counts[model.blades.organ].any() for growth in growths for model in growth.models)
 
 
 def _bit_set(organs: Sequence[int]) -> int:

@@ -19,7 +19,7 @@ from ...space.grown import Grown
 from ..representation import Canvas, Color, Representation
 from ..strips.representation import StripRepresentation
 from .draw import own_segment_defines
-from .organs import any_teeth
+from .organs import any_ligules, any_teeth
 from .painter import BladesPainter
 from .plant import BladeStock, carry_blades, plant_blades, sow_blades, stock_blades
 from .pool import BladePool, BladesKept
@@ -55,7 +55,9 @@ class BladeRepresentation(Representation):
     def defines(self, grown: Grown, /) -> Mapping[str, str | int]:
         """Return the defines of kinds with segment counts of their own, and of kinds with teeth, ligules or eyes."""
         growths = [*grown.growths, *grown.coming.values()]
-        special = {"TOOTHED": any_teeth(growths), "EYED": any_eyes(growths)}
+        special = {
+            "TOOTHED": any_teeth(growths), "LIGULES_TOO": any_ligules(growths), "EYED": any_eyes(growths),
+        }  # fmt: skip
         return {**own_segment_defines(grown.own_segments), **{name: 1 for name, needed in special.items() if needed}}
 
     def rings(self) -> int:

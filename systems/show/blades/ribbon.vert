@@ -29,7 +29,12 @@ centroid out vec3 keel;  // radiance of a fold's right face above the mean of bo
 #ifdef TOOTHED
 #include "systems/show/blades/teeth.glsl"
 
-out vec4 tooth;  // teeth or ligules, as toothed.glsl describes
+flat out float outlined;  // teeth or ligules, as toothed.glsl describes
+flat out vec2 tooth_widths;
+out float tooth;
+#ifdef SIDED
+out vec2 tooth_side;
+#endif
 #endif
 #ifdef SOFT
 noperspective out float aside;  // distance from the middle line, positive to the right [pixel]
@@ -245,7 +250,7 @@ void morph_to_painted(inout Point point, inout vec3 radiance, float t, int k) {
 #endif
 
 #ifdef TOOTHED
-// Set `tooth`; return the factor by which teeth or ligules widen a ribbon.
+// Set the varyings of teeth or ligules; return the factor by which teeth or ligules widen a ribbon.
 float widened_by_teeth(float t, float side) {
 #ifdef MORPH
     float seen = outline_seen(organ(), foot.w, 2.0 * length(lean_across.zw), foot.xyz) * (1.0 - painted.w);
@@ -253,8 +258,14 @@ float widened_by_teeth(float t, float side) {
     float seen = level_kind.w;
 #endif
     float wide = width_of(organ(), t);
-    tooth = seen < 0.0 ? vec4(t, 0.5 * side * LIGULES_OF[organ()] * wide, seen, wide) : vec4(t * TEETH_OF[organ()], side, seen, 1.0);
-    return seen < 0.0 ? mix(1.0, LIGULES_WIDER, -seen) : mix(1.0, TOOTHED_WIDER, seen);
+    outlined = seen;
+    tooth = seen < 0.0 ? t : t * TEETH_OF[organ()];
+#ifdef SIDED
+    tooth_side = seen < 0.0 ? wide * vec2(0.5 * side * LIGULES_OF[organ()], 1.0) : vec2(side, 1.0);
+#endif
+    float wider = mix(1.0, TOOTHED_WIDER, max(seen, 0.0));
+    tooth_widths = vec2(mix(1.0, TOOTHED_WIDER * BETWEEN, max(seen, 0.0)), TOOTHED_WIDER * (1.0 - BETWEEN) * max(seen, 0.0)) / wider;
+    return seen < 0.0 ? mix(1.0, LIGULES_WIDER, -seen) : wider;
 }
 #endif
 
@@ -281,7 +292,11 @@ void leave_out() {
 #endif
     veined = vec2(0.0);
 #ifdef TOOTHED
-    tooth = vec4(0.0, 0.0, 0.0, 1.0);
+    outlined = tooth = 0.0;
+    tooth_widths = vec2(1.0, 0.0);
+#ifdef SIDED
+    tooth_side = vec2(0.0, 1.0);
+#endif
 #endif
 #ifdef FOLDS
     keel = vec3(0.0);

@@ -2,6 +2,10 @@
 // Where they are too small to be seen, a ribbon has their mean width and brightness.
 #include "lib/frame.glsl"
 
+#if defined(LIGULES_TOO) || !defined(SOFT)
+#define SIDED  // pixels of soft ribbons with teeth alone know their side by themselves
+#endif
+
 const float BETWEEN = 0.4;   // width of the ribbon between teeth, relative to that at their ends
 const float ENDS_AT = 0.7;   // place of a tooth's end between the feet of two teeth: they point upwards
 const float TOOTHED_WIDER = 2.0 / (1.0 + BETWEEN);  // width at the ends of teeth, relative to the mean

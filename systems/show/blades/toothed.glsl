@@ -1,8 +1,12 @@
 // Pixels of a ribbon's teeth or ligules.
 #include "systems/show/blades/teeth.glsl"
 
-in vec4 tooth;  // teeth: number of the tooth, from the root on; side, -1 to 1; visibility; 1. Ligules: place along them; number of the
-                // ligule, from the middle on, times the width; minus the visibility; relative width of the ribbon
+flat in float outlined;     // visibility of teeth, above 0, or of ligules, below 0
+flat in vec2 tooth_widths;  // width between teeth, and how much more it is at their ends, relative to the drawn width
+in float tooth;             // number of the tooth, from the root on; or the place along ligules
+#ifdef SIDED
+in vec2 tooth_side;         // teeth: side, -1 to 1; 1. Ligules: number of the ligule, from the middle on, times the width; relative width
+#endif
 
 const float LIGULE_EDGES = 0.4;  // relative brightness of a ligule's middle over its edges
 const float GOLDEN_PART = 0.618034;  // multiples of it, modulo 1, are spread evenly
@@ -16,26 +20,35 @@ struct Outline {
 
 // Teeth, which alternate between the two sides.
 Outline teeth_outline(float to_side) {
-    float up = fract(tooth.x + (to_side > 0.0 ? 0.5 : 0.0)), end = min(up / ENDS_AT, (1.0 - up) / (1.0 - ENDS_AT));
-    float wide = mix(1.0, TOOTHED_WIDER * mix(BETWEEN, 1.0, end), tooth.z);
-    return Outline(wide / mix(1.0, TOOTHED_WIDER, tooth.z), 1.0, 1.0 + tooth.z * OUTER * (end - MEAN_END));
+    float up = fract(tooth + (to_side > 0.0 ? 0.5 : 0.0)), end = min(up / ENDS_AT, (1.0 - up) / (1.0 - ENDS_AT));
+    return Outline(tooth_widths.x + tooth_widths.y * end, 1.0, 1.0 + outlined * OUTER * (end - MEAN_END));
 }
 
+#ifdef LIGULES_TOO
 // Ligules, at a place in them; `pixel_size` is the size of a pixel there. They show where they are wider than pixels.
 Outline ligules_outline(vec2 place, vec2 pixel_size) {
     float ligule = floor(place.y), off = abs(place.y - ligule - 0.5), end = 1.0 - SHORTER * fract(ligule * GOLDEN_PART);
     float half_wide = 0.5 * (1.0 - SLIT_TO * smoothstep(SLIT_FROM, 1.0, place.x));
     vec2 inside = clamp(vec2(end - place.x, half_wide - off) / pixel_size + 0.5, 0.0, 1.0);
-    float seen = clamp(1.0 / pixel_size.y - 1.0, 0.0, 1.0) * -tooth.z;
+    float seen = clamp(1.0 / pixel_size.y - 1.0, 0.0, 1.0) * -outlined;
     return Outline(1.0, mix(1.0, inside.x * inside.y, seen), 1.0 + seen * LIGULE_EDGES * (0.5 - 2.0 * off));
 }
+#endif
 
 // Place of a pixel along and across the ligules of a ribbon that is drawn `widened` times as wide as it is.
 vec2 place_in_ligules(float widened) {
-    return vec2(tooth.x, tooth.y / tooth.w * widened);
+#ifdef LIGULES_TOO
+    return vec2(tooth, tooth_side.x / tooth_side.y * widened);
+#else
+    return vec2(0.0);
+#endif
 }
 
 // The outline of a ribbon at a pixel on one of its sides, and at a place among ligules.
 Outline outline_at(float to_side, vec2 place, vec2 pixel_size) {
-    return tooth.z < 0.0 ? ligules_outline(place, pixel_size) : teeth_outline(to_side);
+#ifdef LIGULES_TOO
+    if (outlined < 0.0)
+        return ligules_outline(place, pixel_size);
+#endif
+    return teeth_outline(to_side);
 }
