@@ -50,9 +50,6 @@ STRAIGHT, BENT = 0.017, 1.0
 """Radius of a stem a pixel wide from which on ribbons have fewer points [m]: bends are a few pixels there. And bend
 below which a ribbon has fewer points nearer by, too [pixels]."""
 
-ALIKE = 1.3
-"""Ratio of radii within which stems are sorted as equally thick."""
-
 FLARE, FLARE_HEIGHT = 0.55, 2.2
 """Widening of a trunk at the ground, and height at which a third of that is left, both relative to its radius."""
 
@@ -86,7 +83,8 @@ class Faces(NamedTuple):
     """Triangles of bark that a pass draws at some distance."""
 
     triangles: NDArray[np.uint32]
-    """Shape (n, 3), the thickest first; next to the eye, where none is thinner than a pixel, the lowest first."""
+    """Shape (n, 3), stem by stem from thick to thin; next to the eye, where none is thinner than a pixel, the lowest
+    first."""
 
     radii: Doubles
     """Greatest radius from each triangle on, from the last to the first, (n,) [m]."""
@@ -158,33 +156,37 @@ def bark_of(tree: Tree, area: Doubles, first_limb: int, /) -> tuple[NDArray[np.v
 
 def _wood(parts: list[_Part], stem: Doubles, pixel: float) -> Wood:
     """Return the wood where a stem of radius `pixel` [m] is a pixel wide; `stem` is that of each vertex, (n, 4)."""
-    passes = (np.concatenate([_triangles(part, pixel, edges=edges) for part in parts]) for edges in (False, True))
-    return Wood(*(_sorted(triangles, stem, near=not pixel) for triangles in passes))
+    passes = ([_triangles(part, pixel, edges=edges) for part in parts] for edges in (False, True))
+    return Wood(*(_sorted(each, stem, near=not pixel) for each in passes))
 
 
-def _sorted(triangles: NDArray[np.intp], stem: Doubles, *, near: bool) -> Faces:
-    """Return triangles in the order in which they are drawn, with `near` next to the eye."""
-    around, low = stem[triangles, 3], stem[triangles, 1].min(axis=1)
-    most = around.max(axis=1)
-    # Rounding keeps triangles of one stem together: they share vertices.
-    thickness = np.round(np.log(around.min(axis=1) + most) / np.log(ALIKE))
-    order = np.argsort(np.floor(low) if near else -thickness, kind="stable")
+def _sorted(found: list[tuple[NDArray[np.intp], Doubles]], stem: Doubles, *, near: bool) -> Faces:
+    """Return the triangles of parts in the order in which they are drawn, with `near` next to the eye.
+
+    Those of one stem stay together, as they share vertices: a graphics card keeps the last ones that it has computed.
+    """
+    triangles = np.concatenate([each for each, _ in found])
+    radius_at_foot = np.concatenate([each for _, each in found])
+    most, low = stem[triangles, 3].max(axis=1), stem[triangles, 1].min(axis=1)
+    order = np.argsort(np.floor(low) if near else -radius_at_foot, kind="stable")
     radii, lows = np.maximum.accumulate(most[order[::-1]]), np.minimum.accumulate(low[order[::-1]])[::-1]
     return Faces(np.asarray(triangles[order], np.uint32), radii, lows)
 
 
-def _triangles(part: _Part, pixel: float, *, edges: bool) -> NDArray[np.intp]:
+def _triangles(part: _Part, pixel: float, *, edges: bool) -> tuple[NDArray[np.intp], Doubles]:
     """Return a part's triangles (n, 3) where a stem of radius `pixel` [m] is a pixel wide, of `Wood.whole` or `edges`.
 
-    Edges of a tube have all its points, so that they lie along it.
+    Besides, return the radius of each one's stem at its foot, (n,) [m]. Edges of a tube have all its points, so that
+    they lie along it.
     """
     if part.ribbon is None:
-        return part.triangles.reshape(-1, 3)
+        return part.triangles.reshape(-1, 3), np.repeat(part.radius_at_foot, part.triangles.shape[1])
     thin = part.radius_at_foot < ROUND * pixel
     drawn = np.full(len(thin), part.ribbon) if edges else thin == part.ribbon
     straight = part.ribbon & thin & ((part.bend < BENT * 2.0 * pixel) | (pixel >= STRAIGHT))
-    fine, coarse = part.triangles[drawn & ~straight], part.straight[drawn & straight]
-    return np.concatenate([fine.reshape(-1, 3), coarse.reshape(-1, 3)])
+    kept = (part.triangles, drawn & ~straight), (part.straight, drawn & straight)
+    triangles = np.concatenate([each[rows].reshape(-1, 3) for each, rows in kept])
+    return triangles, np.concatenate([np.repeat(part.radius_at_foot[rows], each.shape[1]) for each, rows in kept])
 
 
 def _bends(spine: Doubles, step: int) -> Doubles:

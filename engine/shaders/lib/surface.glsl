@@ -197,11 +197,17 @@ vec3 packed_extra(mat4 light) {
     return light[3].xyz;
 }
 
-// The radiance of a surface in some light.
-vec3 shade(Surface surface, Light light) {
+// The radiance of a surface in some light; something lets the part `passes` of sun and lamps through to it.
+vec3 shade(Surface surface, Light light, float passes) {
     vec3 albedo = surface.pigment * surface.pigment;
     float area_above = max(leaf_area_above(surface.height, light.leaves), 0.0);  // below 0 for flat grass, which is lower than its cut
     vec2 left = transmittance(vec2(light.extinction, OPEN_SKY) * area_above);
-    vec3 received = light.sun * left.x + light.sky * left.y + albedo * light.sun * (surface.scattering * left.y);
-    return albedo * received + sunlight * (light.gloss * left.x) + light.haze;
+    float direct = left.x * passes, scattered = surface.scattering * left.y * passes;
+    vec3 received = light.sun * direct + light.sky * left.y + albedo * light.sun * scattered;
+    return albedo * received + sunlight * (light.gloss * direct) + light.haze;
+}
+
+// The radiance of a surface in some light.
+vec3 shade(Surface surface, Light light) {
+    return shade(surface, light, 1.0);
 }

@@ -38,28 +38,25 @@ vec2 on_sun_plane(vec3 place) {
 }
 
 // A place on that plane, moved against the sway of the leaves that shade its neighbourhood `about`, and its distance towards the sun [m].
-// With SUNWARD_BY_VERTEX, vertices have computed it: it is linear but for the sway, which changes by centimetres from one to the next.
-#ifdef SUNWARD_BY_VERTEX
-in vec3 sunward;
-
-vec3 sunward_of(vec3 place, vec3 about) {
-    return sunward;
-}
-#else
 vec3 sunward_of(vec3 place, vec3 about) {
     return vec3(on_sun_plane(place) - on_sun_plane(vec3(shade_sway(about), 0.0).xzy), dot(place, sun));
 }
-#endif
 
-// Texture coordinates of a place on the sun's maps, and its distance towards the sun as z [m]. `about` chooses the map, for a whole
-// neighbourhood. `counts` is the weight of what is read there, 0 beyond both maps.
+// Texture coordinates of a place on that plane, on the sun's map that a whole neighbourhood `about` reads.
+vec2 on_sun_map(vec2 at, vec2 about) {
+    vec2 out_by = abs(about - trees_middle.xy);
+    bool near = max(out_by.x, out_by.y) * trees_spans.x < MAP_RIM;
+    at = near ? (at - trees_middle.xy) * trees_spans.x : (at - trees_middle.zw) * trees_spans.y;
+    return vec2((at.x + 0.5 + (near ? 0.0 : 1.0)) * (1.0 / SHADE_MAPS), at.y + 0.5);
+}
+
+// The same for a place in space, and its distance towards the sun as z [m]. `counts` is the weight of what is read there, 0 beyond both
+// maps.
 vec3 on_sun_map(vec3 place, vec3 about, out float counts) {
     vec3 calm = sunward_of(place, about);
-    vec2 middle = sunward_of(about, about).xy, near_out = abs(middle - trees_middle.xy), far_out = abs(middle - trees_middle.zw);
-    counts = 1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, max(far_out.x, far_out.y) * trees_spans.y);
-    bool near = max(near_out.x, near_out.y) * trees_spans.x < MAP_RIM;
-    vec2 at = near ? (calm.xy - trees_middle.xy) * trees_spans.x : (calm.xy - trees_middle.zw) * trees_spans.y;
-    return vec3((at.x + 0.5 + (near ? 0.0 : 1.0)) * (1.0 / SHADE_MAPS), at.y + 0.5, calm.z);
+    vec2 middle = sunward_of(about, about).xy, out_by = abs(middle - trees_middle.zw);
+    counts = 1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, max(out_by.x, out_by.y) * trees_spans.y);
+    return vec3(on_sun_map(calm.xy, middle), calm.z);
 }
 
 // Visibility of the sun behind the trees in front of a place of `on_sun_map`.
@@ -69,23 +66,44 @@ float trees_visibility(vec3 ray, float counts) {
     return transmittance(met.x * counts * smoothstep(STANDS_BEFORE.x, STANDS_BEFORE.y, mean - ray.z));
 }
 
-// Part of the optical depth on such a ray that is in front of the place; 1 where there is none on the map.
-float part_before(vec3 ray) {
+const float DEPTH_HALVES = log2(exp(1.0));  // of light by an optical depth of 1
+
+// Halvings of the sun's light on such a ray by the trees in front of the place, for each 1 of the optical depth there; where the map
+// shows none, they count as all in front.
+float halvings_before(vec3 ray, float counts) {
     vec2 met = textureLod(tree_shade, ray.xy, 0.0).rg;
-    return met.x > LEAST_PART ? smoothstep(STANDS_BEFORE.x, STANDS_BEFORE.y, met.y / met.x - ray.z) : 1.0;
+    float before = met.x > LEAST_PART ? smoothstep(STANDS_BEFORE.x, STANDS_BEFORE.y, met.y / met.x - ray.z) : 1.0;
+    return DEPTH_HALVES * counts * before;
 }
 
-// Visibility of the sun behind trees, if the part `counts` of their optical depth there is in front.
-float trees_visibility_before(vec2 at, float counts) {
-    return transmittance(textureLod(tree_shade, at, 0.0).r * counts);
+// Visibility of the sun behind trees, by these halvings.
+float trees_visibility_before(vec2 at, float halvings) {
+    return exp2(-halvings * textureLod(tree_shade, at, 0.0).r);
 }
 
-// Visibility of the sun behind trees other than the one the place is in, whose crown goes on for `beyond` towards the sun [m].
+// Visibility of the sun behind trees other than the one the place is in, whose crown goes on for `beyond` towards the sun [m]. With
+// SUNWARD_BY_VERTEX, vertices have computed most of it, for no crown: it is linear but for the sway, which changes by centimetres from
+// one to the next.
+#ifdef SUNWARD_BY_VERTEX
+in vec3 sunward;  // from trees_sunward
+
+float trees_visibility_beyond(vec3 place, float beyond) {
+    return trees_visibility_before(on_sun_map(sunward.xy, sunward.xy), sunward.z);
+}
+#else
 float trees_visibility_beyond(vec3 place, float beyond) {
     float counts;
     vec3 ray = on_sun_map(place, place, counts);
     return trees_visibility(vec3(ray.xy, ray.z + beyond), counts);
 }
+
+// What vertices compute of that: the place on the sun's plane, and halvings of its light by the trees in front.
+vec3 trees_sunward(vec3 place) {
+    float counts;
+    vec3 ray = on_sun_map(place, place, counts);
+    return vec3(sunward_of(place, place).xy, halvings_before(ray, counts));
+}
+#endif
 
 // Optical depth of crowns above a place of the ground, averaged over the sky.
 float tree_depth_above(vec2 place) {

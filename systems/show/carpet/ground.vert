@@ -16,7 +16,7 @@ centroid out float soil_extinction;  // of sunlight: optical depth for each 1 of
 centroid out float soil_through;     // transmittance of the grass for sunlight
 centroid out vec3 lush;              // pigment of the understorey, relative to that of the ground between
 #ifdef TREES
-out vec3 sunward;                    // from sunward_of
+out vec3 sunward;                    // from trees_sunward
 #endif
 #endif
 
@@ -35,7 +35,7 @@ void main() {
     soil_through = ground.through;
     lush = understorey_pigment(lies, densities);
 #ifdef TREES
-    sunward = sunward_of(place, place);
+    sunward = trees_sunward(place);
 #endif
 #endif
     gl_Position = clip * vec4(place, 1.0);

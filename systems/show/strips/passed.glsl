@@ -12,7 +12,7 @@ flat PASSED vec4 shadow;    // square of the sun ray's distance from a body [rad
 #endif
 #if defined(TREES) && !defined(SHADED)
 PASSED vec2 spot;           // place in the trees' maps of the sun
-flat PASSED vec2 past;      // part of these trees that stand before the column; the sun's part of the light
+flat PASSED vec2 past;      // from halvings_before for the column; the sun's part of the light
 #endif
 #ifdef HEADS
 flat PASSED float heads;    // factor on the coverage of heads

@@ -73,13 +73,14 @@ void main() {
     vec3 pigment = (root_pigment.rgb + pigment_change.rgb * mean.r) * (1.0 + grain_cos.rgb * twice.x + grain_sin.rgb * twice.y);
 #endif
     Light light = unpack_light(lit);
+    float passes = 1.0;  // part of the light of sun and lamps that trees let through
 #ifdef SHADED
     float seen = body_visibility(sqrt(max(shadow.x + uv.z * (shadow.y + uv.z * shadow.z), 0.0)), shadow.w);
     if (has_casters())
         seen *= casters_visibility(spot.xyz);
     light = shadowed(light, seen, spot.w);
 #elif defined(TREES)
-    light = shadowed(light, trees_visibility_before(spot, past.x), past.y);
+    passes = mix(1.0, trees_visibility_before(spot, past.x), past.y);
 #endif
 #ifdef CUT
     if (cut.w > 0.5) {
@@ -91,7 +92,7 @@ void main() {
 #ifdef DEEP
     vec3 grass = vec3(0.0);
 #else
-    vec3 grass = tone_mapped(shade(leaf_surface(pigment, uv.w), light));
+    vec3 grass = tone_mapped(shade(leaf_surface(pigment, uv.w), light, passes));
 #endif
 #ifdef THIN
     float rank = textureLod(ranks, vec3(uv.xy, page), level).r / max(texel.a, LEAST_PAINT);

@@ -213,7 +213,7 @@ int nearest_body(vec3 a, vec3 b) {
 void set_tree_shade(vec3 place, vec3 rooted, float suns) {
     float counts;
     spot = on_sun_map(place, rooted, counts).xy;
-    past = vec2(counts * part_before(on_sun_map(rooted, rooted, counts)), suns);
+    past = vec2(halvings_before(on_sun_map(rooted, rooted, counts), counts), suns);
 }
 #endif
 

@@ -6,6 +6,7 @@ import pytest
 from tallgrass.components.arrays import Doubles
 from tallgrass.engine.camera import View, projection_matrix, view_matrix
 from tallgrass.systems.space.frustum import picture_sides
+from tallgrass.systems.trees import bark
 from tallgrass.systems.trees.bark import PIXEL_RADII
 from tallgrass.systems.trees.bounds import highest_shown
 from tallgrass.systems.trees.leafy import GROUPED_FROM, blocks_of_models, blocks_shown
@@ -63,6 +64,14 @@ def test_next_to_the_eye_wood_is_drawn_from_the_ground_up(model: Model) -> None:
             assert left_out.size
             assert left_out.min() >= top
     assert len(model.wood) == len(PIXEL_RADII) + 1
+
+
+def test_triangles_that_share_vertices_are_drawn_one_soon_after_another(model: Model) -> None:
+    for faces in (each for wood in model.wood[1:] for each in wood):
+        vertices, order = faces.triangles.reshape(-1), np.arange(faces.triangles.size) // 3
+        first, last = np.full((2, len(model.vertices)), order[:1])
+        first[vertices[::-1]], last[vertices] = order[::-1], order
+        assert (last - first).max() < 4 * max(bark.SIDES)  # two rings of a tube
 
 
 def test_blocks_of_twigs_are_neighbours_and_each_twig_is_in_one(model: Model) -> None:
