@@ -62,11 +62,11 @@ ORGANS: Final = (
 )
 """Sorts of organs, by the numbers above. `LEAF` belongs to a plant with a head, whose colour is the tip's, `FROND` to
 one without. `EYE` is the middle of an open head, `RAY` a ray of an umbel with florets at its end, `TUFT` a branch of a
-plume with its spikelets, a centimetre apart as on a reed's. `WITHERED` grass is as pale as tips, thinner, and stiffer. `FLORETS` are several of a spike, one above another;
-a `SPRIG` is a shrub's short twig with its leaves. The wind bends both as far as their stems, so that they stay close.
-`STRAP` is a group of narrow petals side by side, in discs of many petals, as of dandelions and daisies. Heads with an
-eye of its own colour have `BLOTCHED` petals about `STAMENS` and a `CAPSULE`, as poppies; with many petals, these stand
-about a `DISC` of florets, as a daisy's."""
+plume with its spikelets, a centimetre apart as on a reed's. `WITHERED` grass is as pale as tips, thinner, and stiffer.
+`FLORETS` are several of a spike, one above another; a `SPRIG` is a shrub's short twig with its leaves. The wind bends
+both as far as their stems, so that they stay close. `STRAP` is a group of narrow petals side by side, in discs of many
+petals, as of dandelions and daisies. Heads with an eye of its own colour have `BLOTCHED` petals about `STAMENS` and a
+`CAPSULE`, as poppies; with many petals, these stand about a `DISC` of florets, as a daisy's."""
 
 HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT, FLORETS, STRAP, BLOTCHED, DISC, STAMENS, CAPSULE)
 """Organs of heads."""
