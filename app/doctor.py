@@ -71,11 +71,12 @@ def doctor() -> int:
 def diagnose() -> list[Finding]:
     """Check Python, packages, OpenGL, windows and wind plugins; return the findings."""
     installed = [*entry_points(group=GROUP)]
+    has_display = not _has_packages() or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
     return [
         Finding("python", "ok", f"{sys.version.split()[0]} ({sys.executable})"),
         *packages(requires(_DISTRIBUTION) or []),
         drawing(_probe("draw")),
-        window(_probe("window"), has_display=_has_display()),
+        window(_probe("window"), has_display=has_display),
         *winds(wind_kinds(), installed),
     ]
 
@@ -180,10 +181,6 @@ def _debian(names: str) -> str:
 def _has_packages() -> bool:
     """Return whether this system has packages for OpenGL and windows, as Linux does."""
     return sys.platform not in {"darwin", "win32"}
-
-
-def _has_display() -> bool:
-    return not _has_packages() or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
 def _probe(name: str) -> dict[str, str]:

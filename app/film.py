@@ -57,16 +57,13 @@ def film(
 
 
 def _span(scene: Scene, seconds: float | None, fps: int, frames: Frames) -> Span:
-    count = max(1, round((_length(scene) if seconds is None else seconds) * fps))
+    path = scene.camera.path
+    length = path[-1].at if path and path[-1].at > 0.0 else STILL_SECONDS
+    count = max(1, round((length if seconds is None else seconds) * fps))
     first, end = frames
     if first >= count or (end or 0) > count:
         raise InputError(f"--frames: {first}:{end or ''}: the film has the frames 0:{count}")
     return Span(first, count if end is None else end, count, fps)
-
-
-def _length(scene: Scene) -> float:
-    path = scene.camera.path
-    return path[-1].at if path and path[-1].at > 0.0 else STILL_SECONDS
 
 
 @contextmanager

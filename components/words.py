@@ -31,9 +31,10 @@ _WITH_UNIT = re.compile(r"([-+]?[\d.]+)\s*[a-zA-Z°%/]+")
 
 def sentence(error: ErrorDetails, field: Field, /) -> str:
     """Return an error as one sentence in words of the scene file."""
-    kind = error["type"]
+    kind, value = error["type"], error["input"]
     if kind in _WANTED:
-        return _of_type(error, field)
+        wanted = _list(field) if kind == "list_type" else _WANTED[kind]
+        return f"{field.name} must be {wanted}, found {in_words(value)}{_hint(kind, value, field)}"
     say = _SENTENCES.get(kind)
     return say(error, field) if say else f"{field.name}: {error['msg']}"
 
@@ -94,12 +95,6 @@ def in_words(value: object, /) -> str:
             return "a mapping of keys"
         case _:
             return f"an array of shape {value.shape}" if isinstance(value, np.ndarray) else str(value)
-
-
-def _of_type(error: ErrorDetails, field: Field) -> str:
-    kind, value = error["type"], error["input"]
-    wanted = _list(field) if kind == "list_type" else _WANTED[kind]
-    return f"{field.name} must be {wanted}, found {in_words(value)}{_hint(kind, value, field)}"
 
 
 def _unknown_key(error: ErrorDetails, field: Field) -> str:

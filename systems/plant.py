@@ -31,7 +31,8 @@ class Plant:
     def run(self) -> None:
         """Plant for every viewer that looks."""
         for outlook in self.outlooks:
-            if not self._is_done(outlook):
+            last, now = outlook.noted(_Planted, _Planted()), self._state(outlook)
+            if last.counts != now.counts or not all(map(is_, last.things, now.things)):
                 self._run(outlook)
 
     def _run(self, outlook: Outlook) -> None:
@@ -41,11 +42,6 @@ class Plant:
             kept.enlist(self.world, outlook.patches)
         is_done = all(kept.is_listed for kept in outlook.kept.values())
         outlook.note(self._state(outlook) if is_done else _Planted())
-
-    def _is_done(self, outlook: Outlook) -> bool:
-        """Return whether everything shown has been planted, and stands where it did then."""
-        last, now = outlook.noted(_Planted, _Planted()), self._state(outlook)
-        return last.counts == now.counts and all(map(is_, last.things, now.things))
 
     def _state(self, outlook: Outlook) -> _Planted:
         kept = [*outlook.kept.values()]

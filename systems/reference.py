@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..components.arrays import Ints
-from ..engine.camera import View, view_of
+from ..engine.camera import Place, View, view_of
 from ..engine.gl.guest import clear
 from ..engine.gl.stream import release_all
 from ..engine.terrain.sample import height_at
@@ -30,7 +30,6 @@ from .trees.standing import PICTURE_BELOW
 from .wind.blow import lone_receivers
 from .wind.grass import grass_of
 
-Place = tuple[float, float, float]
 ROOM = 1.5
 """Upper bound of a bent and leaning blade's distance from its root, in its own lengths."""
 

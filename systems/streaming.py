@@ -8,6 +8,7 @@ from ..components.viewer import Viewer
 from ..engine.terrain.blocks import Blocks, Numbers
 from ..engine.terrain.record import Terrain
 from ..engine.terrain.stream import paste, window_of
+from .frame.feature import Eye
 from .show.carpet.found import Found
 
 GOES, WAITS = 0.75, 2.0
@@ -19,8 +20,6 @@ width."""
 
 LATELY = 1.0
 """Time since their last look for which other viewers count [s]: games do not close the viewer of a map or a mirror."""
-
-Eye = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -120,20 +120,16 @@ class Tile:
             patches, viewer = outlook.patches, outlook.viewer
             patch, terrain = self.ground.patch, self.ground.terrain
             viewer.centre = cell_stood_in(viewer.eye, viewer.centre, patch=patch)
-            self._update_ground(outlook)
+            if outlook.heights != terrain.changes.count:
+                self._update_heights(outlook)
+            if outlook.sown != self.ground.density.sown.count:
+                self._update_densities(outlook)
             fresh = tile(patches, viewer.centre, terrain, patch=patch, seed=self.seed, models=self.models)
             seen = viewer.eye[1], viewer.centre.tobytes(), outlook.heights
             if fresh.size or outlook.away_inputs != seen:
                 outlook.away_inputs = seen
                 patches.away[:] = seen_from(patches.distance, patches.height, viewer.eye[1], patch=patch)
             self.entities.update(outlook, fresh)
-
-    def _update_ground(self, outlook: Outlook) -> None:
-        """Update a viewer's patches where heights or densities have changed since the viewer looked last."""
-        if outlook.heights != self.ground.terrain.changes.count:
-            self._update_heights(outlook)
-        if outlook.sown != self.ground.density.sown.count:
-            self._update_densities(outlook)
 
     def _update_heights(self, outlook: Outlook) -> None:
         terrain, patches, patch = self.ground.terrain, outlook.patches, self.ground.patch

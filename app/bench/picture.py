@@ -21,7 +21,7 @@ from ...systems.reference import (
 )
 from ...systems.show.registry import NAMES
 from ..studio.encode import Picture, picture_writer
-from ..studio.progress import Course, course
+from ..studio.progress import Bar, course
 from ..studio.studio import Studio, about
 from ..studio.take import SAMPLES, Take
 from .contrast import contrast
@@ -72,7 +72,7 @@ def measured(take: Take, output: str | None = None, /) -> dict[str, Any]:
         return common | compare(pictures, studio.prairie.site.quality)
 
 
-def _draw(studio: Studio, way: Course) -> Pictures:
+def _draw(studio: Studio, way: Bar) -> Pictures:
     prairie, size = studio.prairie, studio.take.size
     prairie.advance(MOMENT)
     view, projection = studio.matrices(studio.camera(None))

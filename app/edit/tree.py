@@ -84,16 +84,12 @@ class Tree:
         imgui.same_line()
         self._name(key, way)
         if new is not NOTHING:
-            self._set(key, new, way)
+            numbers = new == OWN_NUMBERS and key.model is not None
+            self.editor.set(way, self.editor.scene.numbers().model_dump() if numbers else new, subject=("field", way))
         if way == ("quality",) and self.editor.prairie.preset is not None:
             imgui.text_colored(UNSAID, "--preset replaces it while you walk")
         if key.model is not None and isinstance(value, BaseModel):
             self._branch(key, value, way)
-
-    def _set(self, key: Key, new: Any, way: Way) -> None:
-        if new == OWN_NUMBERS and key.model is not None:
-            new = self.editor.scene.numbers().model_dump()
-        self.editor.set(way, new, subject=("field", way))
 
     def _branch(self, key: Key, value: Any, way: Way) -> None:
         if not self._opened(key, way, key.name):

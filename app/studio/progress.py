@@ -8,17 +8,17 @@ from contextlib import contextmanager, nullcontext
 from typing import TypeVar
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskID, TaskProgressColumn, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
 Item = TypeVar("Item")
 
-_shown: list["_Bar"] = []
+_shown: list["Bar"] = []
 """Bars that are shown, each for a part of the one before."""
 
 
 def counted(items: Iterable[Item], /, *, total: int, doing: str) -> Iterator[Item]:
     """Yield the items while a bar on a terminal's standard error counts them; in a pipe, only yield them."""
-    with _bar(doing, total) as bar:
+    with _bar(doing, total, {}) as bar:
         for item in items:
             yield item
             bar.move(1.0)
@@ -27,45 +27,25 @@ def counted(items: Iterable[Item], /, *, total: int, doing: str) -> Iterator[Ite
 @contextmanager
 def busy(doing: str, /) -> Iterator[None]:
     """Show work of unknown length on a terminal's standard error."""
-    with _bar(doing, None):
+    with _bar(doing, None, {}):
         yield
 
 
-class Course:
-    """Work in named parts, whose lengths are known relative to one another."""
+class Bar:
+    """A bar for an amount of work, of which parts may have names, or for an unknown amount."""
 
-    def __init__(self, bar: "_Bar", doing: str, parts: Mapping[str, float]) -> None:
-        self._bar, self._doing, self._parts = bar, doing, parts
+    def __init__(self, progress: Progress, doing: str, total: float | None, parts: Mapping[str, float]) -> None:
+        self.progress, self._doing, self._total, self._parts = progress, doing, total, parts
+        self.task = progress.add_task(doing, total=total)
+        self._done, self._furthest, self._worth = 0.0, 0.0, 1.0
 
     @contextmanager
     def part(self, name: str, /) -> Iterator[None]:
         """Do a part of the work; bars inside it move this bar from the part's beginning to its end."""
-        self._bar.worth = self._parts[name]
-        self._bar.say(f"{self._doing}: {name}")
+        self._worth = self._parts[name]
+        self.progress.update(self.task, description=f"{self._doing}: {name}")
         yield
-        self._bar.move(self._parts[name])
-
-
-@contextmanager
-def course(doing: str, parts: Mapping[str, float], /) -> Iterator[Course]:
-    """Yield a course through `parts`, which have relative durations."""
-    with _bar(doing, sum(parts.values())) as bar:
-        yield Course(bar, doing, parts)
-
-
-class _Bar:
-    """A bar for an amount of work, or for an unknown amount."""
-
-    def __init__(self, progress: Progress, doing: str, total: float | None) -> None:
-        self.progress, self._total = progress, total
-        self._task: TaskID = progress.add_task(doing, total=total)
-        self._done, self._furthest = 0.0, 0.0
-        self.worth = 1.0
-        """Amount of work in the next part."""
-
-    def say(self, doing: str) -> None:
-        """Set the description of the current work."""
-        self.progress.update(self._task, description=doing)
+        self.move(self._worth)
 
     def move(self, worth: float) -> None:
         """Move the bar on by an amount of work."""
@@ -73,35 +53,38 @@ class _Bar:
         self.show(0.0)
 
     def show(self, fraction: float) -> None:
-        """Show the work done, including a fraction of the next part; a bar never goes back."""
+        """Show the work done, including a fraction of the present part; a bar never goes back."""
         if self._total is not None:
-            self._furthest = max(self._furthest, self._done + fraction * self.worth)
-            self.progress.update(self._task, completed=self._furthest)
+            self._furthest = max(self._furthest, self._done + fraction * self._worth)
+            self.progress.update(self.task, completed=self._furthest)
             fraction = self._furthest / self._total if self._total else 1.0
         if self is not _shown[0]:
             _shown[_shown.index(self) - 1].show(min(1.0, fraction))
 
-    def end(self) -> None:
-        """Remove the bar."""
-        self.progress.remove_task(self._task)
+
+@contextmanager
+def course(doing: str, parts: Mapping[str, float], /) -> Iterator[Bar]:
+    """Yield a bar for work in named parts, which have relative durations."""
+    with _bar(doing, sum(parts.values()), parts) as bar:
+        yield bar
 
 
 @contextmanager
-def _bar(doing: str, total: float | None) -> Iterator[_Bar]:
+def _bar(doing: str, total: float | None, parts: Mapping[str, float]) -> Iterator[Bar]:
     with nullcontext(_shown[-1].progress) if _shown else display() as progress:
-        bar = _Bar(progress, doing, total)
+        bar = Bar(progress, doing, total, parts)
         _shown.append(bar)
         try:
             yield bar
         finally:
             _shown.remove(bar)
-            bar.end()
+            progress.remove_task(bar.task)
 
 
 @contextmanager
 def unseen() -> Iterator[None]:
     """Show no bars meanwhile, as in a worker."""
-    bar = _Bar(Progress(disable=True), "", None)
+    bar = Bar(Progress(disable=True), "", None, {})
     _shown.append(bar)
     try:
         yield

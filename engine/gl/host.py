@@ -129,22 +129,16 @@ def current(context: Any | None) -> Iterator[bool]:
             before.set_current()
 
 
-class StateTable:
-    """GL constants of all saved state by name, and an array for the result of each query."""
+_SWITCHES = [(name, ENUMS[name]) for name in SWITCHES]
+_RESULTS = [(name, (c_int * count)()) for name, count in REMEMBERED]
+_VALUES = [(name, ENUMS[name], addressof(values), values) for name, values in _RESULTS]
+"""Saved state: its name, GL's constant, and an array for the result of a query, with its address: ctypes converts
+integers faster than arrays."""
 
-    def __init__(self) -> None:
-        self.switches = [(name, ENUMS[name]) for name in SWITCHES]
-        results = [(name, (c_int * count)()) for name, count in REMEMBERED]
-        # Addresses are passed as integers, which ctypes converts faster than arrays.
-        self.values = [(name, ENUMS[name], addressof(values), values) for name, values in results]
-        self.off = [(name, ENUMS[name]) for name in SWITCHED_OFF]
-        self.stores = [(name, ENUMS[name]) for name in (*ALIGNMENTS, *LAYOUTS)]
-        self.layouts = [ENUMS[name] for name in LAYOUTS]
-        self.texels = [ENUMS[name] for name in TEXELS]
-        self.targets = [(f"{name}_BINDING", ENUMS[name]) for name in TARGETS]
-
-
-TABLE = StateTable()
+_OFF = [(name, ENUMS[name]) for name in SWITCHED_OFF]
+_STORES = [(name, ENUMS[name]) for name in (*ALIGNMENTS, *LAYOUTS)]
+_TARGETS = [(f"{name}_BINDING", ENUMS[name]) for name in TARGETS]
+_LAYOUTS, _TEXELS = ([ENUMS[name] for name in names] for names in (LAYOUTS, TEXELS))
 
 
 class State:
@@ -155,10 +149,10 @@ class State:
 
     def __init__(self, gl: Functions, limits: Limits, unit: int) -> None:
         self.gl = gl
-        self._on = {name for name, switch in TABLE.switches if gl.glIsEnabled(switch)}
-        for _, number, address, _ in TABLE.values:
+        self._on = {name for name, switch in _SWITCHES if gl.glIsEnabled(switch)}
+        for _, number, address, _ in _VALUES:
             gl.glGetIntegerv(number, address)
-        self._value: dict[str, list[int]] = {name: found[:] for name, _, _, found in TABLE.values}
+        self._value: dict[str, list[int]] = {name: found[:] for name, _, _, found in _VALUES}
         self._clip = DEFAULT_CLIP
         if limits.clipped:
             self._clip = gl.number("CLIP_ORIGIN"), gl.number("CLIP_DEPTH_MODE")
@@ -237,12 +231,12 @@ class State:
     def clear(self) -> None:
         """Reset state that moderngl does not set and that would change a guest's picture, or texels it transfers."""
         gl = self.gl
-        for name, switch in TABLE.off:
+        for name, switch in _OFF:
             if name in self._on:
                 gl.glDisable(switch)
-        for store in TABLE.layouts:
+        for store in _LAYOUTS:
             gl.glPixelStorei(store, 0)
-        for target in TABLE.texels:
+        for target in _TEXELS:
             gl.glBindBuffer(target, 0)
         self._units.clear()
         gl.glProvokingVertex(ENUMS["LAST_VERTEX_CONVENTION"])
@@ -261,7 +255,7 @@ class State:
     def restore(self) -> None:
         """Restore all saved state."""
         gl, value = self.gl, self._value
-        for name, switch in TABLE.switches:
+        for name, switch in _SWITCHES:
             (gl.glEnable if name in self._on else gl.glDisable)(switch)
         for target in ("DRAW_FRAMEBUFFER", "READ_FRAMEBUFFER"):
             gl.glBindFramebuffer(ENUMS[target], gl.living("Framebuffer", *value[f"{target}_BINDING"]))
@@ -285,7 +279,7 @@ class State:
 
     def _bind(self) -> None:
         gl, value = self.gl, self._value
-        for name, store in TABLE.stores:
+        for name, store in _STORES:
             gl.glPixelStorei(store, *value[name])
         gl.glUseProgram(gl.living("Program", *value["CURRENT_PROGRAM"]))
         gl.glBindVertexArray(gl.living("VertexArray", *value["VERTEX_ARRAY_BINDING"]))
@@ -296,7 +290,7 @@ class State:
             gl.glBindBufferRange(ENUMS[FEEDBACK], 0, buffer, start, size)
         else:
             gl.glBindBufferBase(ENUMS[FEEDBACK], 0, buffer)
-        for name, target in TABLE.targets:
+        for name, target in _TARGETS:
             gl.glBindBuffer(target, gl.living("Buffer", *value[name]))
         gl.glBindRenderbuffer(ENUMS["RENDERBUFFER"], gl.living("Renderbuffer", *value["RENDERBUFFER_BINDING"]))
         self._units.restore()

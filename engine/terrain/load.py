@@ -1,7 +1,8 @@
 """Terrains from elevation maps and from noise."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
+from itertools import product
 from logging import getLogger
 from math import ceil
 from pathlib import Path
@@ -211,15 +212,10 @@ def _heights_of(function: HeightFunction, x: Doubles, z: Doubles, /) -> Floats:
     NaN is a hole. Raises `MapError` where the function raises anything, or returns invalid heights.
     """
     heights = np.empty((len(z), len(x)), np.float32)
-    for rows, columns in _squares(*heights.shape):
+    for row, column in product(range(0, len(z), SQUARE), range(0, len(x), SQUARE)):
+        rows, columns = slice(row, row + SQUARE), slice(column, column + SQUARE)
         heights[rows, columns] = _call(function, *np.meshgrid(x[columns], z[rows]))
     return heights
-
-
-def _squares(rows: int, columns: int) -> Iterator[tuple[slice, slice]]:
-    for row in range(0, rows, SQUARE):
-        for column in range(0, columns, SQUARE):
-            yield slice(row, row + SQUARE), slice(column, column + SQUARE)
 
 
 def _call(function: HeightFunction, x: Doubles, z: Doubles) -> Floats:

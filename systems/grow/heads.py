@@ -1,7 +1,7 @@
 """The heads of plants: petals round a point, florets along a stem, rays of an umbel, and plumes."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -87,7 +87,9 @@ def grow_heads(
     size = random.uniform(low, high, len(stems.plant))
     if head.eye is not None:
         return _eyed(head, layout, stems, size, random, arched)
-    return (_FORMS[head.form](head, layout, stems, size, random),)
+    if head.form in _FORMS:
+        return (_FORMS[head.form](head, layout, stems, size, random),)
+    return _cup(head, layout, stems, size, random)
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +136,7 @@ class _Cup:
     """Lean of each head, shape (m, 2)."""
 
 
-def _cup(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.random.Generator, /) -> Rows:
+def _cup(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.random.Generator, /) -> tuple[Rows, Rows]:
     """Return discs and bells: whorls of petals round a middle, slightly tilted; buds are closed and green."""
     few = has_few_petals(head.form, layout.petals)
     whorls = BELL if head.form == "bell" else DISC_OF_FEW if few else DISC_OF_MANY
@@ -143,7 +145,7 @@ def _cup(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.ran
         stems, np.where(cup.ages.shut, BUD, EYE if few else STRAP), part=1.0, height=0.36 * cup.longest,
         width=0.22 * cup.longest, toward=cup.first_azimuth, spread=0.05, tilt=cup.tilt,
     )  # fmt: skip
-    return _concatenated(cup.petals, middle)
+    return cup.petals, middle
 
 
 def _eyed(
@@ -293,8 +295,6 @@ def _umbel(head: Head, layout: Layout, stems: Stems, size: Doubles, random: np.r
 
 
 _FORMS: Mapping[HeadForm, Callable[[Head, Layout, Stems, Doubles, np.random.Generator], Rows]] = {
-    "disc": _cup,
-    "bell": _cup,
     "spike": _spike,
     "umbel": _umbel,
     "plume": _plume,
@@ -311,9 +311,3 @@ def _along(layout: Layout, stems: Stems, random: np.random.Generator, /) -> tupl
 def _part(stems: Stems, size: Doubles, up: Doubles, /) -> Doubles:
     """Return the places along stems of points at places `up` (m, petals) along heads of lengths `size` (m,)."""
     return np.asarray(np.maximum(1.0 - (size / stems.height)[:, None] * (1.0 - up), 0.0))
-
-
-def _concatenated(petals: Rows, middle: Rows, /) -> Rows:
-    """Return the rows of petals, then those of the middle."""
-    names = [field.name for field in fields(Rows)]
-    return Rows(**{name: np.concatenate([getattr(petals, name), getattr(middle, name)]) for name in names})

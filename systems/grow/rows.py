@@ -6,10 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...components.arrays import Doubles
+from ...components.arrays import Doubles, Indices
 from .record import Blades
-
-Numbers = NDArray[np.intp]
 
 GOLDEN = np.pi * (3.0 - np.sqrt(5.0))
 """The angle from one leaf or floret to the next round a stem [rad]."""
@@ -24,10 +22,10 @@ INTEGERS = "variant", "organ"
 class Stems:
     """Stems of leaves and heads."""
 
-    plant: Numbers
+    plant: Indices
     """Plant of each stem, shape (m,)."""
 
-    branch: Numbers
+    branch: Indices
     """Number of the stem on its plant, shape (m,)."""
 
     height: Doubles
@@ -36,7 +34,7 @@ class Stems:
     rest: Doubles
     """Lean at rest, in the form of `Blades.rest`, shape (m, 2)."""
 
-    def take(self, rows: Numbers, /) -> "Stems":
+    def take(self, rows: Indices, /) -> "Stems":
         """Return the stems of some rows (k,)."""
         return Stems(self.plant[rows], self.branch[rows], self.height[rows], self.rest[rows])
 
@@ -45,8 +43,8 @@ class Stems:
 class Rows:
     """Rows of `Blades` with plant and branch in place of root and rank, shape (k,) or (k, 2) each."""
 
-    plant: Numbers
-    branch: Numbers
+    plant: Indices
+    branch: Indices
     height: NDArray[np.floating]
     width: NDArray[np.floating]
     facing: NDArray[np.floating]

@@ -61,7 +61,8 @@ class Heights:
         terrain, shape = self.terrain, self.terrain.heights.shape
         parts = terrain.changes.since(self._seen_changes)
         self._seen_changes = terrain.changes.count
-        down, right = _offset_between(terrain.first, self._first)
+        after, before = terrain.first or (0, 0), self._first or (0, 0)
+        down, right = after[0] - before[0], after[1] - before[1]
         for part in [self._whole] if parts is None else parts:
             changed = part.within(*shape)
             in_texture = changed and changed.moved(down, right).within(*shape)
@@ -89,11 +90,6 @@ class Heights:
     def release(self) -> None:
         """Release all GL objects."""
         release_all(self.texture, self._next_texture)
-
-
-def _offset_between(after: tuple[int, int] | None, before: tuple[int, int] | None) -> tuple[int, int]:
-    """Return the offset (rows, columns) from one window's first sample to another's."""
-    return (0, 0) if after is None or before is None else (after[0] - before[0], after[1] - before[1])
 
 
 def _box(part: Rectangle) -> tuple[int, int, int, int]:

@@ -6,6 +6,7 @@ Zero Dawn, 2015). Each texel also holds the gradient of the noise, from which a 
 """
 
 from functools import cache
+from math import prod
 
 import moderngl
 import numpy as np
@@ -53,26 +54,17 @@ def billow_noise() -> Floats:
 def billow_levels() -> tuple[NDArray[np.uint8], ...]:
     """Return the mip levels of the noise and its gradient along x, y and z, shapes (SIDE, SIDE, SIDE, 4), halved each.
 
-    The array's axes are z, y, x, as in textures.
+    The array's axes are z, y, x, as in textures. They come from the cache where possible: making them takes a quarter
+    second.
     """
-    levels = []
-    for level, texels in enumerate(np.split(_cached_levels(), _LEVEL_ENDS)):
-        levels.append(texels.reshape((SIDE >> level,) * 3 + (4,)))
-    return tuple(levels)
-
-
-_LEVEL_ENDS = np.cumsum([4 * (SIDE >> level) ** 3 for level in range(LEVELS - 1)])
-
-
-def _cached_levels() -> NDArray[np.uint8]:
-    """Return all levels, concatenated, from the cache where possible: making them takes a quarter second."""
-    key = code_hash("systems/light/billows.py")
-    cached = kept(key, SUFFIX)
-    if cached is not None:
-        return np.frombuffer(cached, np.uint8)
-    texels = np.concatenate([each.ravel() for each in _computed_levels()])
-    keep(key, SUFFIX, texels.tobytes(), most=MOST_FILES)
-    return texels
+    key, shapes = code_hash("systems/light/billows.py"), [(SIDE >> level,) * 3 + (4,) for level in range(LEVELS)]
+    texels = kept(key, SUFFIX)
+    if texels is None:
+        made = b"".join(each.tobytes() for each in _computed_levels())
+        keep(key, SUFFIX, made, most=MOST_FILES)
+        texels = memoryview(made)
+    parts = np.split(np.frombuffer(texels, np.uint8), np.cumsum([prod(shape) for shape in shapes])[:-1])
+    return tuple(part.reshape(shape) for part, shape in zip(parts, shapes, strict=True))
 
 
 def _computed_levels() -> list[NDArray[np.uint8]]:

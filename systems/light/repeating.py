@@ -231,22 +231,17 @@ def repeating_levels(*, seed: int) -> tuple[NDArray[np.uint8], ...]:
     """Return the mip levels of `cloud_map` and `ground_maps` as three channels, shapes (SIDE, SIDE, 3) to (1, 1, 3).
 
     Coarser levels are means of the finest one: drivers that round up at each level would make distant ground brighter.
+    The finest comes from the cache where possible: making it takes half a second.
     """
-    texels = _cached_texels(seed)
+    key = blake2b(f"{code_hash(*CODE)} {seed}".encode(), digest_size=DIGEST // 2).hexdigest()
+    cached = kept(key, SUFFIX)
+    if cached is None:
+        texels = np.stack([cloud_map(seed=seed), *ground_maps(seed=seed)], axis=-1)
+        keep(key, SUFFIX, texels.tobytes(), most=MOST_FILES)
+    else:
+        texels = np.frombuffer(cached, np.uint8).reshape(SIDE, SIDE, 3)
     levels, mean = [texels], texels.astype(np.float64)
     while len(mean) > 1:
         mean = 0.25 * (mean[::2, ::2] + mean[1::2, ::2] + mean[::2, 1::2] + mean[1::2, 1::2])
         levels.append(np.rint(mean).astype(np.uint8))
     return tuple(levels)
-
-
-def _cached_texels(seed: int) -> NDArray[np.uint8]:
-    """Return the finest level, from the cache where possible: making it takes half a second."""
-    shape = SIDE, SIDE, 3
-    key = blake2b(f"{code_hash(*CODE)} {seed}".encode(), digest_size=DIGEST // 2).hexdigest()
-    cached = kept(key, SUFFIX)
-    if cached is not None and len(cached) == np.prod(shape):
-        return np.frombuffer(cached, np.uint8).reshape(shape)
-    texels = np.stack([cloud_map(seed=seed), *ground_maps(seed=seed)], axis=-1)
-    keep(key, SUFFIX, texels.tobytes(), most=MOST_FILES)
-    return texels

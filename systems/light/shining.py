@@ -164,14 +164,14 @@ class Shining:
         """Change everything to the light asked for at once."""
         self.leaps += 1
         self._sky_pieces, self._pieces_done = None, 0
-        self._next_stand = self._before = self._after = _stand(self._asked_now)
+        self._next_stand = self._before = self._after = _stand_of(self._asked_now)
         self._clear_skies = (clear_air(*self._after[1:]),) * 2
         self._passed = PIECES
         self._interpolation_ends = self._daylight = None
 
     def _advance(self) -> None:
         """Compute another piece of the next clear sky, and advance the transition by a frame."""
-        stand = _stand(self._asked_now)
+        stand = _stand_of(self._asked_now)
         if self._sky_pieces is None and stand != self._after:
             self._begin_sky(stand)
         if self._passed < PIECES:
@@ -210,7 +210,7 @@ class Shining:
         return between(before, after, self._passed / PIECES, to_sun(_with_stand(light, self._stand)))
 
 
-def _stand(light: Light) -> Stand:
+def _stand_of(light: Light) -> Stand:
     """Return the stand of a light."""
     return Stand(*sun_at(light), light.turbidity)
 

@@ -66,11 +66,8 @@ class PressPart(TexturePart):
         self._head[0, 2], self._is_empty = samples, False
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
-        """Upload the marks; settled ones only when they have changed."""
-        self._upload(outlook.noted(Trodden, UNTRODDEN))
-
-    def _upload(self, trodden: Trodden) -> None:
         """Upload head and fresh marks, and settled marks when they are others; nothing while there are none."""
+        trodden = outlook.noted(Trodden, UNTRODDEN)
         if not trodden and self._is_empty:
             return
         self._is_empty = not trodden

@@ -11,6 +11,7 @@ from ...components.arrays import Doubles
 from ...engine.gl.guest import borrow
 from ...engine.gl.stream import Stream, release_all
 from ...engine.gl.units import BORROWED
+from ..frame.feature import Eye
 from ..wind.mean import MeanWind
 from .kind import GpuKind
 from .motion import CROWN_BENDS, TONES_APART, TRUNK_LEANS, TRUNK_SWINGS, tones, trunk_hertz
@@ -40,8 +41,6 @@ USUAL_TRUNK = 0.03
 
 STEADY = 0.999995
 """Cosine of the sun's movement after which maps are drawn anew: 0.2 degrees."""
-
-Place = tuple[float, float, float]
 
 
 class ShadeMap:
@@ -73,7 +72,7 @@ class ShadeMap:
         row["trees_aside"] = strength * CROWN_BENDS * high * np.array([sin(heading), -cos(heading)])
         row["trees_tones"] = tones(trunk_hertz(max(high, 1.0), USUAL_TRUNK * high), time)
 
-    def follow(self, eye: Place, standing: Standing, record: NDArray[np.void], /) -> None:
+    def follow(self, eye: Eye, standing: Standing, record: NDArray[np.void], /) -> None:
         """Write where the maps lie for an eye."""
         row, sun = record[0], record["sun"][0].astype(np.float64)
         if float(sun @ self._sun) < STEADY:

@@ -13,7 +13,7 @@ from zlib import crc32
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Floats
+from ...components.arrays import Floats, Indices
 from ...components.pose import HERE, Pose
 from ...components.wind import Extent, Grass, Mixing, WindPrimitive, WindSource
 from ...engine.random import hash3
@@ -24,8 +24,6 @@ from .shape import smooth
 
 MARGIN = 1e-3
 """Margin around an extent within which the mask still counts, so that rounding cuts nothing off [m]."""
-
-Rows = NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,7 +50,7 @@ class ReceiverArrays:
     grass: Grass
     """Responses of the grass at the receivers."""
 
-    patch: Rows
+    patch: Indices
     """Index of each receiver's patch, shape (n,)."""
 
     middle: Floats
@@ -180,7 +178,7 @@ class _Sums:
 class Sent:
     """Messages of one wind."""
 
-    rows: Rows | slice
+    rows: Indices | slice
     """Receivers that it reaches."""
 
     weight: Floats
@@ -293,7 +291,7 @@ def send(
     return Sent(rows, weight * np.float32(wind.strength), wind.pose.outside(message), primitive.swing)
 
 
-def _within(wind: Blowing, receivers: ReceiverArrays, unclaimed: Floats) -> tuple[Rows | slice, Floats]:
+def _within(wind: Blowing, receivers: ReceiverArrays, unclaimed: Floats) -> tuple[Indices | slice, Floats]:
     """Return the receivers in a wind's extent that are not wholly claimed, and their places in the wind's frame.
 
     For a wind without an extent these are all receivers, unless at least half of them are claimed: picking some out
@@ -341,7 +339,7 @@ def _cover(sums: _Sums, sent: list[Sent]) -> None:
         _lay(sums, rows, 1.0 - kept[rows], message[rows] / weight[:, None], swing[rows] / weight)
 
 
-def _lay(sums: _Sums, rows: Rows | slice, weight: Floats, message: Floats, swing: Floats | np.float32) -> None:
+def _lay(sums: _Sums, rows: Indices | slice, weight: Floats, message: Floats, swing: Floats | np.float32) -> None:
     """Lay messages with these weights over the unclaimed parts of receivers."""
     is_all = isinstance(rows, slice) and len(weight) and weight.min() == sums.unclaimed.min() == 1.0
     if is_all:  # as of a breeze alone

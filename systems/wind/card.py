@@ -8,8 +8,8 @@ from typing import Protocol
 
 import moderngl
 import numpy as np
-from numpy.typing import NDArray
 
+from ...components.arrays import Indices
 from ...components.wind import Mixing, TwinValues, WindPrimitive
 from ...engine.complaint import said
 from ...engine.gl.guest import block_binding
@@ -36,8 +36,6 @@ from .twin import (
     layout_of,
     twin_of,
 )
-
-Rows = NDArray[np.intp]
 
 SAMPLERS = ("winds", "wind_sheets", "wind_curves", "wind_messages")
 """Samplers of `hear.glsl`; the maker of a `CardWinds` assigns each a texture unit."""
@@ -236,7 +234,7 @@ class CardWinds:
         quarantine: Quarantine,
         /,
         *,
-        numbers: Callable[[], Rows] | None = None,
+        numbers: Callable[[], Indices] | None = None,
     ) -> None:
         """Compute and upload the messages of winds without a twin; where all winds have one, `receivers` is not called.
 

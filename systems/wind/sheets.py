@@ -4,12 +4,9 @@ from collections.abc import Sequence
 
 import moderngl
 import numpy as np
-from numpy.typing import NDArray
 
-from ...components.arrays import Floats
+from ...components.arrays import Floats, Indices
 from ...engine.gl.texture import by_texel
-
-Rows = NDArray[np.intp]
 
 WIDE = 1024
 """Number of receivers in a row of a `MessageTexture`."""
@@ -108,7 +105,7 @@ class MessageTexture:
             self.texture.release()
             self.texture = self._allocated()
 
-    def write(self, wind: int, number: Rows, message: Floats, weight: Floats) -> int:
+    def write(self, wind: int, number: Indices, message: Floats, weight: Floats) -> int:
         """Write a wind's messages (n, 2) and weights (n,) to receivers of these numbers (n,), and 0 to all others.
 
         `wind` counts the winds without a twin. Returns the number of rows uploaded.

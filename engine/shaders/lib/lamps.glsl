@@ -23,11 +23,6 @@ float brightness(vec3 light) {
     return dot(light, vec3(1.0));
 }
 
-// The range in the lists, first and end, of the lamps that may shine on a place.
-ivec2 lamps_range(vec2 place) {
-    return listed_range(lamps_grid, 0, place);
-}
-
 // The light at a place of the lamp with an index in the lists: by the inverse square of the distance, windowed to its reach (Karis,
 // Real Shading in Unreal Engine 4, 2013), and within its cone.
 Incoming lamp_at(int index, vec3 place) {

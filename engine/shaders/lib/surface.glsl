@@ -112,7 +112,7 @@ vec4 lamps_at(vec3 place, Reflector reflector) {
     vec4 sum = vec4(0.0);
     if (reflector.kind != FACE)
         place.y += LIT_AT * OF(crown, kind_index(reflector.kind)) * lodged(reflector.bend);
-    ivec2 range = lamps_range(place.xz);
+    ivec2 range = listed_range(lamps_grid, 0, place.xz);
     for (int index = range.x; index < range.y; index++)
         add_light(sum, lamp_at(index, place), place, reflector);
     return vec4(sum.rgb, sum.w / max(brightness(sum.rgb), DARKEST));
