@@ -242,8 +242,9 @@ def _look_on_path(
 def view_of(view: object, projection: object, origin: Place = (0.0, 0.0, 0.0)) -> View:
     """Return the two matrices as numpy arrays for column vectors.
 
-    Each is a 4x4 array, or pyglet's `Mat4`, whose 16 numbers run column by column. `origin` is the scene's origin in
-    the world of `view` [m]; it is subtracted in double precision, so that large coordinates cancel. Raises ValueError
+    Each is a 4x4 array, or pyglet's `Mat4`, whose 16 numbers run column by column. Where `view` scales, as for a game
+    in centimetres, the scale is moved into the projection. `origin` is the scene's origin in the world of `view` [m];
+    it is subtracted in double precision, so that large coordinates cancel. Raises ValueError
     for anything but 16 finite numbers, a singular matrix, a view with perspective, an eye beyond a million kilometres,
     and a product beyond single precision.
     """
@@ -266,21 +267,25 @@ def as_origin(place: object, /) -> Place:
     return x, y, z
 
 
-NO_PERSPECTIVE = 1e-3
-"""Tolerance for zeros in the last row of a view matrix, for rounding errors of single precision."""
+ROUNDING = 1e-3
+"""Tolerance for the zeros in the last row of a view matrix, and for its scale, for rounding of single precision."""
 
 
 @lru_cache(maxsize=16)
 def _usable(view: bytes, projection: bytes) -> View:
     """Return the view of two matrices' bytes, row by row; cached, so that equal matrices give the same object."""
     seen = View(*(np.frombuffer(each, np.float32).reshape(4, 4) for each in (view, projection)))
-    if np.abs(seen.view[3, :3]).max() > NO_PERSPECTIVE:
+    if np.abs(seen.view[3, :3]).max() > ROUNDING:
         raise ValueError(
             "the view matrix has perspective: give the view first, with a last row of 0 0 0 1, then the projection"
         )
     if not seen.is_usable:
         _must_be_usable(seen)
-    return seen
+    scale = math.hypot(*seen.view[2, :3].tolist())
+    if abs(scale - 1.0) <= ROUNDING:
+        return seen
+    metres = np.array([scale, scale, scale, 1.0], np.float32)  # distances from the eye count in metres everywhere
+    return View(seen.view / metres[:, None], seen.projection * metres)
 
 
 def _must_be_usable(seen: View) -> None:

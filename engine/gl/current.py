@@ -88,11 +88,14 @@ def _loader(_handle: Handle) -> Any:
 @lru_cache(maxsize=8)
 def _made(handle: Handle) -> moderngl.Context:
     store: Any = moderngl._store  # type: ignore[attr-defined]  # noqa: SLF001 - making a context replaces the default
-    before = store.default_context
+    before, gl = store.default_context, functions_of_loader(_loader(handle))
+    target, drawn = ENUMS["DRAW_FRAMEBUFFER"], gl.number("DRAW_FRAMEBUFFER_BINDING")
+    gl.glBindFramebuffer(target, 0)  # to ask for its size, moderngl would bind its texture to a unit of the host
     try:
         ctx = moderngl.create_context(context=_loader(handle))
     finally:
         store.default_context = before
+        gl.glBindFramebuffer(target, drawn)
     ctx.extra, ctx.default_texture_unit = _OWN, SCRATCH_UNIT
-    functions_of_loader(_loader(handle)).glDisable(ENUMS["TEXTURE_CUBE_MAP_SEAMLESS"])  # moderngl has set it
+    gl.glDisable(ENUMS["TEXTURE_CUBE_MAP_SEAMLESS"])  # moderngl has set it
     return ctx

@@ -184,7 +184,7 @@ def _path(scene: str | Path) -> Path:
     if mode:
         raise _no_file(f"'{text}' is {_irregular(mode)}, not a scene file")
     if is_name:
-        near = get_close_matches(text, bundled, n=1)
+        near = get_close_matches(text.lower(), bundled, n=1)
         guess = f"; did you mean '{near[0]}'?" if near else ";"
         raise _no_file(f"no scene file '{text}'{guess} bundled: {', '.join(bundled)}")
     bundle = f"; '{path.stem}' alone is a bundled scene" if path.stem in bundled else ""

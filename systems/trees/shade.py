@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
-from ...engine.gl.guest import borrow
+from ...engine.gl.guest import borrow, clear
 from ...engine.gl.stream import Stream, release_all
 from ...engine.gl.units import BORROWED
 from ..frame.feature import Eye
@@ -106,7 +106,7 @@ class ShadeMap:
             self._drawn[number], centre = self._wanted[number]
             self._target.viewport = self._target.scissor = number * SIDE, 0, SIDE, SIDE
             self._target.use()
-            self._target.clear()
+            clear(self._target)
             ctx.enable_only(moderngl.BLEND)
             ctx.blend_func = moderngl.ONE, moderngl.ONE
             tile = *centre, SIDES[number] / 2.0, float(number)

@@ -58,6 +58,15 @@ def test_view_matrix_is_a_rotation_that_brings_the_eye_to_the_origin(
     np.testing.assert_allclose(matrix @ [*place, 1.0], [0, 0, 0, 1], atol=1e-3)
 
 
+def test_a_game_in_centimetres_sees_what_one_in_metres_does() -> None:
+    camera = Camera((3.0, 2.0, -7.0), 0.4, -0.2, 0.9)
+    metres = view_of(view_matrix(camera), projection_matrix(camera.view, 1.5))
+    centi = np.diag([100.0, 100.0, 100.0, 1.0])
+    found = view_of(centi @ metres.view, metres.projection @ np.linalg.inv(centi))
+    for name in ("view", "projection", "eye"):
+        np.testing.assert_allclose(getattr(found, name), getattr(metres, name), rtol=1e-5, atol=1e-5)
+
+
 def test_two_matrices_that_have_no_inverse_together_are_refused_in_a_sentence() -> None:
     view, projection = np.eye(4), np.eye(4)
     view[1, 0], projection[0, 1] = 1.0, 1e20

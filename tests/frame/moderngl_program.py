@@ -348,10 +348,10 @@ def bare() -> str:
     gl.glGenFramebuffers(1, name)
     gl.glBindFramebuffer(0x8D40, name[0])
     for attachment, kind in ((0x8CE0, 0x8058), (0x8D00, 0x81A6)):
-        gl.glGenRenderbuffers(1, name)
-        gl.glBindRenderbuffer(0x8D41, name[0])
-        gl.glRenderbufferStorage(0x8D41, kind, *SIZE)
-        gl.glFramebufferRenderbuffer(0x8D40, attachment, 0x8D41, name[0])
+        gl.glGenTextures(1, name)
+        gl.glBindTexture(0x0DE1, name[0])
+        gl.glTexStorage2D(0x0DE1, 1, kind, *SIZE)
+        gl.glFramebufferTexture2D(0x8D40, attachment, 0x0DE1, name[0], 0)
     gl.hostile()
     before, prairie, told = gl.values(), Prairie.load(sys.argv[1], live=False), []
     for number in range(2):

@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Iterator, Sequence
+from ctypes import addressof, c_int
 
 import moderngl
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 
 from tallgrass import Prairie
 from tallgrass.engine.camera import Camera
+from tallgrass.engine.gl.functions import functions_of
 from tallgrass.systems.painter import CRESTS_FROM
 from tallgrass.systems.show.carpet.painter import CarpetPainter
 from tallgrass.systems.trees import call
@@ -40,6 +42,7 @@ NEAR_BY = looking(0.0, 1.7, 6.0, pitch=4.0, view=50.0)
 NOTHING_IS_OPAQUE = 2.0
 LIKE, MUCH = 8.0, 40.0  # of 255
 A_LITTLE = 0.02  # coverage
+CLEAR_COLOUR = 0x0C22  # GL_COLOR_CLEAR_VALUE
 
 
 @pytest.fixture(scope="module")
@@ -165,6 +168,17 @@ def test_needles_are_blended_over_the_stems_that_bear_them(
     assert both
     assert all(max(of_stems[model]) < min(of_needles[model]) for model in both)
     part["_calls"].clear()
+
+
+def test_d6_maps_of_shade_leave_the_clear_colour_of_a_host_that_sets_it_once(
+    stage: Stage, prairie: Prairie, ctx: moderngl.Context
+) -> None:
+    stage.begin()
+    stage.target.clear(1.0, 1.0, 1.0, 1.0)
+    prairie.draw(*stage.matrices(looking(8.0, 2.0, 30.0)), viewer="elsewhere")  # maps of shade lie about the viewer
+    found = (c_int * 4)()
+    functions_of(ctx).glGetIntegerv(CLEAR_COLOUR, addressof(found))
+    assert min(found) > 0
 
 
 def test_nothing_of_trees_is_made_in_a_scene_without_any(ctx: moderngl.Context, stage: Stage) -> None:
