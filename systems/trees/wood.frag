@@ -30,11 +30,14 @@ layout(location = 1) out vec4 second;
 out vec4 pixel;
 #endif
 
-const vec2 FURROWS = vec2(26.0, 4.0), BANDS = vec2(5.0, 26.0);  // number per metre around and along a stem
+const vec2 FURROWS = vec2(26.0, 3.0), BANDS = vec2(5.0, 26.0);  // number per metre around and along a stem
 const float WINDINGS = 6.0;  // bends of furrows per metre
-const float FINER = 3.1;  // frequency of cracks, relative to the furrows'
+const vec2 CRACKS = vec2(70.0, 28.0);  // cracks across its ridges, of the same kind
 const float DEEP = 0.7;  // share of furrows in the brightness of bark, beside cracks
-const vec2 RIDGES = vec2(0.55, 0.75);  // brightness of a furrow's ground, relative to the bark's, and added brightness of a ridge
+const float FISSURE = 0.2;  // distance of the noise from its mean, 0.5, up to which bark falls off to the ground of a furrow
+const vec2 RIDGES = vec2(0.544, 0.6);  // brightness of a furrow's ground, and what a ridge adds to it: on average, FURROWED_MEAN
+const float RELIEF = 0.02;  // height of bark for each 1 of its brightness: its furrows are a centimetre deep, as a pine's [m]
+const float LEAST_AREA = 1e-12;  // least area of a pixel on bark, as a divisor [m^2]
 const vec2 BAND = vec2(0.58, 0.74);  // noise over which a band fades in
 const vec3 BANDED = vec3(0.7, 0.5, 1.7);  // of that noise, the part all over, and the part in spots; spots per metre
 const vec2 FOOT = vec2(0.1, 1.2);  // positions along a stem between which its foot ends, which has dark spots [m]
@@ -71,7 +74,8 @@ float banded_bark(vec2 on, float broad, float pixel) {
 
 // Brightness of bark with furrows along its stem, relative to its ground.
 float furrowed_bark(vec2 on, float broad) {
-    float furrows = noise(on * FURROWS + 2.0 * broad), cracks = noise(on * (FURROWS * FINER));
+    float off = noise(on * FURROWS + vec2(broad, 0.0)) - 0.5, cracks = noise(on * CRACKS);
+    float furrows = min(abs(off) * (1.0 / FISSURE), 1.0);
     return mix(1.0, RIDGES.x + RIDGES.y * (DEEP * furrows + (1.0 - DEEP) * cracks), rough);
 }
 
@@ -90,6 +94,16 @@ float bark_brightness() {
 }
 #endif
 
+#if !defined(SOFT) && !defined(BAKED)
+// Normal of bark at its furrows, for the relief `high` of its surface [m] (Mikkelsen, Bump mapping unparametrized surfaces on the
+// GPU, 2010): the gradient of the relief along the surface tilts it.
+vec3 furrowed_normal(vec3 smooth_normal, float high) {
+    vec3 right = dFdx(seen_at), up = dFdy(seen_at), across = cross(up, smooth_normal), along = cross(smooth_normal, right);
+    float area = dot(right, across);
+    return smooth_normal - (dFdx(high) * across + dFdy(high) * along) / (sign(area) * max(abs(area), LEAST_AREA) + LEAST_AREA);
+}
+#endif
+
 // Coverage of a stem with soft edges. The part of `facing` across the ray is the distance from its middle.
 float edge_cover(vec3 ray) {
     float across = edge.y * length(facing - dot(facing, ray) * ray);
@@ -103,10 +117,12 @@ void main() {
     second = packed_shading(inside);
 #else
     float worn = bark_brightness();
-    vec3 ray = normalize(seen_at - eye);
+    vec3 ray = normalize(seen_at - eye), out_to = facing - ray * (ribbon * sqrt(max(1.0 - dot(facing, facing), 0.0)));
+#ifndef SOFT
+    out_to = furrowed_normal(normalize(out_to), RELIEF * age * step(0.0, rough) * worn);
+#endif
     float cover = stem_cover * edge_cover(ray);
     discard_uncovered(cover);
-    vec3 out_to = facing - ray * (ribbon * sqrt(max(1.0 - dot(facing, facing), 0.0)));
     float lit = max(dot(out_to, sun), 0.0) * inversesqrt(dot(out_to, out_to));
     vec2 seen = transmittance(vec2(grass_here.y, OPEN_SKY) * leaf_area_above(grass_height, vec2(0.0, grass_here.x)));
     pixel = output_colour(worn * worn * (sun_radiance * (lit * seen.x) + sky_radiance * seen.y) + haze_colour, cover);
