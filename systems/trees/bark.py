@@ -1,7 +1,7 @@
 """The bark of a tree: tubes around its stems, and camera-facing ribbons in place of thin ones."""
 
 from math import log
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,13 +10,13 @@ from ...components.arrays import Doubles
 from .crown import shading
 from .grow import Stems, Tree
 
-BARK = np.dtype([("stem", "4f4"), ("side", "4f4"), ("shading", "4f4"), ("surface", "2f4"), ("limb_row", "u4")])
+BARK = np.dtype([("stem", "4f4"), ("side", "4f4"), ("shading", "4f4"), ("surface", "2f4"), ("on_limb", "2f4")])
 """A vertex of bark; `wood.vert` describes each field."""
 
 PACKED = np.dtype(
     {
         "names": list(BARK.names or ()),
-        "formats": ["4u2", "4u1", "4u1", "2f2", "u2"],
+        "formats": ["4u2", "4u1", "4u1", "2f2", "2u2"],
         "offsets": [0, 8, 12, 16, 20],
         "itemsize": 24,
     }
@@ -27,7 +27,8 @@ SIDE_SCALE = 127.5
 """Scale and offset of `side` when packed."""
 
 STEM_SCALE = 65535.0
-"""Scale of `stem`, within its range, when packed: 0.3 mm a step on a tree of 20 m."""
+"""Scale of `stem`, within its range, when packed: 0.3 mm a step on a tree of 20 m. Scale of
+the random number in `on_limb`."""
 
 GLSL = {"STEM_SCALE": STEM_SCALE}
 
@@ -46,7 +47,7 @@ PIXEL_RADII = 0.003, 0.0042, 0.006, 0.0085, 0.012, 0.017, 0.027
 ROUND = 6.0
 """Width from which on a stem is a tube, and shows that it forks [pixels]."""
 
-STRAIGHT, BENT = 0.017, 1.0
+STRAIGHT, BENT = 0.017, 2.0
 """Radius of a stem a pixel wide from which on ribbons have fewer points [m]: bends are a few pixels there. And bend
 below which a ribbon has fewer points nearer by, too [pixels]."""
 
@@ -83,14 +84,16 @@ class Faces(NamedTuple):
     """Triangles of bark that a pass draws at some distance."""
 
     triangles: NDArray[np.uint32]
-    """Shape (n, 3), stem by stem from thick to thin; next to the eye, where none is thinner than a pixel, the lowest
-    first."""
+    """Shape (n, 3), stem by stem from thick to thin."""
 
     radii: Doubles
     """Greatest radius from each triangle on, from the last to the first, (n,) [m]."""
 
-    lows: Doubles
-    """Least height from each triangle on, (n,) [m]."""
+    @classmethod
+    def of(cls, triangles: NDArray[np.integer], stem: NDArray[np.floating], /) -> Self:
+        """Return the faces of triangles in this order; `stem` is that of each vertex, (n, 4)."""
+        most = stem[triangles, 3].max(axis=1).astype(np.float64)
+        return cls(np.asarray(triangles, np.uint32), np.maximum.accumulate(most[::-1]))
 
 
 class Wood(NamedTuple):
@@ -122,10 +125,13 @@ class _Part(NamedTuple):
     """Greatest distance of each stem's points from the lines between these, shape (stems,) [m]."""
 
 
-def bark_of(tree: Tree, area: Doubles, first_limb: int, /) -> tuple[NDArray[np.void], tuple[Wood, ...]]:
+def bark_of(
+    tree: Tree, area: Doubles, first_limb: int, limb_random: NDArray[np.floating], /
+) -> tuple[NDArray[np.void], tuple[Wood, ...]]:
     """Return the bark of all stems, records of `BARK`, and the wood for each of `PIXEL_RADII` and beyond.
 
-    `area` is each twig's leaf area [m²], and `first_limb` the row of the first limb in the texture of twigs.
+    `area` is each twig's leaf area [m²], `first_limb` the row of the first limb in the texture of twigs, and
+    `limb_random` a random number of each limb, 0 to 1.
     """
     limb_of = None, np.arange(len(tree.levels[1].at)), tree.limb_of
     levels = _with_foot(tree.levels[0]), *tree.levels[1:]
@@ -139,7 +145,7 @@ def bark_of(tree: Tree, area: Doubles, first_limb: int, /) -> tuple[NDArray[np.v
         for ribbon, vertices in enumerate((_flared(tubes) if of_trunk else tubes, _ribbons(stems))):
             vertices["shading"] = shade.reshape(*stems.spine.shape[:2], 1, 4)
             if limbs is not None:
-                vertices["limb_row"] = (first_limb + limbs)[:, None, None]
+                vertices["on_limb"] = np.stack([first_limb + limbs, limb_random[limbs]], axis=1)[:, None, None]
             first = sum(len(each) for each in bark)
             step = max(vertices.shape[1] // 4, 3)
             fine, straight = (_faces(*vertices.shape, step=each) + first for each in (1, step))
@@ -157,20 +163,17 @@ def bark_of(tree: Tree, area: Doubles, first_limb: int, /) -> tuple[NDArray[np.v
 def _wood(parts: list[_Part], stem: Doubles, pixel: float) -> Wood:
     """Return the wood where a stem of radius `pixel` [m] is a pixel wide; `stem` is that of each vertex, (n, 4)."""
     passes = ([_triangles(part, pixel, edges=edges) for part in parts] for edges in (False, True))
-    return Wood(*(_sorted(each, stem, near=not pixel) for each in passes))
+    return Wood(*(_sorted(each, stem) for each in passes))
 
 
-def _sorted(found: list[tuple[NDArray[np.intp], Doubles]], stem: Doubles, *, near: bool) -> Faces:
-    """Return the triangles of parts in the order in which they are drawn, with `near` next to the eye.
+def _sorted(found: list[tuple[NDArray[np.intp], Doubles]], stem: Doubles) -> Faces:
+    """Return the triangles of parts in the order in which they are drawn.
 
     Those of one stem stay together, as they share vertices: a graphics card keeps the last ones that it has computed.
     """
     triangles = np.concatenate([each for each, _ in found])
     radius_at_foot = np.concatenate([each for _, each in found])
-    most, low = stem[triangles, 3].max(axis=1), stem[triangles, 1].min(axis=1)
-    order = np.argsort(np.floor(low) if near else -radius_at_foot, kind="stable")
-    radii, lows = np.maximum.accumulate(most[order[::-1]]), np.minimum.accumulate(low[order[::-1]])[::-1]
-    return Faces(np.asarray(triangles[order], np.uint32), radii, lows)
+    return Faces.of(triangles[np.argsort(-radius_at_foot, kind="stable")], stem)
 
 
 def _triangles(part: _Part, pixel: float, *, edges: bool) -> tuple[NDArray[np.intp], Doubles]:
@@ -287,10 +290,10 @@ def ranges_of(vertices: NDArray[np.void], /) -> Ranges:
 def packed(vertices: NDArray[np.void], ranges: Ranges, /) -> NDArray[np.void]:
     """Return vertices as records of `PACKED`."""
     records, (side, mean) = np.zeros(len(vertices), PACKED), ranges.most_shading
-    for name in ("surface", "limb_row"):
-        records[name] = vertices[name]
+    records["surface"] = vertices["surface"]
     part = (vertices["stem"] - np.array(ranges.stem_least)) / np.maximum(ranges.stem_range, LEAST_RANGE)
     records["stem"] = np.round(STEM_SCALE * part)
+    records["on_limb"] = np.round((1.0, STEM_SCALE) * vertices["on_limb"])
     records["side"] = np.round(SIDE_SCALE + SIDE_SCALE * vertices["side"].clip(-1.0, 1.0))
     shading = vertices["shading"] / (side, side, side, mean)
     records["shading"] = np.round(2.0 * SIDE_SCALE * np.append(0.5 + 0.5 * shading[:, :3], shading[:, 3:], axis=1))

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
-from .bark import MOST_OUTSET
+from ..space.frustum import outside_planes
+from .bark import MOST_OUTSET, Faces, Wood
 from .grow import POINTS
 from .habit import Habit
 from .motion import (
@@ -104,9 +105,47 @@ def wood_balls(vertices: NDArray[np.void], twigs: NDArray[np.void], height: floa
     """
     stem = vertices["stem"].astype(np.float64)
     around = (1.0 + MOST_OUTSET) * stem[:, 3] + 0.5 * height / (POINTS[0] - 1)
-    limb = vertices["limb_row"]
+    limb = vertices["on_limb"][:, 0].astype(np.intp)
     pivot = np.where(limb[:, None] > 0, twigs["pivot"][limb], stem[:, :3])
     return Balls(stem[:, :3], around + _sway(stem[:, :3], pivot, height))
+
+
+def near_wood(wood: Wood, vertices: NDArray[np.void], balls: Balls, /) -> tuple[Wood, tuple[Balls, Balls]]:
+    """Return wood in blocks of neighbouring triangles, and the bounding spheres of these of `whole` and of `edges`.
+
+    Next to the eye, most of a tree is outside the picture. `balls` are those of the vertices, records of `BARK`.
+    """
+    found = []
+    for faces in wood:
+        middle, radius = balls.middle[faces.triangles], balls.radius[faces.triangles]
+        within = middle.mean(axis=1)
+        off = np.linalg.norm(middle - within[:, None], axis=2) + radius
+        order = grouped(within)
+        blocks = blocks_of(Balls(within, off.max(axis=1)), order)
+        found.append((Faces.of(faces.triangles[order], vertices["stem"]), blocks))
+    (whole, of_whole), (edges, of_edges) = found
+    return Wood(whole, edges), (of_whole, of_edges)
+
+
+def blocks_inside(blocks: Balls, trees: NDArray[np.void], sides: Doubles, /) -> tuple[int, int]:
+    """Return the first block in the picture of any of some trees, and the one after the last; 0 and 0 if there is none.
+
+    `trees` are records of `INSTANCE`, and `sides` planes of the frustum.
+    """
+    place, scale = places_of(np.broadcast_to(blocks.middle, (len(trees), *blocks.middle.shape)), trees)
+    outside = outside_planes(place.reshape(-1, 3), sides).reshape(len(trees), -1)
+    number = np.flatnonzero((outside <= scale[:, None] * blocks.radius).any(axis=0))
+    return (int(number[0]), int(number[-1]) + 1) if len(number) else (0, 0)
+
+
+def places_of(middle: Doubles, trees: NDArray[np.void], /) -> tuple[Doubles, Doubles]:
+    """Return where parts of trees' models (n, m, 3) are [m], and the trees' scales (n,); `trees` are of `INSTANCE`."""
+    scale = trees["scale"].astype(np.float64)
+    (cosine, sine), x, z = scale * trees["turn"].T, middle[..., 0], middle[..., 2]
+    place = np.empty_like(middle)
+    place[..., 0], place[..., 2] = cosine[:, None] * x - sine[:, None] * z, sine[:, None] * x + cosine[:, None] * z
+    place[..., 1] = scale[:, None] * middle[..., 1]
+    return np.asarray(place + trees["root"][:, None]), scale
 
 
 def _sway(place: Doubles, pivot: NDArray[np.floating], height: float) -> Doubles:

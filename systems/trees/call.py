@@ -210,5 +210,7 @@ def uniforms_of(
 def wood_vertices(model: GpuModel, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:
     """Return the first vertex and the number of vertices that are drawn of a stream's wood."""
     drawn, wood_class = model.wood[name], model.wood_class[name]
-    end = len(model.model.wood[wood_class].whole.triangles) if whole else drawn.soft if soft else drawn.solid
-    return 3 * model.first_triangle[2 * wood_class + soft], 3 * end
+    first, end = (drawn.soft_from, drawn.soft) if soft else (drawn.solid_from, drawn.solid)
+    if whole:
+        first, end = 0, len(model.model.wood[wood_class].whole.triangles)
+    return 3 * (model.first_triangle[2 * wood_class + soft] + first), 3 * (end - first)

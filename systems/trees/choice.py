@@ -91,13 +91,10 @@ class Batch(NamedTuple):
     foliage: float
     """Least share of its leaves that a tree has."""
 
-    top: float
-    """Height of the model up to which any tree is in the picture [m]; infinite where all of it may be."""
-
 
 def single(model: int, name: str, first: int, /) -> Batch:
     """Return a batch of one tree, drawn anywhere; `first` is its index among all trees."""
-    return Batch(model, name, first, 1, 0.0, 0.0, farthest_of(SHELL_OF[name], 1.0), 1.0, 1.0, inf)
+    return Batch(model, name, first, 1, 0.0, 0.0, farthest_of(SHELL_OF[name], 1.0), 1.0, 1.0)
 
 
 class Chosen(NamedTuple):
@@ -325,7 +322,7 @@ def _batches(stream: Indices, tree: Indices, seen: _Seen, distance: Doubles) -> 
     columns = (
         *divmod(stream[first], len(STREAMS)), first, count, low(distance[tree], first),
         total(distance[tree] * new, first) / total(new, first, dtype=np.intp), high(seen.in_order[tree], first),
-        low(seen.pixel_radius[tree], first), low(foliage[tree], first), high(seen.top[tree], first),
+        low(seen.pixel_radius[tree], first), low(foliage[tree], first),
     )  # fmt: skip
     return [
         Batch(model, STREAMS[index], start, size, nearest, mean, farthest_of(SHELL_OF[STREAMS[index]], far), *rest)

@@ -183,7 +183,7 @@ class TreePart(Part):
         if self._choice is None or self._choice[0] is not standing:
             models = [model.model for _, model in self._models]
             self._choice = standing, Choice(standing, models, [kind.declared.variety for kind, _ in self._models])
-        self._send(self._choice[1].choose(self._look(outlook)))
+        self._send(self._choice[1].choose(self._look(outlook)), viewer.sides)
 
     def _look(self, outlook: Outlook) -> Look:
         """Return the viewpoint that trees are chosen for."""
@@ -199,8 +199,8 @@ class TreePart(Part):
         reach = self._reach(outlook)
         return Look(eye, outlook.viewer.sides, clip, focal, reach, patch, centre, detail_eyes, self.leaves_from)
 
-    def _send(self, chosen: Chosen) -> None:
-        """Send instances, and where they stand."""
+    def _send(self, chosen: Chosen, sides: Doubles) -> None:
+        """Send instances, and where they stand; `sides` are planes of the frustum."""
         before, (self._batches, instances, placed) = self._batches, chosen
         filled = {(batch.model, batch.name) for batch in self._batches}
         for number, name in {(batch.model, batch.name) for batch in before} - filled:
@@ -209,7 +209,7 @@ class TreePart(Part):
             _, model = self._models[batch.model]
             model.write(batch.name, rows)
             if batch.name in model.wood:
-                model.show_wood(batch.name, batch.pixel_radius, batch.foliage, batch.top)
+                model.show_wood(batch.name, batch.pixel_radius, batch.foliage, rows, sides)
             elif batch.name == LEAVES:
                 model.twigs_of_leaves = 1 if self.leaves_from is None else len(model.model.twigs)
         self._send_placed(placed)

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Doubles, Indices
 from ..space.frustum import outside_planes
+from .bounds import places_of
 from .model import Model
 from .twig import BLOCK, RANKS
 
@@ -62,12 +63,7 @@ def _neighbours_shown(
     blocks: Blocks, model: Indices, instances: NDArray[np.void], eye: Doubles, sides: Doubles
 ) -> tuple[Indices, Indices]:
     """Return the blocks of neighbours in the picture: each one's tree and its own number, from near to far."""
-    middle, scale = blocks.middle[model], instances["scale"].astype(np.float64)
-    (cosine, sine), x, z = scale * instances["turn"].T, middle[..., 0], middle[..., 2]
-    place = np.empty_like(middle)
-    place[..., 0], place[..., 2] = cosine[:, None] * x - sine[:, None] * z, sine[:, None] * x + cosine[:, None] * z
-    place[..., 1] = scale[:, None] * middle[..., 1]
-    place += instances["root"][:, None]
+    place, scale = places_of(blocks.middle[model], instances)
     outside = outside_planes(place.reshape(-1, 3), sides).reshape(place.shape[:2])
     tree, block = np.nonzero(outside <= scale[:, None] * blocks.radius[model])
     away = place[tree, block] - eye

@@ -10,7 +10,7 @@ from ...components.arrays import Doubles
 from ...engine.declared.tree import HabitName
 from .bake import picture_size
 from .bark import Wood, bark_of
-from .bounds import Balls, Slices, blocks_of, grouped, slices_of, twig_balls, wood_balls
+from .bounds import Balls, Slices, blocks_of, grouped, near_wood, slices_of, twig_balls, wood_balls
 from .crown import leaf_area, shade_of, shading
 from .grow import Tree, grown
 from .habit import HABITS, Habit
@@ -42,7 +42,10 @@ class Model:
     """Records of `BARK`, shape (n,)."""
 
     wood: tuple[Wood, ...]
-    """Triangles of these, for each of `PIXEL_RADII` and beyond."""
+    """Triangles of these, for each of `PIXEL_RADII` and beyond; next to the eye in blocks of neighbours."""
+
+    near_blocks: tuple[Balls, Balls]
+    """Bounds of these blocks: of the whole wood, and of its edges."""
 
     middle: float
     """Height of the middle of its pictures [m]."""
@@ -98,18 +101,19 @@ def _model(habit: Habit, height: float, *, seed: int) -> Model:
     area = leaf_area(tree.twigs, habit.leaf, habit.twigs.length)
     limbs = _limb_records(tree, seed)
     twigs = _twig_records(tree, area, limbs)
-    vertices, wood = bark_of(tree, area, len(twigs))
+    vertices, wood = bark_of(tree, area, len(twigs), limbs["limb"])
     ends = tree.twigs.foot + tree.twigs.length[:, None] * tree.twigs.along
     balls = twig_balls(twigs, height, habit)
-    parts = zip(balls, wood_balls(vertices, np.concatenate([twigs, limbs]), height), strict=True)
-    slices = slices_of(Balls(*(np.concatenate(each) for each in parts)))
+    bark_balls = wood_balls(vertices, np.concatenate([twigs, limbs]), height)
+    slices = slices_of(Balls(*(np.concatenate(each) for each in zip(balls, bark_balls, strict=True))))
+    nearest, near_blocks = near_wood(wood[0], vertices, bark_balls)
     radius = float(np.hypot(ends[:, 0], ends[:, 2]).max())
     top = float(ends[:, 1].max())
     half = MARGIN * max(0.5 * top, radius)  # a picture from above is as high as the tree is broad
     return Model(
-        habit, height, twigs, limbs, vertices, wood, 0.5 * top, half, *picture_size(MARGIN * radius / half), radius,
-        balls, blocks_of(balls, twigs["grouped"].astype(np.intp)), slices,
-        trunk_hertz(height, habit.slender * height), float(area.sum()),
+        habit, height, twigs, limbs, vertices, (nearest, *wood[1:]), near_blocks, 0.5 * top, half,
+        *picture_size(MARGIN * radius / half), radius, balls, blocks_of(balls, twigs["grouped"].astype(np.intp)),
+        slices, trunk_hertz(height, habit.slender * height), float(area.sum()),
     )  # fmt: skip
 
 

@@ -6,14 +6,16 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Doubles
 from ...engine.gl.stream import Records, Stream, release_all
 from .bark import PACKED, PIXEL_RADII, packed, ranges_of
+from .bounds import blocks_inside
 from .model import Model
 from .normals import Normals
 from .outline import NOWHERE
 from .shells import RINGS, SHELLS
 from .standing import HUNG, HUNG_LEAVES, INSTANCE, ROW_SPACING, STOOD
-from .twig import ROW, TWIG
+from .twig import BLOCK, ROW, TWIG
 from .wood import Parts, parts
 
 Uniforms = Mapping[str, tuple[float, ...]]
@@ -108,7 +110,7 @@ class GpuModel:
 
     def bark(self, program: moderngl.Program) -> tuple[moderngl.Buffer | str, ...]:
         """Return the vertex buffer of its wood as content of a vertex array: the attributes that a program has."""
-        names, forms = list(PACKED.names or ()), ("4u2", "4f1", "4f1", "2f2", "1u2 2x")
+        names, forms = list(PACKED.names or ()), ("4u2", "4f1", "4f1", "2f2", "2u2")
         ends = [*(PACKED.fields[name][1] for name in names), PACKED.itemsize] if PACKED.fields else []
         kept = [
             form if name in program else f"{end - start}x"
@@ -128,13 +130,20 @@ class GpuModel:
         for each in (stream, self.stood[id(stream)], self.hung.get(name, stream)):
             each.room(0)
 
-    def show_wood(self, name: str, pixel_radius: float, foliage: float, top: float) -> None:
-        """Choose the triangles that a stream of wood draws, as `parts` returns them, up to a height [m]."""
+    def show_wood(
+        self, name: str, pixel_radius: float, foliage: float, rows: NDArray[np.void], sides: Doubles
+    ) -> None:  # fmt: skip
+        """Choose the triangles that a stream of wood draws, as `parts` returns them.
+
+        Next to the eye, those outside the picture are left out before the first and after the last one inside. `rows`
+        are the stream's instances, and `sides` planes of the frustum.
+        """
         self.wood_class[name] = wood_class = int(np.searchsorted(PIXEL_RADII, pixel_radius))
         wood = self.model.wood[wood_class]
-        drawn = parts(wood.whole.radii, wood.edges.radii, pixel_radius, foliage)
-        low = (int(np.searchsorted(faces.lows, top)) for faces in wood)
-        self.wood[name] = Parts(*map(min, drawn, low))
+        drawn = self.wood[name] = parts(wood.whole.radii, wood.edges.radii, pixel_radius, foliage)
+        if wood_class == 0:
+            inside = np.array([blocks_inside(blocks, rows, sides) for blocks in self.model.near_blocks])
+            self.wood[name] = Parts(*np.minimum(BLOCK * inside.T, drawn[:2])[::-1].reshape(-1).tolist())
 
     def rehearse(self) -> list[str]:
         """Put a tree into each empty stream, to draw it once; return these streams' names."""

@@ -52,13 +52,19 @@ GLSL = {
 
 
 class Parts(NamedTuple):
-    """Numbers of leading triangles of `Wood` that are drawn."""
+    """Triangles of `Wood` that are drawn."""
 
     solid: int
-    """Number of leading triangles of `whole` that may cover whole pixels."""
+    """Index after the last triangle of `whole` that may cover whole pixels."""
 
     soft: int
-    """Number of leading triangles of `edges` that may cover a part of a pixel."""
+    """Index after the last triangle of `edges` that may cover a part of a pixel."""
+
+    solid_from: int = 0
+    """Index of the first of these of `whole`."""
+
+    soft_from: int = 0
+    """Index of the first of these of `edges`."""
 
 
 def nearest_ahead(clip: Doubles, middle: Doubles, eye: Doubles, reach: Doubles, /) -> Doubles:

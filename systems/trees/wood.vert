@@ -14,7 +14,7 @@ in vec4 side;    // direction of the vertex from the middle, a unit vector, and 
                  // -1 or 1 on its edge
 in vec4 shading; // optical depth, linear in direction about 0.5 and in the mean, relative to the greatest
 in vec2 surface; // position around the stem and along it [m]
-in uint limb_row; // its limb, among the twigs; 0 on the trunk
+in uvec2 on_limb; // row of its limb, among the twigs, 0 on the trunk; random number of that, 0 to STEM_SCALE: it lies in another texel
 
 uniform vec4 stem_least;    // ranges, as in bark.py
 uniform vec4 stem_range;
@@ -67,8 +67,8 @@ void main() {
     grass_here = vec2(0.0);
     gl_Position = baked * vec4(seen_at, 1.0);
 #else
-    Twig limb = twig_of(int(limb_row));
-    vec3 middle_at = swayed(stem_at.xyz, limb_row > 0u ? limb.pivot : stem_at.xyz, limb.limb, limb.hertz, message);
+    Twig limb = twig_of(int(on_limb.x));
+    vec3 middle_at = swayed(stem_at.xyz, on_limb.x > 0u ? limb.pivot : stem_at.xyz, float(on_limb.y) / STEM_SCALE, limb.hertz, message);
     facing = outward(middle_at);
     vec4 projected = clip * vec4(middle_at, 1.0);
     float pixel_width = THINNEST * max(projected.w, AWAY) / pixels_per_metre(), half_width = scale * stem_at.w;

@@ -288,6 +288,7 @@ def test_wood_that_is_left_out_of_a_pass_would_cover_no_pixel_in_it(
     for whole in (False, True):
         if whole:
             monkeypatch.setattr(stream, "parts", lambda whole, edges, *_: Parts(len(whole), len(edges)))
+            monkeypatch.setattr(stream, "blocks_inside", lambda blocks, *_: (0, len(blocks.radius)))
         tree = plant(0.0, away)
         seen.append(stage.shot(prairie, AHEAD))
         esper.delete_entity(tree, immediate=True)

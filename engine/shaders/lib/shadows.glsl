@@ -118,17 +118,23 @@ float shade_visibility(mat3x4 record, vec3 place) {
     return box_visibility(apart * axes, sun * axes, vec3(reach, radius, deep));
 }
 
-// Visibility of the sun behind trees and a game's shades and shadow maps.
-float casters_visibility(vec3 place) {
+// Visibility of the sun behind a game's shades and shadow maps.
+float games_visibility(vec3 place) {
     float seen = 1.0;
-#if defined(TREES) && !defined(OF_TREES)  // trees ask for one another's shadows themselves
-    seen = trees_visibility_beyond(place, 0.0);
-#endif
 #ifndef PLAIN
     ivec2 listed_here = shades_grid.w > 0.0 ? listed_range(shades_grid, SHADES_FROM, place.xz) : ivec2(0);
     for (int number = listed_here.x; number < listed_here.y; number++)
         seen *= shade_visibility(listed_at(SHADES_FROM, number), place);
     seen *= maps_shown > 0.0 ? maps_visibility(place) : 1.0;
+#endif
+    return seen;
+}
+
+// Visibility of the sun behind these and trees.
+float casters_visibility(vec3 place) {
+    float seen = games_visibility(place);
+#if defined(TREES) && !defined(OF_TREES)  // trees ask for one another's shadows themselves
+    seen *= trees_visibility_beyond(place, 0.0);
 #endif
     return seen;
 }

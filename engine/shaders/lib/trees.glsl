@@ -81,29 +81,29 @@ float trees_visibility_before(vec2 at, float halvings) {
     return exp2(-halvings * textureLod(tree_shade, at, 0.0).r);
 }
 
-// Visibility of the sun behind trees other than the one the place is in, whose crown goes on for `beyond` towards the sun [m]. With
-// SUNWARD_BY_VERTEX, vertices have computed most of it, for no crown: it is linear but for the sway, which changes by centimetres from
-// one to the next.
 #ifdef SUNWARD_BY_VERTEX
 in vec3 sunward;  // from trees_sunward
 
-float trees_visibility_beyond(vec3 place, float beyond) {
-    return trees_visibility_before(on_sun_map(sunward.xy, sunward.xy), sunward.z);
+// Visibility of the sun behind trees, `off` the place of the pixel [m]. Vertices have computed most of it: it is linear but for the sway,
+// which changes by centimetres from one to the next.
+float trees_visibility_off(vec3 off) {
+    return trees_visibility_before(on_sun_map(sunward.xy + on_sun_plane(off), sunward.xy), sunward.z);
 }
-#else
+#endif
+
+// Visibility of the sun behind trees other than the one the place is in, whose crown goes on for `beyond` towards the sun [m].
 float trees_visibility_beyond(vec3 place, float beyond) {
     float counts;
     vec3 ray = on_sun_map(place, place, counts);
     return trees_visibility(vec3(ray.xy, ray.z + beyond), counts);
 }
 
-// What vertices compute of that: the place on the sun's plane, and halvings of its light by the trees in front.
+// What vertices compute for trees_visibility_off: the place on the sun's plane, and halvings of its light by the trees in front.
 vec3 trees_sunward(vec3 place) {
     float counts;
     vec3 ray = on_sun_map(place, place, counts);
     return vec3(sunward_of(place, place).xy, halvings_before(ray, counts));
 }
-#endif
 
 // Optical depth of crowns above a place of the ground, averaged over the sky.
 float tree_depth_above(vec2 place) {

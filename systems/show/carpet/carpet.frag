@@ -1,5 +1,8 @@
 // The carpet: its grass, and the ground between. With EDGED, grass ends or has been cut there.
 #define PIXELS_ASK
+#if KINDS <= 4 && !defined(EDGED)
+#define SUNWARD_BY_VERTEX
+#endif
 #include "lib/light.glsl"
 #include "systems/show/carpet/within.glsl"
 #include "systems/show/carpet/litter.glsl"

@@ -54,6 +54,9 @@ OF_SOIL vec3 skylit;            // and from the sky
 OF_SOIL float soil_extinction;  // of sunlight: optical depth for each 1 of leaf area seen from the side
 OF_SOIL float soil_through;     // transmittance of the grass for sunlight
 OF_SOIL vec3 lush;              // pigment of the understorey, relative to that of the ground between
+#if defined(TREES) && KINDS <= 4 && !defined(EDGED)
+out vec3 sunward;  // from trees_sunward
+#endif
 
 void write_varyings(Laid laid) {
     mesh_share = laid.share;
@@ -124,6 +127,9 @@ void main() {
     light_leaves(slope, on_level, laid.densities, laid.message);
 #ifndef EDGED
     light_soil(seen_behind(place, laid.ground, from_above), laid);
+#endif
+#if defined(TREES) && KINDS <= 4 && !defined(EDGED)
+    sunward = trees_sunward(place);
 #endif
 #ifdef EDGED
     mesh_height *= 1.0 - skirt;

@@ -5,7 +5,6 @@
 #endif
 #include "lib/light.glsl"
 #include "systems/show/carpet/litter.glsl"
-#include "systems/show/carpet/stubble.glsl"
 
 in vec3 place;
 centroid in vec3 haze;
@@ -19,6 +18,8 @@ centroid in vec3 lush;
 #endif
 
 out vec4 pixel;
+
+#include "systems/show/carpet/stubble.glsl"
 
 void main() {
 #ifdef EDGED

@@ -80,7 +80,7 @@ vec4 kind_seen(int kind, Patch grass_patch, Reading read, Sight sight, float gra
     taller = texel.taller;
     shift_leaves(kind, texel, view);
     if (has_casters())
-        light = shadowed(light, casters_visibility(sight_at_height(texel.height * OF(crown, kind), sight.slope)), 1.0);
+        light = shadowed(light, casters_visibility_near(sight_at_height(texel.height * OF(crown, kind), sight.slope)), 1.0);
     if (any_lamps())
         light = with_lamps(light, view.lamps);
     float bent = max(1.0 - (1.0 - texel.covers) * transmittance(view.bent.x), 0.0);

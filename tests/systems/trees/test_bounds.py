@@ -8,7 +8,7 @@ from tallgrass.engine.camera import View, projection_matrix, view_matrix
 from tallgrass.systems.space.frustum import picture_sides
 from tallgrass.systems.trees import bark
 from tallgrass.systems.trees.bark import PIXEL_RADII
-from tallgrass.systems.trees.bounds import highest_shown
+from tallgrass.systems.trees.bounds import blocks_inside, highest_shown
 from tallgrass.systems.trees.leafy import GROUPED_FROM, blocks_of_models, blocks_shown
 from tallgrass.systems.trees.model import Model, models_of
 from tallgrass.systems.trees.standing import INSTANCE
@@ -55,15 +55,20 @@ def test_a_tree_is_in_the_picture_up_to_the_highest_of_its_parts_there(model: Mo
     assert ((top > 0.0) & (top < whole)).any()  # its crown is above the picture
 
 
-def test_next_to_the_eye_wood_is_drawn_from_the_ground_up(model: Model) -> None:
-    height = model.vertices["stem"][:, 1]
-    for near in model.wood[0]:
-        assert np.all(np.diff(near.lows) >= 0.0)
-        for top in (1.0, 4.0, 8.0):
-            left_out = height[near.triangles[np.searchsorted(near.lows, top) :]]
-            assert left_out.size
-            assert left_out.min() >= top
+def test_next_to_the_eye_all_wood_in_the_picture_is_drawn_and_little_of_a_tree_beside_it(model: Model) -> None:
     assert len(model.wood) == len(PIXEL_RADII) + 1
+    trees, places = around(), model.vertices["stem"][:, :3]
+    for near, blocks in zip(model.wood[0], model.near_blocks, strict=True):
+        drawn = []
+        for tree in trees:
+            first, end = (BLOCK * each for each in blocks_inside(blocks, tree[None], SIDES))
+            left_out = np.concatenate([near.triangles[:first], near.triangles[end:]])
+            assert not inside(places[left_out.reshape(-1)], tree).any()
+            drawn.append(1.0 - len(left_out) / len(near.triangles))
+        assert min(drawn) == 0.0  # behind the eye
+        assert sum(0.0 < each < 0.5 for each in drawn) > 2  # at the picture's edge
+        both = blocks_inside(blocks, trees[np.argsort(drawn)[-2:]], SIDES)
+        assert both[1] - both[0] >= max(drawn) * len(blocks.radius) - 1.0
 
 
 def test_triangles_that_share_vertices_are_drawn_one_soon_after_another(model: Model) -> None:
