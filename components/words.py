@@ -71,13 +71,21 @@ def _field_of(error: ErrorDetails, model: type[BaseModel], name: str) -> Field:
     return field
 
 
+def guess(word: str, known: Iterable[str], /, *, cutoff: float = 0.6) -> str:
+    """Return the end of a message on an unknown word: the most similar known word, or one that begins with it.
+
+    It is empty where none is as similar as `cutoff`, in [0, 1] (Ratcliff and Metzener, 1988).
+    """
+    words = [*known]
+    near = get_close_matches(word, words, n=1, cutoff=cutoff)
+    near = near or [each for each in words if len(word) > 2 and each.startswith(word)]
+    return f", did you mean '{near[0]}'?" if near else ""
+
+
 def suggestion(word: str, known: Iterable[str], /) -> str:
-    """Return the end of a message on an unknown word: the most similar known word, or else all known words."""
+    """Return the end of a message on an unknown word: what `guess` returns, or else all known words."""
     words = sorted(known)
-    near = get_close_matches(word, words, n=1) or [each for each in words if len(word) > 2 and each.startswith(word)]
-    if near:
-        return f", did you mean '{near[0]}'?"
-    return f"; known: {', '.join(words)}" if words else ""
+    return guess(word, words) or (f"; known: {', '.join(words)}" if words else "")
 
 
 def in_words(value: object, /) -> str:
@@ -104,9 +112,8 @@ def _unknown_key(error: ErrorDetails, field: Field) -> str:
 
 def _not_among(error: ErrorDetails, field: Field) -> str:
     value, choices = error["input"], re.findall(r"'([^']*)'", error["ctx"]["expected"])
-    near = get_close_matches(value, choices, n=1) if isinstance(value, str) else []
-    guess = f", did you mean '{near[0]}'?" if near else ""
-    return f"{field.name} must be one of {', '.join(choices)}; found {in_words(value)}{guess}"
+    near = guess(value, choices) if isinstance(value, str) else ""
+    return f"{field.name} must be one of {', '.join(choices)}; found {in_words(value)}{near}"
 
 
 def _out_of_range(error: ErrorDetails, field: Field) -> str:

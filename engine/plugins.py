@@ -3,13 +3,13 @@
 import logging
 import re
 from collections.abc import Callable, Collection, Iterable
-from difflib import get_close_matches
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from inspect import isabstract
 from typing import TypeVar
 
 from ..components.wind import INTERFACE, WindPrimitive
+from ..components.words import guess
 from .complaint import said
 from .installed import CHOSEN, OURS, Installed, Provided, chosen_names, claimed, outdone, owner, owners, unknown_names
 from .plugged import SYSTEMS
@@ -115,9 +115,8 @@ class WindKinds:
         left_out = self._installed.left_out
         if kind in left_out:
             return f"kind '{kind}' of {owners(left_out[kind])} is left out: {CHOSEN} does not name it"
-        near = get_close_matches(kind, self.names(), n=1)
-        guess = f", did you mean '{near[0]}'?" if near else ";"
-        return f"unknown kind '{kind}'{guess} known: {', '.join(self.names()) or 'none'}"
+        near = guess(kind, self.names()) or ";"
+        return f"unknown kind '{kind}'{near} known: {', '.join(self.names()) or 'none'}"
 
 
 @cache

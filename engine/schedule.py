@@ -4,7 +4,6 @@ import logging
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from dataclasses import replace as changed
-from difflib import get_close_matches
 from enum import IntEnum
 from functools import partial
 from inspect import isasyncgenfunction, iscoroutinefunction, isgeneratorfunction
@@ -12,6 +11,7 @@ from itertools import count
 from time import perf_counter, thread_time
 from typing import Any, Protocol
 
+from ..components.words import guess
 from .complaint import said
 
 WAITED = 0.25
@@ -322,9 +322,8 @@ class Schedule:
         return place
 
     def _unknown(self, name: object) -> str:
-        near = get_close_matches(str(name), self._systems, n=1)
-        guess = f", did you mean '{near[0]}'?" if near else f"; there are {', '.join(self._systems) or 'none'}"
-        return f"no system '{name}'{guess}"
+        near = guess(str(name), self._systems) or f"; there are {', '.join(self._systems) or 'none'}"
+        return f"no system '{name}'{near}"
 
 
 def _earlier(one: System, other: System) -> str:

@@ -4,7 +4,6 @@ import os
 from atexit import register
 from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -18,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ... import scenes
+from ...components.words import guess
 from ..declared.scene import Scene
 from .compose import MOST_BYTES, decode, read_document
 from .document import Document, Where
@@ -184,9 +184,7 @@ def _path(scene: str | Path) -> Path:
     if mode:
         raise _no_file(f"'{text}' is {_irregular(mode)}, not a scene file")
     if is_name:
-        near = get_close_matches(text.lower(), bundled, n=1)
-        guess = f"; did you mean '{near[0]}'?" if near else ";"
-        raise _no_file(f"no scene file '{text}'{guess} bundled: {', '.join(bundled)}")
+        raise _no_file(f"no scene file '{text}'{guess(text.lower(), bundled) or ';'} bundled: {', '.join(bundled)}")
     bundle = f"; '{path.stem}' alone is a bundled scene" if path.stem in bundled else ""
     raise _no_file(f"no scene file '{text}'{_guess(path) or bundle}")
 
@@ -262,8 +260,7 @@ def _guess(path: Path) -> str:
         names = [other.name for other in path.parent.iterdir()]
     except (OSError, ValueError):
         names = []
-    near = get_close_matches(path.name, names, n=1, cutoff=0.8)
-    return f", did you mean '{near[0]}'?" if near else ""
+    return guess(path.name, names, cutoff=0.8)
 
 
 def must_be_read(thing: object, /) -> None:

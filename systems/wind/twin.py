@@ -4,7 +4,6 @@ import re
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import lru_cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -16,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...components.wind import TwinValues, WindPrimitive
+from ...components.words import guess
 from ...engine.gl.shaders import Line
 
 PLACE = "systems/wind/twins.glsl"
@@ -319,9 +319,8 @@ def _member(name: str, wind: WindPrimitive, values: TwinValues) -> Sequence[floa
     named: Mapping[str, object] = values.numbers if isinstance(values.numbers, Mapping) else {}
     fields = type(wind).model_fields
     if name not in named and name not in fields:
-        near = get_close_matches(name, [*named, *fields], n=1, cutoff=0.7)
-        guess = f"; did you mean '{near[0]}'?" if near else f", as in TwinValues({{'{name}': 0.5}})"
-        raise TwinError(f"it reads '{name}', which is no field and no name that twin_values returned{guess}")
+        near = guess(name, [*named, *fields], cutoff=0.7) or f", as in TwinValues({{'{name}': 0.5}})"
+        raise TwinError(f"it reads '{name}', which is no field and no name that twin_values returned{near}")
     found = _as_list(named[name] if name in named else getattr(wind, name))
     if not 1 <= len(found) <= 4 or not all(isinstance(number, float | int | np.number) for number in found):
         what = shortened(found[0] if len(found) == 1 else found)

@@ -46,8 +46,8 @@ def test_a_name_that_cannot_be_printed_stops_nothing(tmp_path: Path, capsys: pyt
 @pytest.mark.parametrize(
     ("scene", "told"),
     [
-        ("medow", "no scene file 'medow'; did you mean 'meadow'? bundled: {bundled}"),
-        ("MEADOW", "no scene file 'MEADOW'; did you mean 'meadow'? bundled: {bundled}"),
+        ("medow", "no scene file 'medow', did you mean 'meadow'? bundled: {bundled}"),
+        ("MEADOW", "no scene file 'MEADOW', did you mean 'meadow'? bundled: {bundled}"),
         ("zzz", "no scene file 'zzz'; bundled: {bundled}"),
         ("{folder}/grove.yaml", "no scene file '{folder}/grove.yaml'; 'grove' alone is a bundled scene"),
         ("{folder}/medow.yaml", "no scene file '{folder}/medow.yaml', did you mean 'meadow.yaml'?"),

@@ -102,7 +102,7 @@ def test_what_is_no_scene_is_refused_in_a_sentence() -> None:
 
 
 def test_an_unknown_scene_is_refused_in_a_sentence(load: Load) -> None:
-    with pytest.raises(SceneError, match="no scene file 'meadwo'; did you mean 'meadow'"):
+    with pytest.raises(SceneError, match="no scene file 'meadwo', did you mean 'meadow'"):
         load("meadwo")
 
 

@@ -197,7 +197,7 @@ def test_d5_a_twin_reads_its_record_by_the_names_of_fields_and_of_twin_values(
         (
             NAMED.replace("draught.side", "draught.sidee"),
             {},
-            "it reads 'sidee', which is no .*; did you mean 'side'",
+            "it reads 'sidee', which is no .*, did you mean 'side'",
         ),
         (NAMED, {"to": (0.3, 0.05)}, r"it reads 'share', which is no field .*, as in TwinValues\(\{'share': 0.5\}\)"),
         (NAMED, (2.0,), "it reads 'to', which is no field and no name that twin_values returned"),
