@@ -206,7 +206,7 @@ def _moderngl_restored(ctx: moderngl.Context, target: moderngl.Framebuffer, stat
 def _bound(ctx: moderngl.Context) -> moderngl.Framebuffer:
     """Return the framebuffer that the host has bound; its `size` may be out of date, where the host has resized it."""
     state = _saved[-1]
-    return _detected(ctx, (state.gl.number("DRAW_FRAMEBUFFER_BINDING"), state.has_several_outputs))
+    return _detected(ctx, (state.gl.number("DRAW_FRAMEBUFFER_BINDING"), state.outputs.has_several))
 
 
 @lru_cache(maxsize=256)

@@ -157,7 +157,7 @@ class State:
         if limits.clipped:
             self._clip = gl.number("CLIP_ORIGIN"), gl.number("CLIP_DEPTH_MODE")
         self._feedback = _feedback(gl)
-        self._outputs = Outputs(gl, self.framebuffer, blends="BLEND" in self._on)
+        self.outputs = Outputs(gl, self.framebuffer, blends="BLEND" in self._on)
         self._viewports = Viewports(gl, limits.viewports)
         self._units = Units(gl, unit)
         self.is_reversed = False
@@ -180,11 +180,6 @@ class State:
     def framebuffer(self) -> int:
         """Number of the framebuffer that the host draws into, 0 for its window."""
         return self._value["DRAW_FRAMEBUFFER_BINDING"][0]
-
-    @property
-    def has_several_outputs(self) -> bool:
-        """Whether that framebuffer may have several colour attachments."""
-        return self._outputs.has_several
 
     @property
     def flags(self) -> int:
@@ -249,7 +244,7 @@ class State:
 
     def restrict_colour(self) -> None:
         """Write colour to the host's first output alone, through the host's colour mask."""
-        self._outputs.restrict()
+        self.outputs.restrict()
         self.gl.glColorMaski(0, *self._value["COLOR_WRITEMASK"])
 
     def restore(self) -> None:
@@ -267,7 +262,7 @@ class State:
         gl.glDepthFunc(*value["DEPTH_FUNC"])
         gl.glDepthMask(*value["DEPTH_WRITEMASK"])
         gl.glColorMaski(0, *value["COLOR_WRITEMASK"])
-        self._outputs.restore()
+        self.outputs.restore()
         gl.glBlendFuncSeparate(*(value[name][0] for name in BLEND))
         gl.glBlendEquationSeparate(*value["BLEND_EQUATION_RGB"], *value["BLEND_EQUATION_ALPHA"])
         gl.glPrimitiveRestartIndex(*value["PRIMITIVE_RESTART_INDEX"])
