@@ -74,6 +74,13 @@ class Canvas:
 class RepresentationPainter(Part, ABC):
     """Holds a representation's textures and programs in one GL context, and draws it."""
 
+    _came: tuple[float, ...] = ()
+    """Fraction of each kind's plants that have become the next form; empty if no kind becomes another."""
+
+    def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
+        """Take over the fraction of each kind that has become its next form."""
+        self._came = grown.came
+
     def texts(self) -> Iterator[Texts]:
         """Yield the shader texts of the programs that `making` would compile."""
         yield from ()

@@ -103,8 +103,6 @@ class BladesPainter(RepresentationPainter):
         self.ctx, self._stock, self.store = ctx, stock, BladeStore(ctx, stock, strips.stock)
         self._staged: tuple[BladeStock, StripRepresentation, BladeStore] | None = None
         """Stock, strips and store that `restock` takes over."""
-        self._came: tuple[float, ...] = ()
-        """Fraction of each kind's plants that have become the next form; empty if no kind becomes another."""
         self._strips, self._units, self._received, self._models = strips, units, canvas.received, len(stock.rank)
         self._fade, self._patch, self._near = canvas.transitions.fade, quality.patch, PARTED * quality.patch
         defines = {**self.store.defines, "STORED": 1, "RINGS": room_for(len(quality.strip_rings))}
@@ -149,10 +147,6 @@ class BladesPainter(RepresentationPainter):
         for ribbons in (self.morph, *self.groups):
             yield from ribbons.making()
 
-    def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
-        """Take over the fraction of each kind that has become its next form."""
-        self._came = grown.came
-
     def fits(self, representation: Any, /) -> bool:
         """Return whether blades of another stock have records of the same fields."""
         return bool(representation.stock.records.dtype == self._stock.records.dtype)
@@ -160,7 +154,8 @@ class BladesPainter(RepresentationPainter):
     def staging(self, stocks: Sequence[Any], /) -> Iterator[None]:
         """Send the blades of another stock to GL, a piece at a time; the current ones stay."""
         blades, strips = (next(stock for stock in stocks if stock.name == name) for name in ("blades", "strips"))
-        self._release_staged()
+        release_all(self._staged and self._staged[2])
+        self._staged = None
         store = yield from BladeStore.beside(self.ctx, blades.stock, strips.stock)
         self._staged = blades.stock, strips, store
 
@@ -313,13 +308,7 @@ class BladesPainter(RepresentationPainter):
     def release(self) -> None:
         """Give everything back."""
         release_all(*self.groups, self.morph, self.shelves, *self.passes, self.hearing)
-        release_all(self.store)
-        self._release_staged()
-
-    def _release_staged(self) -> None:
-        staged, self._staged = self._staged, None
-        if staged is not None:
-            staged[2].release()
+        release_all(self.store, self._staged and self._staged[2])
 
 
 def _set_morph(

@@ -160,10 +160,7 @@ class CarpetPainter(RepresentationPainter):
         the carpet is whole; where a game has taken the grass away, there is none.
         """
         patches, viewer = outlook.patches, outlook.viewer
-        self._rims.follow()
-        if self._rims_sent != self._rims.version:
-            self._rims_sent = self._rims.version
-            self.ground.write_rims(self._rims.distance)
+        self._follow_rims()
         bare_to = self._bare_to(patches, cover)
         asked = outlook.noted(Asked, Asked())
         goes_on, self._deep = "beyond" in asked.parts, asked.is_deep
@@ -247,6 +244,12 @@ class CarpetPainter(RepresentationPainter):
     def _windows(self) -> tuple[object, ...]:
         """Identifies the terrain's window of its ground, and the rims known of it."""
         return self._rims, self._rims.version, self._ground.terrain.changes.moves
+
+    def _follow_rims(self) -> None:
+        self._rims.follow()
+        if self._rims_sent != self._rims.version:
+            self._rims_sent = self._rims.version
+            self.ground.write_rims(self._rims.distance)
 
     def _bare_to(self, patches: PatchTable, cover: Floats | None) -> int:
         """Return the discrete distance up to which there is no carpet: less than usual while ranges are shortened."""

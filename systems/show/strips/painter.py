@@ -92,8 +92,6 @@ class StripsPainter(RepresentationPainter):
         """Vertex arrays by `deep` and the number of the program."""
         self._outdated: set[tuple[bool, int]] = set()
         """Arrays whose program has old uniforms. They are set when it draws, as a frame needs few of the programs."""
-        self._came: tuple[float, ...] = ()
-        """Progress of each kind's change into its next form, in [0, 1]; empty where no kind ever changes."""
         self.batches: list[Batch] = []
         self._drawn = 0
         """Number of polygon strips that this frame has drawn."""
@@ -148,10 +146,6 @@ class StripsPainter(RepresentationPainter):
         set_uniform(program, "stride", uploaded.stride)
         set_uniform(program, "strips_per_plane", stock.strips_per_plane)
         set_uniform(program, "page_size", float(uploaded.atlas.width), float(uploaded.atlas.height))
-
-    def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
-        """Note how far each kind has changed into its next form."""
-        self._came = grown.came
 
     def fits(self, representation: Any, /) -> bool:
         """Return whether the programs can draw another stock too."""
