@@ -58,7 +58,7 @@ class CarpetPainter(RepresentationPainter):
     def __init__(self, canvas: Canvas, stock: CarpetStock, ground: Ground, side: int, *, coarse: bool = False) -> None:
         self._ground, self._spacing = ground, finest_spacing(ground.terrain, ground.patch)
         self._whole_to = canvas.reach[-2] - int(border_width(canvas.reach[-2])) - 1
-        self._units = canvas.units
+        self._units, self._block = canvas.units, canvas.block
         self._around, self._seen = Remembered[Tiles](), Remembered[ByLayer]()
         self._piece_edges = Remembered[PieceEdges]()
         self._edges, self._tallest = Edges(), 0.0
@@ -89,9 +89,7 @@ class CarpetPainter(RepresentationPainter):
         """Draw on this ground from now on, with each kind's progress towards what it is to become."""
         if grown.came != self._came:
             self._come(grown.came)
-        terrain = grown.ground.terrain
-        if terrain is not self._rims.terrain or not self._rims.begin_at(record["terrain_origin"][0]):
-            self._rims, self._rims_sent = Found.of(terrain).rims, -1
+        del record
         self._ground, self._tallest = grown.ground, grown.tallest
         self._spacing = finest_spacing(grown.ground.terrain, grown.ground.patch)
 
@@ -160,10 +158,7 @@ class CarpetPainter(RepresentationPainter):
         the carpet is whole; where a game has taken the grass away, there is none.
         """
         patches, viewer = outlook.patches, outlook.viewer
-        self._rims.follow()
-        if self._rims_sent != self._rims.version:
-            self._rims_sent = self._rims.version
-            self.ground.write_rims(self._rims.distance)
+        self._follow_rims()
         bare_to = self._bare_to(patches, cover)
         asked = outlook.noted(Asked, Asked())
         goes_on, self._deep = "beyond" in asked.parts, asked.is_deep
@@ -247,6 +242,16 @@ class CarpetPainter(RepresentationPainter):
     def _windows(self) -> tuple[object, ...]:
         """Identifies the terrain's window of its ground, and the rims known of it."""
         return self._rims, self._rims.version, self._ground.terrain.changes.moves
+
+    def _follow_rims(self) -> None:
+        """Follow the terrain's changes and, once its heights are uploaded, its moves to other windows of its ground."""
+        terrain = self._ground.terrain
+        if terrain is not self._rims.terrain or not self._rims.begin_at(self._block.record["terrain_origin"][0]):
+            self._rims, self._rims_sent = Found.of(terrain).rims, -1
+        self._rims.follow()
+        if self._rims_sent != self._rims.version:
+            self._rims_sent = self._rims.version
+            self.ground.write_rims(self._rims.distance)
 
     def _bare_to(self, patches: PatchTable, cover: Floats | None) -> int:
         """Return the discrete distance up to which there is no carpet: less than usual while ranges are shortened."""
