@@ -80,6 +80,20 @@ def test_n5_a_place_looks_alike_for_who_comes_there_and_who_begins_there(stage: 
     np.testing.assert_array_equal(apart, same)
 
 
+def test_f4_a_pit_dug_where_one_has_walked_to_looks_as_it_does_for_who_begins_there(
+    stage: Stage, prairies: Any
+) -> None:
+    gone, there = prairies(live=False), prairies(AWAY, live=False)
+    stage.shot(gone, at(gone, (0.0, 0.0)))
+    camera, seen = at(there, AWAY), list[Any]()
+    for each in (gone, there):
+        stage.shot(each, camera)
+        each.set_heights((AWAY[0] - 6.0, AWAY[1] - 30.0), np.full((5, 5), each.height_at([AWAY])[0] - 12.0))
+        each.viewers.forget("main")
+        seen.append(stage.shot(each, camera))
+    np.testing.assert_array_equal(*seen)
+
+
 @pytest.mark.slow
 def test_d6_what_a_game_has_done_is_there_when_one_comes_back_and_in_states(stage: Stage, prairies: Any) -> None:
     played, untouched = prairies(AWAY, live=False), prairies(AWAY, live=False)

@@ -58,7 +58,7 @@ class CarpetPainter(RepresentationPainter):
     def __init__(self, canvas: Canvas, stock: CarpetStock, ground: Ground, side: int, *, coarse: bool = False) -> None:
         self._ground, self._spacing = ground, finest_spacing(ground.terrain, ground.patch)
         self._whole_to = canvas.reach[-2] - int(border_width(canvas.reach[-2])) - 1
-        self._units = canvas.units
+        self._units, self._block = canvas.units, canvas.block
         self._around, self._seen = Remembered[Tiles](), Remembered[ByLayer]()
         self._piece_edges = Remembered[PieceEdges]()
         self._edges, self._tallest = Edges(), 0.0
@@ -89,9 +89,7 @@ class CarpetPainter(RepresentationPainter):
         """Draw on this ground from now on, with each kind's progress towards what it is to become."""
         if grown.came != self._came:
             self._come(grown.came)
-        terrain = grown.ground.terrain
-        if terrain is not self._rims.terrain or not self._rims.begin_at(record["terrain_origin"][0]):
-            self._rims, self._rims_sent = Found.of(terrain).rims, -1
+        del record
         self._ground, self._tallest = grown.ground, grown.tallest
         self._spacing = finest_spacing(grown.ground.terrain, grown.ground.patch)
 
@@ -246,6 +244,10 @@ class CarpetPainter(RepresentationPainter):
         return self._rims, self._rims.version, self._ground.terrain.changes.moves
 
     def _follow_rims(self) -> None:
+        """Follow the terrain's changes and, once its heights are uploaded, its moves to other windows of its ground."""
+        terrain = self._ground.terrain
+        if terrain is not self._rims.terrain or not self._rims.begin_at(self._block.record["terrain_origin"][0]):
+            self._rims, self._rims_sent = Found.of(terrain).rims, -1
         self._rims.follow()
         if self._rims_sent != self._rims.version:
             self._rims_sent = self._rims.version

@@ -196,7 +196,7 @@ def test_d6_a_matrix_may_come_as_rows_or_as_pyglets_columns(numbers: list[float]
     rows = np.array(numbers, np.float32).reshape(4, 4)
     turning = rows + 40.0 * np.eye(4, dtype=np.float32)
     turning[3] = 0.0, 0.0, 0.0, 1.0  # a view has no perspective
-    by_rows = view_of(turning, turning).view
-    by_columns = view_of(turning.T.reshape(16), tuple(turning.T.reshape(16))).view
-    np.testing.assert_array_equal(by_rows, turning)
-    np.testing.assert_array_equal(by_columns, turning)
+    by_rows = view_of(turning, turning)
+    by_columns = view_of(turning.T.reshape(16), tuple(turning.T.reshape(16)))
+    np.testing.assert_array_equal(by_rows.view, by_columns.view)
+    np.testing.assert_allclose(by_rows.clip, turning.astype(np.float64) @ turning, rtol=1e-4, atol=1e-3)
