@@ -10,8 +10,11 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles
 from .record import Blades, Growth
 
-KNOTS = 5
+GIVEN = 5
 """Number of places along an organ, evenly from root to tip, at which its width is given."""
+
+KNOTS = 2 * GIVEN - 1
+"""Number of places at which its width is known: those, and one between each two. Between these it is linear."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,7 +22,7 @@ class Organ:
     """One sort of organ; each organ is a ribbon."""
 
     widths: tuple[float, ...]
-    """Relative width at `KNOTS` places from root to tip; empty for a blade, which tapers as its kind declares."""
+    """Relative width at `GIVEN` places from root to tip; empty for a blade, which tapers as its kind declares."""
 
     tones: tuple[float, float]
     """Tone at its root and at its tip: 0 is the kind's colour `root`, 1 its colour `tip`."""
@@ -92,7 +95,26 @@ GIVES: Final = np.array([organ.gives for organ in ORGANS])
 DYED: Final = np.array([organ.dyed for organ in ORGANS])
 """Places along each organ where its eye's colour begins to fade, and where it ends, shape (organs, 2)."""
 
-WIDTHS: Final = np.array([organ.widths or (0.0,) * KNOTS for organ in ORGANS])
+_BETWEEN: Final = np.array([-1.0, 9.0, 9.0, -1.0]) / 16.0
+"""Weights of four places for the width between the inner two (Catmull and Rom, A class of local interpolating splines,
+1974)."""
+
+
+def _widths(number: int, /) -> Doubles:
+    """Return the relative width of an organ at `KNOTS` places.
+
+    Organs on the tips of stems are round in outline, but for rays, which are stalks.
+    """
+    given = np.array(ORGANS[number].widths or (0.0,) * GIVEN)
+    if number not in AT_TIPS or number == RAY:
+        return np.asarray(np.interp(np.linspace(0.0, 1.0, KNOTS), np.linspace(0.0, 1.0, GIVEN), given))
+    ends = 2.0 * given[0] - given[1], *given, 2.0 * given[-1] - given[-2]
+    widths = np.empty(KNOTS)
+    widths[::2], widths[1::2] = given, np.convolve(ends, _BETWEEN, "valid")
+    return np.asarray(widths.clip(0.0, 1.0))
+
+
+WIDTHS: Final = np.array([_widths(number) for number in range(len(ORGANS))])
 """Relative width of each organ at `KNOTS` places, shape (organs, KNOTS); the row of blades is unused."""
 
 

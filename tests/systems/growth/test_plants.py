@@ -164,10 +164,17 @@ def test_f3_buds_of_few_petals_nod_and_what_has_set_seed_stands_up() -> None:
 
 def test_the_table_of_organs_begins_with_blades_and_its_tones_and_widths_are_parts() -> None:
     assert organs.ORGANS[organs.BLADE] == organs.Organ((), (0.0, 1.0))
-    assert all(len(organ.widths) == organs.KNOTS for organ in organs.ORGANS[1:])
+    assert all(len(organ.widths) == organs.GIVEN for organ in organs.ORGANS[1:])
     assert ((organs.TONES >= 0.0) & (organs.TONES <= 1.0)).all()
     assert ((organs.WIDTHS >= 0.0) & (organs.WIDTHS <= 1.0)).all()
-    np.testing.assert_allclose(organs.width_along(np.array([4], np.int32), np.linspace(0, 1, 5)), organs.WIDTHS[4:5])
+    at_knots = organs.width_along(np.array([4], np.int32), np.linspace(0, 1, organs.KNOTS))
+    np.testing.assert_allclose(at_knots, organs.WIDTHS[4:5])
+
+
+def test_petals_are_round_in_outline_and_other_organs_have_straight_sides() -> None:
+    bends = np.abs(np.diff(organs.WIDTHS, n=2, axis=1))
+    assert bends[organs.PETAL].max() < 0.6 * np.abs(np.diff(organs.ORGANS[organs.PETAL].widths, n=2)).max()
+    np.testing.assert_allclose(bends[organs.LEAF, ::2], 0.0, atol=1e-12)
 
 
 def test_petals_have_the_tips_colour_and_stems_and_leaves_that_of_the_root() -> None:
