@@ -96,13 +96,13 @@ FRAME = np.dtype(
         ("came", f"({GROUPS},4)f4"),  # fraction of plants replaced, where a kind is becoming another
         ("thins", f"({GROUPS},4)f4"),  # loss of density per slope before that
         ("bears", f"({GROUPS},4)f4"),  # 1 if it bears heads
-        # Shade maps of trees: axes across and up of the sun's two maps, near and far; their middles on these axes [m];
-        # middle (x, z) [m] of the sky's map and 1 / its side; 1 / sides of the sun's maps [1/m].
+        # Shade maps of trees: axes across and up of the sun's two maps; from places on these to texture coordinates
+        # on the near and the far one: scale [1/m] and offset; middle (x, z) [m] of the sky's map and 1 / its side.
         ("trees_across", "3f4"), ("pad_c", "V4"), ("trees_up", "3f4"), ("pad_d", "V4"),
-        ("trees_middle", "4f4"), ("trees_sky", "3f4"), ("pad_e", "V4"), ("trees_spans", "2f4"),
+        ("trees_near", "4f4"), ("trees_far", "4f4"), ("trees_sky", "3f4"), ("pad_e", "V4"),
         ("depth_ends", "2f4"),  # clip depth at the near and the far end
         # Displacement of a tree's crown by the mean wind (x, z) [m]; phases of its two modes of swing [turns].
-        ("trees_aside", "2f4"), ("trees_tones", "2f4"),
+        ("trees_aside", "2f4"), ("trees_tones", "2f4"), ("pad_f", "V8"),
         ("kinds", KIND, (MOST_KINDS,)),
         ("bodies", BODY, (BODIES,)),
         ("maps", MAP, (MAPS,)), ("maps_shown", "f4"), ("pad_maps", "V12"),  # number of shadow maps

@@ -67,8 +67,8 @@ class DrawCall(NamedTuple):
     farther off; beyond it, theirs is the mean distance."""
 
     order: float
-    """Calls with a lower value are drawn first: distance of the nearest tree, or for soft edges the negative mean
-    distance [m]."""
+    """Calls with a lower value are drawn first: distance of the nearest tree, or of pictures far off the mean distance,
+    as most are hidden by those of other models; for soft edges the negative mean distance [m]."""
 
     state: State
     first: int
@@ -119,7 +119,7 @@ class Calls:
         first, vertices, instances = 0, state.vertices, state.instances.count
         if state.wood is not None:
             first, vertices = wood_vertices(state.wood, batch.name, soft=soft, whole=how.casts or how.sampled)
-        order = self._order(batch) if soft else batch.nearest
+        order = self._order(batch) if soft else batch.mean if batch.name == FAR else batch.nearest
         far = -order if soft and batch.far == inf else batch.far
         return DrawCall(far, order, state, first, vertices, instances) if vertices and instances else None
 

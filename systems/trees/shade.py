@@ -86,8 +86,8 @@ class ShadeMap:
             centre = self._axes @ middle if step != STEPS[2] else middle[::2]
             self._wanted.append(((standing, tuple(middle), tuple(self._sun)), (float(centre[0]), float(centre[1]))))
         row["trees_across"], row["trees_up"] = self._axes
-        row["trees_middle"] = *self._wanted[0][1], *self._wanted[1][1]
-        row["trees_sky"], row["trees_spans"] = (*self._wanted[2][1], 1.0 / SIDES[2]), (1.0 / SIDES[0], 1.0 / SIDES[1])
+        row["trees_near"], row["trees_far"] = (_onto(number, self._wanted[number][1]) for number in range(2))
+        row["trees_sky"] = *self._wanted[2][1], 1.0 / SIDES[2]
 
     def use(self) -> None:
         """Bind the maps for this frame."""
@@ -136,3 +136,12 @@ class ShadeMap:
     def release(self) -> None:
         """Release all GL objects."""
         release_all(*self._streams.values(), self._target, self._texture, self._sampler)
+
+
+def _onto(number: int, middle: tuple[float, float]) -> tuple[float, ...]:
+    """Return the scale [1/m] and the offset from a place on the sun's plane to texture coordinates on one of its maps.
+
+    `middle` is the map's middle on that plane [m].
+    """
+    scale = 1.0 / (len(SIDES) * SIDES[number]), 1.0 / SIDES[number]
+    return *scale, (0.5 + number) / len(SIDES) - scale[0] * middle[0], 0.5 - scale[1] * middle[1]

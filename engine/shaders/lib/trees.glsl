@@ -42,20 +42,32 @@ vec3 sunward_of(vec3 place, vec3 about) {
     return vec3(on_sun_plane(place) - on_sun_plane(vec3(shade_sway(about), 0.0).xzy), dot(place, sun));
 }
 
+// Texture coordinates of a place on that plane, on the near and on the far map.
+vec2 on_near_map(vec2 at) {
+    return at * trees_near.xy + trees_near.zw;
+}
+
+vec2 on_far_map(vec2 at) {
+    return at * trees_far.xy + trees_far.zw;
+}
+
+// Distance of texture coordinates from the middle of a map, as a part of its side.
+float off_middle(vec2 on_map, float map) {
+    vec2 off = abs(on_map * vec2(SHADE_MAPS, 1.0) - vec2(map + 0.5, 0.5));
+    return max(off.x, off.y);
+}
+
 // Texture coordinates of a place on that plane, on the sun's map that a whole neighbourhood `about` reads.
 vec2 on_sun_map(vec2 at, vec2 about) {
-    vec2 out_by = abs(about - trees_middle.xy);
-    bool near = max(out_by.x, out_by.y) * trees_spans.x < MAP_RIM;
-    at = near ? (at - trees_middle.xy) * trees_spans.x : (at - trees_middle.zw) * trees_spans.y;
-    return vec2((at.x + 0.5 + (near ? 0.0 : 1.0)) * (1.0 / SHADE_MAPS), at.y + 0.5);
+    return off_middle(on_near_map(about), 0.0) < MAP_RIM ? on_near_map(at) : on_far_map(at);
 }
 
 // The same for a place in space, and its distance towards the sun as z [m]. `counts` is the weight of what is read there, 0 beyond both
 // maps.
 vec3 on_sun_map(vec3 place, vec3 about, out float counts) {
     vec3 calm = sunward_of(place, about);
-    vec2 middle = sunward_of(about, about).xy, out_by = abs(middle - trees_middle.zw);
-    counts = 1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, max(out_by.x, out_by.y) * trees_spans.y);
+    vec2 middle = sunward_of(about, about).xy;
+    counts = 1.0 - smoothstep(MAP_RIM - RIM_FADES, MAP_RIM, off_middle(on_far_map(middle), 1.0));
     return vec3(on_sun_map(calm.xy, middle), calm.z);
 }
 
