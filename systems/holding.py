@@ -167,7 +167,7 @@ class Holding:
             if self._fits(site, self.site):
                 staged.steps = self._staging(site)
             else:
-                staged.air = air = CardWinds(self.ctx, UNITS, site.growths)
+                staged.air = air = CardWinds(self.ctx, UNITS, [growth.response for growth in site.growths])
                 ready: Callable[[], Iterator[None]] | None = None
                 if self._prepared_winds is not None:
                     ready = partial(self._making_ready, site, air, staged.painters)
@@ -187,7 +187,7 @@ class Holding:
         if staged.air is None:
             for painter in self.painters.values():
                 painter.restock()
-            self.air.regrow(site.growths)
+            self.air.regrow([growth.response for growth in site.growths])
             return
         self._release_grass()
         self.block.defines, self.painters, self.air = staged.defines, staged.painters, staged.air
@@ -196,7 +196,7 @@ class Holding:
         """Upload the grass, a representation at a time."""
         self._release_grass()
         self.block.defines = defines
-        self.air = CardWinds(self.ctx, UNITS, site.growths)
+        self.air = CardWinds(self.ctx, UNITS, [growth.response for growth in site.growths])
         canvas = self._canvas(site, self.air)
         is_ahead = AHEAD and self.quarantine.live
         for each in site.representations:

@@ -1,7 +1,6 @@
 """Comparing a wind's twin on the graphics card with its numpy."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import moderngl
@@ -67,11 +66,6 @@ def _differences(ear: "CardEar", wind: WindPrimitive, seed: int) -> list[str]:
     return [f"its twin differs from mask and action {worst[1]}, over {CLOSE_TWIN:g}"] if worst[1] else []
 
 
-@dataclass(frozen=True, slots=True)
-class _Answering:
-    response: Response
-
-
 class CardEar:
     """Receivers at any places that hear winds on the graphics card; a framebuffer must be bound in its context."""
 
@@ -79,7 +73,7 @@ class CardEar:
         units = {name: unit for unit, name in enumerate(SAMPLERS, FIRST_UNIT)}
         curves = zip(grass.step.tolist(), grass.rise, grass.fall, strict=True)
         self.ctx = ctx
-        self.card = CardWinds(ctx, units, [_Answering(Response(*curve)) for curve in curves])
+        self.card = CardWinds(ctx, units, [Response(*curve) for curve in curves])
 
     def hear(
         self,

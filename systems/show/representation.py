@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from ...components.arrays import Levels, Mask, Rows
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
-from ...engine.gl.shaders import Texts
 from ..around.kept import Kept
 from ..around.outlook import Outlook
 from ..around.patches import PatchTable
@@ -80,14 +79,6 @@ class RepresentationPainter(Part, ABC):
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Take over the fraction of each kind that has become its next form."""
         self._came = grown.came
-
-    def texts(self) -> Iterator[Texts]:
-        """Yield the shader texts of the programs that `making` would compile."""
-        yield from ()
-
-    def making(self) -> Iterator[None]:
-        """Compile the missing programs one at a time, as drivers take long over each."""
-        yield from ()
 
     def making_for_winds(self) -> Iterator[None]:
         """Compile the programs of the receivers' pass for all orders of winds, one at a time."""

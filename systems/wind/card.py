@@ -4,7 +4,6 @@ import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from math import cos, sin
-from typing import Protocol
 
 import moderngl
 import numpy as np
@@ -53,15 +52,6 @@ _TRIED = "systems/wind/hear.vert"
 log = logging.getLogger("tallgrass")
 
 
-class HasResponse(Protocol):
-    """Grass of a kind that has a response, such as a `Growth`."""
-
-    @property
-    def response(self) -> Response:
-        """Posture index over time after a wind starts and stops."""
-        ...
-
-
 class CardWinds:
     """The winds that act, in one GL context.
 
@@ -69,7 +59,7 @@ class CardWinds:
     textures. A new kind of wind changes what `program` returns.
     """
 
-    def __init__(self, ctx: moderngl.Context, units: Mapping[str, int], growths: Sequence[HasResponse]) -> None:
+    def __init__(self, ctx: moderngl.Context, units: Mapping[str, int], responses: Sequence[Response]) -> None:
         self.ctx = ctx
         self._units = {name: units[name] for name in SAMPLERS}
         self._rows = np.zeros((8, HEAD + MOST_NUMBERS), np.float32)
@@ -77,7 +67,7 @@ class CardWinds:
         self._sent = b""
         """Rows uploaded last."""
         self._records = self._row_texture()
-        self._sheets, self._messages, self._curves = Sheets(ctx), MessageTexture(ctx), curve_texture(ctx, growths)
+        self._sheets, self._messages, self._curves = Sheets(ctx), MessageTexture(ctx), curve_texture(ctx, responses)
         self.reasons: dict[type[WindPrimitive], str] = {}
         """Reason why the twin of a class of winds is not used."""
         self._numbers: dict[type[WindPrimitive], int] = {}
@@ -97,10 +87,10 @@ class CardWinds:
         self._asked: tuple[float, Mixing] = 0.0, "priority"
         """Time [s] and mixing of the last `write`."""
 
-    def regrow(self, growths: Sequence[HasResponse], /) -> None:
+    def regrow(self, responses: Sequence[Response], /) -> None:
         """Use the responses of other grass from now on."""
         self._curves.release()
-        self._curves = curve_texture(self.ctx, growths)
+        self._curves = curve_texture(self.ctx, responses)
 
     # ---- Winds -----------------------------------------------------------------------------------
 
@@ -351,11 +341,10 @@ class CardWinds:
         release_all(self._records, self._sheets, self._messages, self._curves, *self._programs.values())
 
 
-def curve_texture(ctx: moderngl.Context, growths: Sequence[HasResponse], /) -> moderngl.Texture:
+def curve_texture(ctx: moderngl.Context, responses: Sequence[Response], /) -> moderngl.Texture:
     """Return the responses of kinds of grass, a row each: index after a wind starts, after it stops, and step [s]."""
-    texels = np.zeros((len(growths), len(growths[0].response.rise), 3), np.float32)
-    for row, growth in zip(texels, growths, strict=True):
-        response = growth.response
+    texels = np.zeros((len(responses), len(responses[0].rise), 3), np.float32)
+    for row, response in zip(texels, responses, strict=True):
         row[:, 0], row[:, 1], row[:, 2] = response.rise, response.fall, response.step
     return by_texel(ctx.texture((texels.shape[1], len(texels)), 3, texels, dtype="f4"))
 
