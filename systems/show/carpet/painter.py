@@ -89,7 +89,6 @@ class CarpetPainter(RepresentationPainter):
         """Draw on this ground from now on, with each kind's progress towards what it is to become."""
         if grown.came != self._came:
             self._come(grown.came)
-        del record
         self._ground, self._tallest = grown.ground, grown.tallest
         self._spacing = finest_spacing(grown.ground.terrain, grown.ground.patch)
 
