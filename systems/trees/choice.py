@@ -161,18 +161,17 @@ class Choice:
         self._reach = self._scale[:, None] * (np.stack([half, radius], axis=1) + SWAYS * self._ball[:, None])
         """Half the height and the radius of each tree's bounding cylinder in any wind [m], shape (n, 2)."""
         beside, sways = np.where(self._ring > 1, WIDEST_ROW, 0.0), (1.0 + SWAYS) * self._scale
-        self._high, self._aside = (beside + sways * MARGIN * extent for extent in (middle, radius))
-        """Half extents of each tree, up and aside, with the row that it stands for [m], shape (n,)."""
-        self._spheres = _bounding_spheres(self._middle, np.hypot(self._high, self._aside))
+        high, aside = (beside + sways * MARGIN * extent for extent in (middle, radius))
+        self._extents = np.column_stack([self._middle, high, aside])
+        """Middle of each tree, and its half extents up and aside with the row that it stands for [m], shape (n, 5)."""
+        self._spheres = _bounding_spheres(self._middle, np.hypot(high, aside))
 
     def in_picture(self, sides: Doubles, /) -> Indices:
         """Return the indices of the trees within a frustum's sides."""
         middle, radius = self._spheres
         near = np.flatnonzero(np.repeat(outside_planes(middle, sides) <= radius, CLUSTER)[: len(self._model)])
-        inside = sides[:, :3] @ self._middle.take(near, axis=0).T + sides[:, 3:]
-        inside += np.outer(np.abs(sides[:, 1]), self._high[near]) + np.outer(
-            np.hypot(*sides[:, :3:2].T), self._aside[near]
-        )
+        nearer = np.column_stack([sides[:, :3], np.abs(sides[:, 1]), np.hypot(*sides[:, :3:2].T)])
+        inside = nearer @ self._extents.take(near, axis=0).T + sides[:, 3:]
         return np.asarray(near[inside.min(axis=0) >= 0.0])
 
     def choose(self, look: Look, /) -> Chosen:
