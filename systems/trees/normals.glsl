@@ -19,28 +19,28 @@ struct LeafMean {
 LeafMean leaf_mean(mat3 own, vec3 ray, Light above, vec3 below) {
     vec3 to_sun = sun * own, to_eye = -ray * own, to_zenith = vec3(own[0].y, own[1].y, own[2].y), random_leaves = random_leaf_radiance(ray);
     vec3 pigment = pigment_of(0.5, 0.0, 0.0), albedo = pigment * pigment, in_sun = albedo * above.sun;
-    vec2 sunned = FACED * vec2(brightness(in_sun), brightness(in_sun * TRANSMITTED)), lit_sides = vec2(0.0);
+    float reflected = FACED * brightness(in_sun), transmitted = FACED * brightness(in_sun * TRANSMITTED), lit_area = 0.0;
     float from_below = 0.5 * brightness(albedo * below), from_above = 0.5 * brightness(albedo * above.sky), gain = from_above - from_below;
     float always = RANDOM_SHARE * brightness(in_sun * random_leaves) + brightness(above.haze) + from_below + from_above;
     float side = to_eye.z < 0.0 ? -1.0 : 1.0, visible = LEAST_PART, brightness_sum = 0.0;
+    vec3 turned_area = vec3(0.0), brighter_side = 0.5 * (reflected - transmitted) * to_sun + gain * to_zenith;
     LeafMean leaves = LeafMean(vec3(0.0), 0.0, 0.0, 0.0);
     vec2 mean = vec2(side * dot(pictured_normal.xyz, to_sun), 0.0), spread = vec2(0.0);
     for (int each = 0; each < NORMALS; each++) {
         vec3 normal = leaf_normals[each].xyz;
         float to = dot(normal, to_eye), lit = dot(normal, to_sun), area = leaf_normals[each].w, part = area * normal.z;
-        float seen = to < 0.0 ? -1.0 : 1.0, facing = area * abs(to), up = seen * dot(normal, to_zenith);
-        vec2 sides = max(seen * lit * vec2(1.0, -1.0), 0.0);  // the lit one, if it is seen; or else the other one
-        float bright = sqrt(dot(sunned, sides) + gain * up + always);
-        visible += facing;
-        lit_sides += facing * sides;
-        leaves.up += facing * up;
-        brightness_sum += facing * bright;
+        float facing = area * to, differs = dot(normal, brighter_side);  // half by which one side is brighter than the other
+        float bright = sqrt(0.5 * (reflected + transmitted) * abs(lit) + (to < 0.0 ? -differs : differs) + always);
+        visible += abs(facing);
+        turned_area += facing * normal;  // of the side that is seen
+        lit_area += abs(facing * lit);
+        brightness_sum += abs(facing) * bright;
         mean.y += part * bright;
         spread += part * lit * vec2(lit, bright);
     }
-    lit_sides /= visible;
-    leaves.radiance = FACED * (lit_sides.x + lit_sides.y * TRANSMITTED) + RANDOM_SHARE * random_leaves;
-    leaves.up /= visible;
+    float lit_more = dot(turned_area, to_sun);  // area that is seen from the lit side, beyond that from the other one
+    leaves.radiance = FACED * 0.5 / visible * (lit_area + lit_more + (lit_area - lit_more) * TRANSMITTED) + RANDOM_SHARE * random_leaves;
+    leaves.up = dot(turned_area, to_zenith) / visible;
     mean.y /= pictured_normal.w;
     spread = spread * vec2(1.0, side) / pictured_normal.w - mean.x * mean;
     leaves.sun_gain = spread.y / (max(spread.x, LEAST_PART) * max(mean.y, LEAST_PART));
