@@ -113,7 +113,7 @@ def test_the_two_faces_of_a_fold_are_lit_apart_with_an_edge_between_them(room: S
 def test_blades_just_before_the_eye_hide_and_shine_as_those_of_the_reference(
     ctx: moderngl.Context, load: Load, profile: str
 ) -> None:
-    """Some reach behind the eye: they are as opaque as others, with edges as soft, and lit on the side towards the sun."""
+    """Some reach behind the eye: they are as opaque and as soft as others, and lit on the side towards the sun."""
     size, apart, unlike = (96, 54), [], 0
     prairie, room = load(NEAR.format(profile=profile)), Stage(ctx, size)
     for x, z, yaw in ((-0.9, 0.1, 0.0), (-0.76, 0.13, 1.0), (-0.21, 0.25, 5.0)):
