@@ -113,7 +113,7 @@ def test_the_two_faces_of_a_fold_are_lit_apart_with_an_edge_between_them(room: S
 def test_blades_just_before_the_eye_hide_and_shine_as_those_of_the_reference(
     ctx: moderngl.Context, load: Load, profile: str
 ) -> None:
-    """Some reach behind the eye: they are as opaque as others, and lit on the side towards the sun."""
+    """Some reach behind the eye: they are as opaque and as soft as others, and lit on the side towards the sun."""
     size, apart, unlike = (96, 54), [], 0
     prairie, room = load(NEAR.format(profile=profile)), Stage(ctx, size)
     for x, z, yaw in ((-0.9, 0.1, 0.0), (-0.76, 0.13, 1.0), (-0.21, 0.25, 5.0)):
@@ -123,8 +123,8 @@ def test_blades_just_before_the_eye_hide_and_shine_as_those_of_the_reference(
         unlike += int((np.abs((seen - truth) @ (0.0, -1.0, 1.0)) > 70.0).sum())  # sky in place of leaf, or leaf of sky
         apart.append(np.abs(seen - truth).mean())
     room.release()
-    assert unlike < 200
-    assert np.mean(apart) < 9.5
+    assert unlike < 100
+    assert np.mean(apart) < 8.0
 
 
 def test_g5_blades_of_a_farther_ring_have_as_many_segments_as_it_says(stage: Stage, load: Load) -> None:

@@ -131,7 +131,8 @@ struct Point {
     vec2 across;  // (x, z) from the middle line to the edge on the vertex's side
 };
 
-const float NEAREST = 0.15;  // distance from the eye below which a ribbon has no soft edges [m]
+const float NEAREST = 0.15;  // distance from the eye below which a ribbon is widened along its own edge: it may be sharply bent there [m]
+const float CLIPPED = 0.05;  // distance below which it has no soft edges, as a near plane cuts it off [m]
 const float UNEDGED = 8.0;  // half width that counts there, and half length where the ends are not soft [pixel]
 #ifdef ORGANS
 const float SMALL = 4.0;  // length up to which an organ on the tip of a stem is drawn straight, with soft ends [pixel]
@@ -153,10 +154,12 @@ vec4 widened(Point point, float t, float to) {
     half_length = UNEDGED;
 #endif
     vec4 edge = clip * vec4(point.across.x, 0.0, point.across.y, 0.0);
+    vec2 wide = (edge.xy * middle.w - middle.xy * edge.w) * half_screen / (middle.w * middle.w);
     if (middle.w < NEAREST) {
-        half_width = UNEDGED;
-        aside = (half_width - 0.5) * to;  // edges are not soft, and the coverage is 1 between them
-        return middle + edge;
+        half_width = middle.w < CLIPPED ? UNEDGED : length(wide);
+        float softer = middle.w < CLIPPED ? -0.5 : 0.5;  // edges are not soft where the coverage is 1 between them
+        aside = (half_width + softer) * to;
+        return middle + edge * (1.0 + max(softer, 0.0) / max(half_width, 0.5));
     }
     vec3 along = point.tangent;
 #ifdef ORGANS
@@ -166,7 +169,6 @@ vec4 widened(Point point, float t, float to) {
 #endif
     vec4 ahead = clip * vec4(along, 0.0);
     vec2 run = (ahead.xy * middle.w - middle.xy * ahead.w) * half_screen;
-    vec2 wide = (edge.xy * middle.w - middle.xy * edge.w) * half_screen / (middle.w * middle.w);
     vec2 normal = vec2(-run.y, run.x) / max(length(run), LEAST_SQUARE);
     float out_by = dot(wide, normal);
     half_width = abs(out_by);
