@@ -94,11 +94,11 @@ class TreePart(Part):
 
     def texts(self) -> Iterator[Texts]:
         """Return the sources of programs that are not compiled yet."""
-        return iter(()) if self._programs is None else self._programs.texts(in_rows=self._standing().in_rows)
+        return self._present_programs().texts(in_rows=self._standing().in_rows) if self._kinds else iter(())
 
     def making(self) -> Iterator[None]:
         """Compile these programs, one at a time."""
-        return iter(()) if self._programs is None else self._programs.making(in_rows=self._standing().in_rows)
+        return self._present_programs().making(in_rows=self._standing().in_rows) if self._kinds else iter(())
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Draw a tree of each model in every way in the next frame."""
@@ -132,7 +132,10 @@ class TreePart(Part):
         """Choose each tree's level of detail, and draw shade maps that are due; return the number of draw calls."""
         if not self._kinds or self._outlook is None:
             return 0
-        programs = self._make_programs()
+        programs = self._present_programs()
+        for kind in self._kinds:
+            if kind.card is None:
+                kind.bake(programs)
         viewer = self._outlook.viewer
         patch = float(self._block.record["patch_side"][0])
         self._uniforms = {
@@ -160,16 +163,13 @@ class TreePart(Part):
             count = self._batches[-1].first + 1
         self._send_placed(np.zeros(count, PLACED))
 
-    def _make_programs(self) -> Programs:
-        """Return the programs, after baking kinds that are not baked yet."""
+    def _present_programs(self) -> Programs:
+        """Return the programs for the scene as it is now; they are compiled when first needed."""
         if self._programs is not None and self._programs.defines != self._block.defines:
             self._forget()
         if self._programs is None:
             self._programs = Programs(self._ctx, self._block, self._units)
             self._calls = Calls(self._models, self._programs)
-        for kind in self._kinds:
-            if kind.card is None:
-                kind.bake(self._programs)
         return self._programs
 
     def _choose(self, standing: Standing, outlook: Outlook) -> None:

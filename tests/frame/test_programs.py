@@ -9,7 +9,7 @@ import moderngl
 import numpy as np
 import pytest
 
-from tallgrass import Blast, Footprint, Gust, Pose, Presser
+from tallgrass import Blast, Footprint, Gust, Pose, Presser, Tree
 from tallgrass.components.shade import Shade
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.gl import background
@@ -71,11 +71,11 @@ def first_gust(prairie: Prairie) -> list[int]:
     return [prairie.add(Gust(position=[0.0, 20.0], strength=1.0))]
 
 
-@pytest.mark.usefixtures("ahead")
-def test_nothing_that_happens_to_grass_for_the_first_time_makes_a_program(
-    made: list[str], load: Load, stage: Stage, camera: Aim
+@pytest.mark.usefixtures("ahead", "unpictured")
+def test_nothing_that_happens_to_grass_or_trees_for_the_first_time_makes_a_program(
+    made: list[str], load: Load, stage: Stage, camera: Aim, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    prairie, there = load(CALM), camera(0.0, 2.0, 18.0)
+    prairie, there = load(CALM + "trees: { ash: { habit: birch, height: [9, 9] } }\n"), camera(0.0, 2.0, 18.0)
     stage.shot(prairie, there)
     prairie.advance(1.0)
     for _ in range(1 if draws_in_software(stage.ctx) else 400):  # a card makes them beside frames
@@ -94,6 +94,12 @@ def test_nothing_that_happens_to_grass_for_the_first_time_makes_a_program(
             esper.delete_entity(entity, immediate=True)
         assert np.abs(after - before).max() > 20.0, happens
         assert made == [], happens
+    for name in ("render", "transform"):  # what trees look like does not matter here
+        monkeypatch.setattr(moderngl.VertexArray, name, lambda *_, **__: None)
+    esper.create_entity(Tree("ash", height=9.0), Pose(0.0, -15.0))
+    for z in (18.0, -10.0, -13.0):  # its picture gives way to twigs on cards, and these to leaves
+        stage.shot(prairie, camera(0.0, 2.0, z))
+        assert made == [], z
 
 
 @pytest.mark.usefixtures("ahead", "undrawn")
