@@ -190,8 +190,13 @@ class Game:
         self.prairie.draw(view, projection, parts=("sky", "grass", "beyond"))
 
 
-if __name__ == "__main__":
+def main() -> None:
+    """Show the village until the window is closed."""
     game = Game()
     pyglet.clock.schedule_interval(game.prairie.advance, 1 / 60)
     pyglet.app.run()
     game.prairie.release()
+
+
+if __name__ == "__main__":
+    main()  # so that the game goes before Python ends, when pyglet could not forget its handlers any more
