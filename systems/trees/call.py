@@ -133,7 +133,7 @@ class Calls:
         if batch.name not in model.wood or kind.habit.leaf.form != NEEDLES:
             return -batch.mean
         cards = [each.mean for each in self._batches if each.model == batch.model and each.name in CARDS]
-        return nextafter(-max(batch.mean, *cards), -inf)
+        return nextafter(-max([batch.mean, *cards]), -inf)
 
     def _state(self, number: int, name: str, how: Pass) -> State | None:
         """Return the state of a stream, or None where a pass does not draw it: far pictures have streams for each."""
