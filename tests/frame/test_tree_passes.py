@@ -18,7 +18,7 @@ from tallgrass.systems.trees.call import DrawCall, Pass, draw
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.habit import NEEDLES
 from tallgrass.systems.trees.programs import HARD, SOFT
-from tallgrass.systems.trees.stream import CARDS, Uniforms
+from tallgrass.systems.trees.stream import CARDS, WOOD, Uniforms
 from tallgrass.systems.trees.wood import CLOSED
 from tallgrass.testing import Stage, little_prairie, looking, private_world
 from tallgrass.testing.little import SPARSE
@@ -167,7 +167,14 @@ def test_needles_are_blended_over_the_stems_that_bear_them(
     both = of_stems.keys() & of_needles.keys()
     assert both
     assert all(max(of_stems[model]) < min(of_needles[model]) for model in both)
-    part["_calls"].clear()
+    calls = part["_calls"]
+    calls.choose([batch for batch in part["_batches"] if batch.name not in CARDS])  # all twigs are out of the picture
+    assert any(
+        batch.name.startswith(WOOD) and vars(call.Calls)["_call"](calls, batch, Pass(SOFT))
+        for batch in vars(calls)["_batches"]
+    )
+    calls.choose(part["_batches"])
+    calls.clear()
 
 
 def test_d6_maps_of_shade_leave_the_clear_colour_of_a_host_that_sets_it_once(
