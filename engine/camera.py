@@ -244,9 +244,9 @@ def view_of(view: object, projection: object, origin: Place = (0.0, 0.0, 0.0)) -
 
     Each is a 4x4 array, or pyglet's `Mat4`, whose 16 numbers run column by column. Where `view` scales, as for a game
     in centimetres, the scale is moved into the projection. `origin` is the scene's origin in the world of `view` [m];
-    it is subtracted in double precision, so that large coordinates cancel. Raises ValueError
-    for anything but 16 finite numbers, a singular matrix, a view with perspective, an eye beyond a million kilometres,
-    and a product beyond single precision.
+    it is subtracted in double precision, so that large coordinates cancel. Raises ValueError for anything but 16 finite
+    numbers, a singular matrix, a view with perspective, an eye beyond a million kilometres, and a product beyond single
+    precision.
     """
     one, other = _matrix(view, "view"), _matrix(projection, "projection")
     if any(origin):

@@ -27,8 +27,8 @@ SIDE_SCALE = 127.5
 """Scale and offset of `side` when packed."""
 
 STEM_SCALE = 65535.0
-"""Scale of `stem`, within its range, when packed: 0.3 mm a step on a tree of 20 m. Scale of
-the random number in `on_limb`."""
+"""Scale of `stem`, within its range, when packed: 0.3 mm a step on a tree of 20 m. Scale of the random number in
+`on_limb`."""
 
 GLSL = {"STEM_SCALE": STEM_SCALE}
 
