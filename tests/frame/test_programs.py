@@ -96,10 +96,11 @@ def test_nothing_that_happens_to_grass_or_trees_for_the_first_time_makes_a_progr
         assert made == [], happens
     for name in ("render", "transform"):  # what trees look like does not matter here
         monkeypatch.setattr(moderngl.VertexArray, name, lambda *_, **__: None)
-    esper.create_entity(Tree("ash", height=9.0), Pose(0.0, -15.0))
+    tree = esper.create_entity(Tree("ash", height=9.0), Pose(0.0, -15.0))
     for z in (18.0, -10.0, -13.0):  # its picture gives way to twigs on cards, and these to leaves
         stage.shot(prairie, camera(0.0, 2.0, z))
         assert made == [], z
+    esper.delete_entity(tree, immediate=True)
 
 
 @pytest.mark.usefixtures("ahead", "undrawn")
