@@ -153,9 +153,6 @@ class Choice:
         self._instances = far_instances(rows, height.astype(np.float32), spread.astype(np.float32))
         self._instances["columns"] = columns_of(rows, self._scale * radius)
         self._placed = _placed(self._instances, middle.astype(np.float32), hertz.astype(np.float32))
-        self._crown = self._placed["root"].copy()
-        """Middle of each crown [m], shape (n, 3)."""
-        self._crown[:, 1] += self._placed["crown_at"]
         self._ball = np.hypot(half, radius)
         """Radius of each model's bounding sphere [m], shape (n,)."""
         self._reach = self._scale[:, None] * (np.stack([half, radius], axis=1) + SWAYS * self._ball[:, None])
@@ -177,7 +174,7 @@ class Choice:
     def choose(self, look: Look, /) -> Chosen:
         """Return what is drawn of the trees in a picture."""
         number = self.in_picture(look.sides)
-        distance = np.linalg.norm(self._middle.take(number, axis=0) - look.eye, axis=1)
+        distance = _distance(self._middle.take(number, axis=0), look.eye)
         order = np.argsort(distance)
         order = order[_stable_order(self._model[number[order]])]
         number, distance = number[order], distance[order]
@@ -189,8 +186,7 @@ class Choice:
         shell, ring = shells_of(seen.along, look.reach), rings_of(seen.along, look.reach)
         back = np.where(self._needles[seen.model] & (shell == 0) & (ring > 0), SHELLS + ring, shell)
         stream, tree, first = _by_stream(seen, shell, back, leafy, twigs)
-        to_crown = self._crown.take(seen.number, axis=0) - look.eye
-        batches = _batches(stream, tree, seen, np.linalg.norm(to_crown, axis=1))
+        batches = _batches(stream, tree, seen, distance)
         rows = seen.instances.take(tree)  # thirty times as fast as fancy indexing on structured arrays
         rows["first"] = first
         instances = [rows[batch.first : batch.first + batch.size] for batch in batches]
@@ -200,7 +196,7 @@ class Choice:
         """Return the level of detail of trees at distances (n,) [m]."""
         middle, scale, ring = self._middle.take(number, axis=0), self._scale[number], self._ring[number]
         if look.detail_eyes:
-            distance = np.min([np.linalg.norm(middle - eye, axis=1) for eye in look.detail_eyes], axis=0)
+            distance = np.min([_distance(middle, np.asarray(eye)) for eye in look.detail_eyes], axis=0)
         pixels = look.focal * self._height[number] / np.maximum(distance, NEAREST)
         pictured = self._pictured[number]
         if look.leaves_from is not None:
@@ -250,6 +246,12 @@ def _model_numbers(model: Model, variety: float) -> tuple[float, ...]:
     return (
         model.height, model.middle, model.half, model.radius, model.hertz, model.habit.leaf.length, variety,
     )  # fmt: skip
+
+
+def _distance(middle: Doubles, eye: Doubles) -> Doubles:
+    """Return the distances of places (n, 3) from the eye [m]."""
+    away = middle - eye
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", away, away)))  # a third of the time of `norm`
 
 
 def _stable_order(number: Indices) -> Indices:

@@ -24,8 +24,8 @@ def shells_of(distance: Doubles, reach: float, /) -> NDArray[np.intp]:
     not move with the reach: trees seldom change shells.
     """
     outmost = ceil(log(reach) / -log(SHELL)) if reach > 0.0 else 0
-    ends = SHELL ** (np.arange(SHELLS) - outmost)
-    return np.where(distance < reach, (distance[:, None] < ends).sum(axis=1), 0)
+    ends = SHELL ** (np.arange(SHELLS)[::-1] - outmost)
+    return np.where(distance < reach, SHELLS - ends.searchsorted(distance, "right"), 0)
 
 
 def rings_of(distance: Doubles, reach: float, /) -> NDArray[np.intp]:

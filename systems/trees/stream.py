@@ -1,5 +1,6 @@
 """A grown tree in one GL context, and the streams of instances that are drawn as it is."""
 
+from bisect import bisect_left
 from collections.abc import Mapping
 
 import moderngl
@@ -138,7 +139,7 @@ class GpuModel:
         Next to the eye, those outside the picture are left out before the first and after the last one inside. `rows`
         are the stream's instances, and `sides` planes of the frustum.
         """
-        self.wood_class[name] = wood_class = int(np.searchsorted(PIXEL_RADII, pixel_radius))
+        self.wood_class[name] = wood_class = bisect_left(PIXEL_RADII, pixel_radius)
         wood = self.model.wood[wood_class]
         drawn = self.wood[name] = parts(wood.whole.radii, wood.edges.radii, pixel_radius, foliage)
         if wood_class == 0:

@@ -109,7 +109,7 @@ def parts(whole: Doubles, edges: Doubles, pixel_radius: float, foliage: float, /
     """
 
     def count(radii: Doubles, radius: float) -> int:
-        return len(radii) - int(np.searchsorted(radii, radius))
+        return len(radii) - int(radii.searchsorted(radius))
 
     faintest = FAINTEST_STEM[int(FOLIAGES * min(foliage, 1.0))]
     return Parts(count(whole, OPAQUE * pixel_radius), count(edges, faintest * pixel_radius))
