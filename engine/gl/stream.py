@@ -84,6 +84,15 @@ class Stream:
         ]
         return self.buffer, " ".join(padded) + each, *kept
 
+    def point(self, array: moderngl.VertexArray, first: int) -> None:
+        """Let a vertex array that has the stream, with a record an instance, read it from record `first` on."""
+        size, fields = self.record.itemsize, self.record.fields
+        for name, layout in zip(self.record.names or (), attributes(self.record)[0].split(), strict=True):
+            member = array.program.get(name, None)
+            if fields is not None and isinstance(member, moderngl.Attribute):
+                sort, offset = "f" if layout[-1] == "f" else "i", first * size + fields[name][1]
+                array.bind(member.location, sort, self.buffer, layout, offset=offset, stride=size, divisor=1)
+
     def release(self) -> None:
         """Delete the buffer."""
         self.buffer.release()

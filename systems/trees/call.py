@@ -13,6 +13,7 @@ from .habit import NEEDLES
 from .kind import Binding, GpuKind
 from .outline import Outline
 from .programs import SAMPLED, SOFT, Programs
+from .segments import Segment
 from .stream import BACKS, CARDS, FAR, IN_ROWS, LEAVES, NEAR, QUAD, SMALL_CARDS, WOOD, GpuModel, Uniforms
 from .wood import CLOSED, OPAQUE, SOLID
 
@@ -40,7 +41,7 @@ class State(NamedTuple):
     """Draw state of a model's stream, whichever trees are in it."""
 
     array: moderngl.VertexArray
-    instances: Stream
+    instances: Stream | Segment
     """The stream's instances, or what `hang.vert` made of them."""
 
     wood: GpuModel | None
@@ -151,7 +152,7 @@ class Calls:
         drawn_as, edges = sort, SAMPLED if how.sampled and sort != FAR else how.edges
         if sort == FAR and how.in_rows:
             drawn_as = IN_ROWS
-        stream = model.hung.get(name, model.streams[name])
+        stream = model.hung.get(name) or model.streams[name]
         array = self._programs.array(drawn_as, stream, model, edges=edges)
         whole_tree = SOLID if how.casts else CLOSED if sort == FAR else OPAQUE
         own_uniforms = uniforms_of(

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles, Floats, Indices, Ints
+from ...components.arrays import Doubles, Indices, Ints
 from ..space.cone import distance_in_order
 from ..space.frustum import outside_planes
 from ..space.window import cell_of
@@ -16,7 +16,7 @@ from .habit import NEEDLES
 from .leafy import GROUPED_FROM, blocks_of_models, blocks_shown, near_twigs
 from .model import MARGIN, Model
 from .shells import SHELLS, farthest_of, rings_of, shells_of
-from .standing import BAREST, PLACED, WIDEST_ROW, Standing, columns_of, far_instances, ring_opacity, set_detail
+from .standing import BAREST, WIDEST_ROW, Standing, columns_of, far_instances, ring_opacity, set_detail
 from .stream import BACKS, CARDS, FAR, FIRST_OF, LEAVES, SHELL_OF, STREAMS, WOOD_LIMITS, WOODS
 from .twig import LEAF_PIXELS
 from .wood import AWAY, SWAYS, THINNEST, nearest_ahead
@@ -73,7 +73,7 @@ class Batch(NamedTuple):
     """Name of the stream."""
 
     first: int
-    """Index of the first one in `Chosen.placed`."""
+    """Index of the first one in `Chosen.instances`."""
 
     size: int
     nearest: float
@@ -92,20 +92,22 @@ class Batch(NamedTuple):
     """Least share of its leaves that a tree has."""
 
 
-def single(model: int, name: str, first: int, /) -> Batch:
-    """Return a batch of one tree, drawn anywhere; `first` is its index among all trees."""
-    return Batch(model, name, first, 1, 0.0, 0.0, farthest_of(SHELL_OF[name], 1.0), 1.0, 1.0)
-
-
 class Chosen(NamedTuple):
     """What is drawn of trees."""
 
     batches: list[Batch]
-    instances: list[NDArray[np.void]]
-    """Instance attributes of each batch: records of `INSTANCE`."""
+    instances: NDArray[np.void]
+    """Instance attributes of all trees, batch after batch: records of `INSTANCE`."""
 
-    placed: NDArray[np.void]
-    """Places of all trees, batch after batch, records of `PLACED`."""
+
+def one_of_each(models: int, tree: NDArray[np.void], /) -> Chosen:
+    """Return a tree for each stream of so many models, drawn anywhere; `tree` is a record of `INSTANCE`, shape (1,)."""
+    streams = [(model, name) for model in range(models) for name in STREAMS]
+    batches = [
+        Batch(model, name, number, 1, 0.0, 0.0, farthest_of(SHELL_OF[name], 1.0), 1.0, 1.0)
+        for number, (model, name) in enumerate(streams)
+    ]
+    return Chosen(batches, tree.repeat(len(streams)))
 
 
 class _Seen(NamedTuple):
@@ -152,7 +154,7 @@ class Choice:
         self._middle[:, 1] += self._scale * middle
         self._instances = far_instances(rows, height.astype(np.float32), spread.astype(np.float32))
         self._instances["columns"] = columns_of(rows, self._scale * radius)
-        self._placed = _placed(self._instances, middle.astype(np.float32), hertz.astype(np.float32))
+        self._instances["crown_at"], self._instances["hertz"] = self._scale * middle, hertz / np.sqrt(self._scale)
         self._ball = np.hypot(half, radius)
         """Radius of each model's bounding sphere [m], shape (n,)."""
         self._reach = self._scale[:, None] * (np.stack([half, radius], axis=1) + SWAYS * self._ball[:, None])
@@ -187,10 +189,9 @@ class Choice:
         back = np.where(self._needles[seen.model] & (shell == 0) & (ring > 0), SHELLS + ring, shell)
         stream, tree, first = _by_stream(seen, shell, back, leafy, twigs)
         batches = _batches(stream, tree, seen, distance)
-        rows = seen.instances.take(tree)  # thirty times as fast as fancy indexing on structured arrays
-        rows["first"] = first
-        instances = [rows[batch.first : batch.first + batch.size] for batch in batches]
-        return Chosen(batches, instances, self._placed.take(seen.number[tree]))
+        instances = seen.instances.take(tree)  # thirty times as fast as fancy indexing on structured arrays
+        instances["first"] = first
+        return Chosen(batches, instances)
 
     def _seen(self, look: Look, number: Indices, distance: Doubles) -> _Seen:
         """Return the level of detail of trees at distances (n,) [m]."""
@@ -257,14 +258,6 @@ def _distance(middle: Doubles, eye: Doubles) -> Doubles:
 def _stable_order(number: Indices) -> Indices:
     """Return the order that sorts by model or stream and keeps the order within each."""
     return np.argsort(number.astype(np.int16), kind="stable")  # 16 bits are sorted by radix, much faster
-
-
-def _placed(instances: NDArray[np.void], middle: Floats, hertz: Floats) -> NDArray[np.void]:
-    """Return records of `PLACED` of trees whose models have these crown heights [m] and frequencies [Hz]."""
-    placed = np.zeros(len(instances), PLACED)
-    placed["root"], placed["crown_at"] = instances["root"], instances["scale"] * middle
-    placed["phase"], placed["hertz"] = instances["phase"], hertz / np.sqrt(instances["scale"])
-    return placed
 
 
 def _bounding_spheres(middle: Doubles, reach: Doubles) -> tuple[Doubles, Doubles]:

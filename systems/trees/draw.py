@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles
 from ...engine.camera import Place
 from ...engine.gl.shaders import Texts, set_used_uniforms
-from ...engine.gl.stream import Stream, release_all
+from ...engine.gl.stream import release_all
 from ..around.outlook import Outlook
 from ..frame.block import FrameBlock
 from ..frame.feature import Part, WindTextures
@@ -17,13 +17,14 @@ from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
 from .call import Calls, DrawCall, Pass, draw
-from .choice import Batch, Choice, Chosen, Look, single
+from .choice import Batch, Choice, Chosen, Look, one_of_each
 from .kind import GpuKind
 from .motion import PERIOD
 from .programs import HANG, HANG_LEAVES, HARD, SOFT, STAND, Programs
+from .segments import Segments
 from .shade import ShadeMap
-from .standing import PLACED, STOOD, Standing
-from .stream import CARDS, CAST, LEAVES, GpuModel, Uniforms
+from .standing import Standing
+from .stream import ALONE, CARDS, CAST, LEAVES, GpuModel, Uniforms
 from .twig import BLOCK, LEAF_PIXELS
 
 EVERY_LEAF = -2.0, -1.0
@@ -55,9 +56,7 @@ class TreePart(Part):
         self._calls: Calls | None = None
         self._soft_left: list[DrawCall] = []
         """Draw calls of soft edges that this frame has still to make."""
-        self._placed: Stream | None = None
-        """Input and output of `stand.vert`, stream after stream."""
-        self._stood: Stream | None = None
+        self._segments: Segments | None = None
         self._air: WindTextures | None = None
         self._wind: MeanWind | None = None
         self.leaves_from: float | None = None
@@ -81,16 +80,19 @@ class TreePart(Part):
             return
         release_all(*self._kinds)
         self._declared = declared
-        self._kinds = [
-            GpuKind(self._ctx, self._units, kind, seed=scene.seed + number)
-            for number, kind in enumerate(scene.trees.values())
-        ]
+        release_all(self._segments)
+        self._segments, self._kinds = None, []
+        if scene.trees:
+            self._segments = segments = Segments(self._ctx)
+            self._kinds = [
+                GpuKind(self._ctx, self._units, segments, kind, seed=scene.seed + number)
+                for number, kind in enumerate(scene.trees.values())
+            ]
         self._models = [(kind, model) for kind in self._kinds for model in kind.models]
         self._batches, self._choice = [], None
         self._forget()
         if self._kinds and self._shade is None:
             self._shade = ShadeMap(self._ctx)
-            self._placed, self._stood = Stream(self._ctx, PLACED), Stream(self._ctx, STOOD)
 
     def texts(self) -> Iterator[Texts]:
         """Return the sources of programs that are not compiled yet."""
@@ -154,14 +156,11 @@ class TreePart(Part):
         return calls
 
     def _rehearse(self, programs: Programs) -> None:
-        """Add a batch with a tree for each stream that is empty."""
-        assert self._placed is not None
-        count = self._placed.count
-        for number, (_, model) in enumerate(self._models):
+        """Let each stream draw a tree."""
+        self._send(one_of_each(len(self._models), ALONE))
+        for _, model in self._models:
             programs.array(CAST, model.bare)
-            self._batches += [single(number, name, count + more) for more, name in enumerate(model.rehearse())]
-            count = self._batches[-1].first + 1
-        self._send_placed(np.zeros(count, PLACED))
+            model.rehearse()
 
     def _present_programs(self) -> Programs:
         """Return the programs for the scene as it is now; they are compiled when first needed."""
@@ -183,7 +182,9 @@ class TreePart(Part):
         if self._choice is None or self._choice[0] is not standing:
             models = [model.model for _, model in self._models]
             self._choice = standing, Choice(standing, models, [kind.declared.variety for kind, _ in self._models])
-        self._send(self._choice[1].choose(self._look(outlook)), viewer.sides)
+        chosen = self._choice[1].choose(self._look(outlook))
+        self._send(chosen)
+        self._show_wood(chosen, viewer.sides)
 
     def _look(self, outlook: Outlook) -> Look:
         """Return the viewpoint that trees are chosen for."""
@@ -199,29 +200,24 @@ class TreePart(Part):
         reach = self._reach(outlook)
         return Look(eye, outlook.viewer.sides, clip, focal, reach, patch, centre, detail_eyes, self.leaves_from)
 
-    def _send(self, chosen: Chosen, sides: Doubles) -> None:
-        """Send instances, and where they stand; `sides` are planes of the frustum."""
-        before, (self._batches, instances, placed) = self._batches, chosen
-        filled = {(batch.model, batch.name) for batch in self._batches}
-        for number, name in {(batch.model, batch.name) for batch in before} - filled:
-            self._models[number][1].empty(name)
-        for batch, rows in zip(self._batches, instances, strict=True):
+    def _send(self, chosen: Chosen) -> None:
+        """Send instances, and where they stand."""
+        assert self._segments is not None
+        assert self._calls is not None
+        self._batches = chosen.batches
+        filled = [self._models[batch.model][1].streams[batch.name] for batch in self._batches]
+        self._segments.write(filled, [batch.size for batch in self._batches], chosen.instances)
+        self._calls.choose(self._batches)
+
+    def _show_wood(self, chosen: Chosen, sides: Doubles) -> None:
+        """Choose what is drawn of wood and of single leaves; `sides` are planes of the frustum."""
+        for batch in chosen.batches:
             _, model = self._models[batch.model]
-            model.write(batch.name, rows)
             if batch.name in model.wood:
+                rows = chosen.instances[batch.first : batch.first + batch.size]
                 model.show_wood(batch.name, batch.pixel_radius, batch.foliage, rows, sides)
             elif batch.name == LEAVES:
                 model.twigs_of_leaves = 1 if self.leaves_from is None else len(model.model.twigs)
-        self._send_placed(placed)
-
-    def _send_placed(self, placed: NDArray[np.void]) -> None:
-        """Send where all drawn trees stand."""
-        assert self._placed is not None
-        assert self._stood is not None
-        assert self._calls is not None
-        self._calls.choose(self._batches)
-        self._placed.write(placed)
-        self._stood.room(len(placed))
 
     def _reach(self, outlook: Outlook) -> float:
         """Return the distance up to which grass is drawn from far to near [m]."""
@@ -235,19 +231,13 @@ class TreePart(Part):
             return 0
         air.texture.use(self._units["tree_air"])
         air.mean.use(self._units["tree_mean"])
-        assert self._placed is not None
-        assert self._stood is not None
-        if self._placed.count:
-            array = programs.feedback(STAND, self._placed)
+        assert self._segments is not None
+        instances, stood = self._segments.instances, self._segments.stood
+        if self._batches:
+            array = programs.feedback(STAND, instances)
             set_used_uniforms(array.program, self._uniforms)
-            array.transform(self._stood.buffer, moderngl.POINTS, vertices=self._placed.count)
+            array.transform(stood.buffer, moderngl.POINTS, vertices=instances.count)
             calls = 1
-        for batch in self._batches:
-            _, model = self._models[batch.model]
-            stood = model.stood[id(model.streams[batch.name])]
-            self._ctx.copy_buffer(
-                stood.buffer, self._stood.buffer, batch.size * STOOD.itemsize, read_offset=batch.first * STOOD.itemsize
-            )
         return calls + sum(
             self._hang(batch, programs) for batch in self._batches if batch.name in CARDS or batch.name == LEAVES
         )
@@ -259,7 +249,7 @@ class TreePart(Part):
         hung.room(batch.size * each)
         if not hung.count:
             return 0
-        array = programs.feedback(HANG_LEAVES if name == LEAVES else HANG, stream, model.stood[id(stream)])
+        array = programs.feedback(HANG_LEAVES if name == LEAVES else HANG, stream)
         kind.set_uniforms(array.program, model, self._uniforms)
         array.transform(hung.buffer, moderngl.POINTS, vertices=each, instances=batch.size)
         return 1
@@ -306,4 +296,4 @@ class TreePart(Part):
     def release(self) -> None:
         """Release all GL objects."""
         self._forget()
-        release_all(*self._kinds, self._shade, self._placed, self._stood)
+        release_all(*self._kinds, self._shade, self._segments)

@@ -46,6 +46,7 @@ from .outline import (
     solid_outline,
 )
 from .programs import Programs
+from .segments import Segments
 from .stream import LEAVES, PICTURED, QUAD, WOOD, GpuModel, Uniforms
 from .twig import BEHIND, FINER_EACH, HANGING_OFF, SHOOTS_OFF, card_reach
 from .twig import PICTURES as OF_TWIGS
@@ -65,11 +66,13 @@ class Binding(NamedTuple):
 class GpuKind:
     """What a kind of tree is drawn with."""
 
-    def __init__(self, ctx: moderngl.Context, units: Mapping[str, int], declared: TreeKind, *, seed: int) -> None:
+    def __init__(
+        self, ctx: moderngl.Context, units: Mapping[str, int], segments: Segments, declared: TreeKind, *, seed: int
+    ) -> None:
         self.ctx, self.units, self.declared = ctx, units, declared
         self.habit = HABITS[declared.habit]
         self._seed = seed
-        self.models = [GpuModel(ctx, each) for each in models_of(declared.habit, seed)]
+        self.models = [GpuModel(ctx, each, segments) for each in models_of(declared.habit, seed)]
         self.card: moderngl.TextureArray | None = None
         self.outline = self.solid_outline = corner_list(BOX)
         """Outlines of its card, and of the part dense enough to be drawn as opaque."""

@@ -11,6 +11,7 @@ from ...engine.gl.stream import Stream, release_all
 from ..frame.block import FrameBlock, joined
 from .grow import MOST_TWIGS
 from .habit import HABITS
+from .segments import Segment
 from .standing import HUNG, HUNG_LEAVES
 from .stream import CAST, FAR, IN_ROWS, LEAVES, NEAR, PICTURED, WOOD, GpuModel
 
@@ -43,6 +44,10 @@ MOST_QUADS = max(MOST_TWIGS, *(habit.leaf.quads for habit in HABITS.values()))
 """Greatest number of quads of a draw: a baked tree's twigs on cards, or a twig's leaves."""
 
 
+Content = tuple[moderngl.Buffer | str, ...]
+"""Content of a vertex array: a buffer, its format and its attributes."""
+
+
 class Programs:
     """Programs and vertex arrays of one GL context, for scenes with the same defines."""
 
@@ -52,6 +57,8 @@ class Programs:
         self._programs: dict[tuple[str, str, bool], moderngl.Program] = {}
         self._feedback_programs: dict[str, moderngl.Program] = {}
         self._arrays: dict[tuple[int, str, str, bool], moderngl.VertexArray] = {}
+        self._segments = set[Segment]()
+        """Segments that some of these arrays read."""
         self._quads = ctx.buffer(_quads())
 
     def texts(self, *, in_rows: bool) -> Iterator[Texts]:
@@ -74,34 +81,40 @@ class Programs:
         return [(sort, edges) for sort, edges in drawn if (sort, edges, False) not in self._programs]
 
     def array(
-        self, sort: str, stream: Stream, model: GpuModel | None = None, /, *, edges: str = HARD, baked: bool = False
+        self, sort: str, stream: Stream | Segment, model: GpuModel | None = None, /, *, edges: str = HARD,
+        baked: bool = False,
     ) -> moderngl.VertexArray:  # fmt: skip
         """Return the vertex array of a stream for these edges, or for baking; `WOOD` needs its model."""
         key = id(stream), sort, edges, baked
         if key not in self._arrays:
-            program, indices = self._program(sort, edges=edges, baked=baked), self._quads
-            contents = [stream.binding(program)]
-            if model is not None:
-                if not baked and (stood := model.stood.get(id(stream))) is not None:
-                    contents.append(stood.binding(program))
-                if sort == WOOD:
-                    contents.insert(0, model.bark(program))
-                    indices = model.triangles
-            whole = [each for each in contents if len(each) > 2]
-            self._arrays[key] = self._ctx.vertex_array(
-                program, whole, index_buffer=None if sort in (NEAR, FAR, IN_ROWS) else indices
+            program = self._program(sort, edges=edges, baked=baked)
+            bark = [model.bark(program)] if sort == WOOD and model is not None else []
+            indices = model.triangles if sort == WOOD and model is not None else self._quads
+            self._arrays[key] = self._reading(
+                program, stream, *bark, indices=None if sort in (NEAR, FAR, IN_ROWS) else indices
             )
         return self._arrays[key]
 
-    def feedback(self, what: str, stream: Stream, stood: Stream | None = None) -> moderngl.VertexArray:
-        """Return the vertex array of a feedback pass: over a stream's trees, or with `stood` over each tree's twigs."""
+    def feedback(self, what: str, stream: Stream | Segment) -> moderngl.VertexArray:
+        """Return the vertex array of a feedback pass: over a stream's records, or over the twigs of each tree."""
         key = id(stream), what, HARD, False
         if key not in self._arrays:
-            program = self._feedback_program(what)
-            each = "/v" if stood is None else "/i"
-            streams = [one.binding(program, each=each) for one in (stream, stood) if one is not None]
-            self._arrays[key] = self._ctx.vertex_array(program, streams)
+            each = "/v" if what == STAND else "/i"
+            self._arrays[key] = self._reading(self._feedback_program(what), stream, each=each)
         return self._arrays[key]
+
+    def _reading(
+        self, program: moderngl.Program, stream: Stream | Segment, *contents: Content, each: str = "/i",
+        indices: moderngl.Buffer | None = None,
+    ) -> moderngl.VertexArray:  # fmt: skip
+        """Return a vertex array that reads a stream, and other contents."""
+        read = stream.bindings(program) if isinstance(stream, Segment) else [stream.binding(program, each=each)]
+        used = [content for content in (*contents, *read) if len(content) > 2]
+        array = self._ctx.vertex_array(program, used, index_buffer=indices)
+        if isinstance(stream, Segment):
+            stream.lead(array)
+            self._segments.add(stream)
+        return array
 
     def _feedback_program(self, what: str) -> moderngl.Program:
         if what not in self._feedback_programs:
@@ -120,6 +133,8 @@ class Programs:
 
     def release(self) -> None:
         """Release all GL objects."""
+        for segment in self._segments:
+            segment.lose()
         release_all(*self._arrays.values(), *self._programs.values(), *self._feedback_programs.values(), self._quads)
 
 

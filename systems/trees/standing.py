@@ -38,14 +38,11 @@ INSTANCE = np.dtype(
     [
         ("root", "3f4"), ("scale", "f4"), ("turn", "2f4"), ("phase", "f4"), ("tint", "f4"),
         ("twig_share", "f4"), ("far_fade", "f4"), ("foliage", "f4"), ("columns", "f4"), ("opacity", "f4"),
-        ("first", "f4"),
+        ("first", "f4"), ("crown_at", "f4"), ("hertz", "f4"),
     ]
 )  # fmt: skip
-"""Instance attributes of a tree, a block of its twigs or one of them; `tree.glsl` and `hang.vert` describe each."""
-
-PLACED = np.dtype([("root", "3f4"), ("crown_at", "f4"), ("phase", "f4"), ("hertz", "f4")])
-"""Input of `stand.vert`: place of a tree, height of its crown's middle above that [m], phase in the wind and frequency
-of its trunk [Hz]."""
+"""Instance attributes of a tree, a block of its twigs or one of them; `tree.glsl`, `hang.vert` and `stand.vert`
+describe each."""
 
 STOOD = np.dtype(
     [("wind_response", "4f4"), ("haze_in_front", "4f4"), ("grass_about", "4f4"), ("light_from_grass", "3f4")]

@@ -14,8 +14,9 @@ from .bounds import blocks_inside
 from .model import Model
 from .normals import Normals
 from .outline import NOWHERE
+from .segments import Segment, Segments
 from .shells import RINGS, SHELLS
-from .standing import HUNG, HUNG_LEAVES, INSTANCE, ROW_SPACING, STOOD
+from .standing import HUNG, HUNG_LEAVES, INSTANCE, ROW_SPACING
 from .twig import BLOCK, ROW, TWIG
 from .wood import Parts, parts
 
@@ -59,14 +60,23 @@ STREAMS = (LEAVES, *CARDS, *WOODS, FAR, *BACKS)
 
 FIRST_OF = {name: number for number, name in enumerate(STREAMS)}
 
-ROOM = 16
-"""Trees that a stream has room for at first: there are many streams, and most have few trees."""
+
+def _alone() -> NDArray[np.void]:
+    tree = np.zeros(1, INSTANCE)
+    for name in ("twig_share", "columns", "opacity", "scale", "foliage", "tint"):
+        tree[name] = 1.0
+    tree["turn"] = 1.0, 0.0
+    return tree
+
+
+ALONE = _alone()
+"""A tree at the origin with all its leaves, a record of `INSTANCE`: to bake its pictures, or to draw it once."""
 
 
 class GpuModel:
     """A grown tree in one GL context, and the streams of instances that are drawn as it is."""
 
-    def __init__(self, ctx: moderngl.Context, model: Model) -> None:
+    def __init__(self, ctx: moderngl.Context, model: Model, segments: Segments) -> None:
         self.model = model
         ranges = ranges_of(model.vertices)
         self.numbers: Uniforms = {
@@ -85,14 +95,9 @@ class GpuModel:
         self.first_triangle: list[int] = np.cumsum([0, *map(len, triangles)]).tolist()
         """First triangle of the faces of each of `PIXEL_RADII`: of the whole wood, then of its edges."""
         self.bare = Stream(ctx, INSTANCE)
-        self._alone = np.zeros(1, INSTANCE)
-        for name in ("twig_share", "columns", "opacity", "scale", "foliage", "tint"):
-            self._alone[name] = 1.0
-        self._alone["turn"] = 1.0, 0.0
-        self.bare.write(self._alone)
-        self.streams = {name: Stream(ctx, INSTANCE, rows=ROOM) for name in (*WOODS, FAR, *BACKS, *CARDS, LEAVES)}
-        self.stood = {id(each): Stream(ctx, STOOD, rows=ROOM) for each in self.streams.values()}
-        """Outputs of `stand.vert` for each stream, by the stream's id."""
+        self.bare.write(ALONE)
+        self.streams: Mapping[str, Segment] = {name: segments.segment() for name in STREAMS}
+        """The trees that each stream draws."""
         self.hung = {**{name: Stream(ctx, HUNG) for name in CARDS}, LEAVES: Stream(ctx, HUNG_LEAVES)}
         """Outputs of `hang.vert` for streams of twigs."""
         self.twigs_of_leaves = 1
@@ -119,18 +124,6 @@ class GpuModel:
         ]
         return self.vertices, " ".join(kept), *(name for name in names if name in program)
 
-    def write(self, name: str, rows: NDArray[np.void]) -> None:
-        """Send a stream's instances."""
-        stream = self.streams[name]
-        stream.write(rows)
-        self.stood[id(stream)].room(len(rows))
-
-    def empty(self, name: str) -> None:
-        """Empty a stream."""
-        stream = self.streams[name]
-        for each in (stream, self.stood[id(stream)], self.hung.get(name, stream)):
-            each.room(0)
-
     def show_wood(
         self, name: str, pixel_radius: float, foliage: float, rows: NDArray[np.void], sides: Doubles
     ) -> None:  # fmt: skip
@@ -146,16 +139,11 @@ class GpuModel:
             inside = np.array([blocks_inside(blocks, rows, sides) for blocks in self.model.near_blocks])
             self.wood[name] = Parts(*np.minimum(BLOCK * inside.T, drawn[:2])[::-1].reshape(-1).tolist())
 
-    def rehearse(self) -> list[str]:
-        """Put a tree into each empty stream, to draw it once; return these streams' names."""
-        empty = [name for name, stream in self.streams.items() if not stream.count]
-        for name in empty:
-            self.write(name, self._alone)
-            if name in self.wood:
-                self.wood[name] = Parts(1, 1)
-        return empty
+    def rehearse(self) -> None:
+        """Let each stream of wood draw a triangle."""
+        self.wood = dict.fromkeys(WOODS, Parts(1, 1))
 
     def release(self) -> None:
         """Release all GL objects."""
         release_all(self.twigs, self.vertices, self.triangles, self.bare)
-        release_all(*self.streams.values(), *self.stood.values(), *self.hung.values(), self.far, self.depths)
+        release_all(*self.hung.values(), self.far, self.depths)

@@ -241,8 +241,9 @@ def test_n3_held_a_tree_is_shown_as_in_the_frame_before_from_wherever_it_is_seen
         assert prairie.painter is not None
         (ash,) = vars(prairie.painter.part(TreePart))["_kinds"]
         streams = [each.streams[name] for each in ash.models for name in stream.CARDS if each.streams[name].count]
-        (one,) = streams
-        return np.frombuffer(one.buffer.read(standing.INSTANCE.itemsize), standing.INSTANCE)["twig_share"]
+        (one,), size, segments = streams, standing.INSTANCE.itemsize, vars(prairie.painter.part(TreePart))["_segments"]
+        told = segments.instances.buffer.read(size, offset=one.first * size)
+        return np.frombuffer(told, standing.INSTANCE)["twig_share"]
 
     plant(0.0, 0.0)
     stage.shot(prairie, looking(0.0, 1.7, 4.6, pitch=14.0, view=57.0))

@@ -11,7 +11,7 @@ from tallgrass.engine.camera import View, projection_matrix, view_matrix
 from tallgrass.systems.space.cone import distance_in_order
 from tallgrass.systems.space.frustum import picture_sides
 from tallgrass.systems.space.window import cell_of
-from tallgrass.systems.trees.choice import Choice, Chosen, Look
+from tallgrass.systems.trees.choice import Batch, Choice, Chosen, Look
 from tallgrass.systems.trees.habit import NEEDLES
 from tallgrass.systems.trees.model import MODELS, Model, models_of
 from tallgrass.systems.trees.shells import RINGS, SHELL
@@ -50,19 +50,21 @@ def chosen(
     return Choice(Standing(rows), models, [0.1] * len(models)).choose(look)
 
 
+def parts(found: Chosen) -> list[tuple[Batch, NDArray[np.void]]]:
+    """Return each batch and its instances."""
+    return [(batch, found.instances[batch.first : batch.first + batch.size]) for batch in found.batches]
+
+
 def by_stream(found: Chosen) -> dict[tuple[int, str], bytes]:
     """Return what is instances of each stream, by the number of its model and its name."""
-    instances = {
-        (batch.model, batch.name): rows.tobytes() for batch, rows in zip(found.batches, found.instances, strict=True)
-    }
+    instances = {(batch.model, batch.name): rows.tobytes() for batch, rows in parts(found)}
     assert len(instances) == len(found.batches)
     return instances
 
 
 def roots(found: Chosen, model: int, *names: str) -> Doubles:
     """Return where those stand that are in some streams of a model."""
-    parts = zip(found.batches, found.instances, strict=True)
-    some = [rows["root"] for batch, rows in parts if batch.model == model and batch.name in names]
+    some = [rows["root"] for batch, rows in parts(found) if batch.model == model and batch.name in names]
     return np.concatenate([np.zeros((0, 3)), *some])
 
 
@@ -88,9 +90,7 @@ def test_a_tree_is_in_as_many_streams_as_it_is_drawn_in_ways(models: list[Model]
         assert len(cards) > len(wood)  # in blocks of twigs
         assert len(set(far)) == len(far) > 0
         assert far == back
-    instances = np.concatenate(
-        [rows for batch, rows in zip(found.batches, found.instances, strict=True) if batch.name == FAR]
-    )
+    instances = np.concatenate([rows for batch, rows in parts(found) if batch.name == FAR])
     between = {tuple(each["root"]) for each in instances if each["far_fade"] < 1.0}
     near = {tuple(root) for model in range(len(models)) for root in roots(found, model, *CARDS)}
     assert between == near & {tuple(each["root"]) for each in instances}
@@ -99,7 +99,7 @@ def test_a_tree_is_in_as_many_streams_as_it_is_drawn_in_ways(models: list[Model]
 
 def test_streams_are_from_near_to_far_and_soft_edges_of_pictures_from_far_to_near(models: list[Model]) -> None:
     found, seen = chosen(a_wood(models), models), set[bool]()
-    for batch, rows in zip(found.batches, found.instances, strict=True):
+    for batch, rows in parts(found):
         off = np.linalg.norm(rows["root"] - EYE, axis=1)
         if batch.size > 1 and batch.name != LEAVES:
             seen.add(batch.name in BACKS)
@@ -112,14 +112,12 @@ def test_what_is_placed_and_how_far_off_it_is_is_of_the_trees_of_each_stream(mod
     rows_of_all = a_wood(models)
     found = chosen(rows_of_all, models)
     height = {tuple(each["root"]): each["height"] for each in rows_of_all}
-    assert sum(batch.size for batch in found.batches) == len(found.placed)
-    for batch, rows in zip(found.batches, found.instances, strict=True):
-        placed = found.placed[batch.first : batch.first + batch.size]
-        assert np.array_equal(placed["root"], rows["root"])
+    assert sum(batch.size for batch in found.batches) == len(found.instances)
+    for batch, rows in parts(found):
         larger = np.array([height[tuple(root)] for root in rows["root"]]) / models[batch.model].height
         assert np.allclose(rows["scale"], larger)
-        assert np.allclose(placed["crown_at"], larger * models[batch.model].middle)
-        off = np.linalg.norm(placed["root"] + placed["crown_at"][:, None] * (0.0, 1.0, 0.0) - EYE, axis=1)
+        assert np.allclose(rows["crown_at"], larger * models[batch.model].middle)
+        off = np.linalg.norm(rows["root"] + rows["crown_at"][:, None] * (0.0, 1.0, 0.0) - EYE, axis=1)
         _, trees = np.unique(rows["root"], axis=0, return_index=True)
         assert (batch.nearest, batch.mean) == pytest.approx((off.min(), off[trees].mean()))
         assert batch.foliage == rows["foliage"].min()
@@ -137,7 +135,7 @@ def test_the_fewer_leaves_a_tree_has_the_smaller_it_becomes_a_picture(models: li
 
 def test_trees_among_the_grass_are_in_streams_by_shells_of_it_and_all_beyond_it_in_others(models: list[Model]) -> None:
     found, shells = chosen(a_wood(models), models), set[str]()
-    for batch, rows in zip(found.batches, found.instances, strict=True):
+    for batch, rows in parts(found):
         off = np.hypot(rows["root"][:, 0], rows["root"][:, 2])
         if batch.name in (*CARDS, *WOODS, *BACKS):
             assert off.min() > (SHELL * off.max() if 0.25 * REACH < off.max() < REACH else 0.0)
@@ -151,7 +149,7 @@ def test_soft_edges_of_needles_beyond_the_grass_are_in_rings_which_overlap_by_le
     habit, rings = models[0].habit, dict[int, list[float]]()
     needles = replace(models[0], habit=replace(habit, leaf=replace(habit.leaf, form=NEEDLES)))
     found = chosen(a_wood(models, count=3000), [needles, *models[1:]], reach=40.0)
-    for batch, rows in zip(found.batches, found.instances, strict=True):
+    for batch, rows in parts(found):
         off = np.hypot(rows["root"][:, 0], rows["root"][:, 2])
         if batch.name in BACKS and off.min() >= 40.0:
             assert batch.far == np.inf
@@ -162,7 +160,7 @@ def test_soft_edges_of_needles_beyond_the_grass_are_in_rings_which_overlap_by_le
 
 def test_soft_edges_come_after_the_patch_that_the_farthest_tree_of_a_stream_stands_on(models: list[Model]) -> None:
     found, checked = chosen(a_wood(models), models), 0
-    for batch, rows in zip(found.batches, found.instances, strict=True):
+    for batch, rows in parts(found):
         place = rows["root"][:, ::2]
         if batch.name in (*CARDS, *BACKS):
             among = np.hypot(*place.T) < REACH
@@ -201,4 +199,4 @@ def test_where_no_tree_is_in_the_picture_nothing_is_drawn(models: list[Model]) -
     behind["root"][:, 0] = 0.0
     for rows in (behind, behind[:0]):
         found = chosen(rows, models)
-        assert (found.batches, found.instances, len(found.placed)) == ([], [], 0)
+        assert (found.batches, len(found.instances)) == ([], 0)

@@ -1,0 +1,107 @@
+"""Trees of all streams in the same few vertex buffers, each stream in a segment of its own."""
+
+from collections.abc import Sequence
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ...engine.gl.stream import Stream, release_all
+from .standing import INSTANCE, STOOD
+
+SPARE_PART, SPARE_TREES = 8, 4
+"""A segment has room for one part in `SPARE_PART` more trees than it needs, and for `SPARE_TREES` more: it seldom
+moves."""
+
+WHOLE = np.dtype((np.void, INSTANCE.itemsize))
+"""A record of `INSTANCE` as mere bytes: numpy copies it sixty times as fast."""
+
+
+class Segment:
+    """The trees of a stream: records of the buffers of `Segments`, one after another."""
+
+    def __init__(self, buffers: Sequence[Stream]) -> None:
+        self.first = self.count = self.room = 0
+        self._buffers, self._arrays = buffers, list[moderngl.VertexArray]()
+
+    def bindings(self, program: moderngl.Program) -> list[tuple[moderngl.Buffer | str, ...]]:
+        """Return the buffers as content of a vertex array, which `lead` has to know then."""
+        return [each.binding(program) for each in self._buffers]
+
+    def lead(self, array: moderngl.VertexArray) -> None:
+        """Let a vertex array of this content read the segment, wherever it moves."""
+        self._arrays.append(array)
+        self._point(array)
+
+    def lose(self) -> None:
+        """Forget all vertex arrays."""
+        self._arrays.clear()
+
+    def move(self, first: int, room: int) -> None:
+        """Begin at another record."""
+        self.first, self.room = first, room
+        for array in self._arrays:
+            self._point(array)
+
+    def _point(self, array: moderngl.VertexArray) -> None:
+        for each in self._buffers:
+            each.point(array, self.first)
+
+
+class Segments:
+    """The buffers, and their division into segments: a frame fills them all in one go.
+
+    The first holds records of `INSTANCE`, and the second what `stand.vert` makes of them.
+    """
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self.instances, self.stood = Stream(ctx, INSTANCE), Stream(ctx, STOOD)
+        self._rows = np.zeros(0, WHOLE)
+        """Scratch array of the first buffer's records."""
+        self._filled: Sequence[Segment] = []
+        self._roomy = set[Segment]()
+        """Segments that have room."""
+        self._end = 0
+
+    def segment(self) -> Segment:
+        """Return a new segment, empty so far."""
+        return Segment((self.instances, self.stood))
+
+    def write(self, filled: Sequence[Segment], count: Sequence[int], instances: NDArray[np.void], /) -> None:
+        """Fill segments with so many of the instances each, one after another, and empty all others."""
+        for segment in self._filled:
+            segment.count = 0
+        self._filled, rows, done = filled, instances.view(WHOLE), 0
+        for segment, trees in zip(filled, count, strict=True):
+            segment.count = trees
+            if trees > segment.room:
+                self._give_room(segment)
+        if self._end > 2 * (len(instances) + SPARE_TREES * len(filled)):
+            self._close_gaps()
+        if self._end > len(self._rows):
+            self._rows = np.zeros(2 * self._end, WHOLE)
+        for segment in filled:
+            self._rows[segment.first : segment.first + segment.count] = rows[done : done + segment.count]
+            done += segment.count
+        self.instances.write(self._rows[: self._end])
+        self.stood.room(self._end)
+
+    def _give_room(self, segment: Segment) -> None:
+        """Move a segment to the end, with room to spare."""
+        room = segment.count + segment.count // SPARE_PART + SPARE_TREES
+        segment.move(self._end, room)
+        self._roomy.add(segment)
+        self._end += room
+
+    def _close_gaps(self) -> None:
+        """Take all room from empty segments, and move the others together."""
+        for segment in self._roomy.difference(self._filled):
+            segment.room = 0
+        self._roomy.clear()
+        self._end = 0
+        for segment in self._filled:
+            self._give_room(segment)
+
+    def release(self) -> None:
+        """Delete the buffers."""
+        release_all(self.instances, self.stood)
