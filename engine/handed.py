@@ -35,7 +35,7 @@ def as_floats(thing: object, due: str, /, *, holes: bool = False) -> NDArray[np.
     """
     try:
         array = thing if type(thing) is np.ndarray and thing.dtype == np.float32 else _as_singles(thing)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ValueError(f"{due}, not {shortened(thing)}") from None
     bad = np.isinf(array) if holes else ~np.isfinite(array)
     if thing is None or bad.any():
