@@ -1,6 +1,7 @@
 """Tallgrass grows, animates and draws whole prairies in real time."""
 
 from importlib import import_module
+from sys import modules
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -116,5 +117,10 @@ def __getattr__(name: str) -> object:
     if name == "scenes":
         return import_module(".scenes", __name__)
     if name not in _HOMES:
-        raise AttributeError(f"module 'tallgrass' has no attribute '{name}'")
+        raise AttributeError(f"module 'tallgrass' has no attribute '{name}'", name=name, obj=modules[__name__])
     return getattr(import_module(_HOMES[name], __name__), name)
+
+
+def __dir__() -> list[str]:
+    """Return the public names too that nobody has asked for yet, for completion and suggestions."""
+    return sorted({*globals(), *__all__})

@@ -1,6 +1,7 @@
 """Bodies: things that fly over the prairie."""
 
 from dataclasses import dataclass
+from reprlib import repr as shortened
 from typing import Literal, get_args
 
 import numpy as np
@@ -44,7 +45,7 @@ class Hover:
     def __post_init__(self) -> None:
         """Raise ValueError for an unknown model, or a height out of range."""
         if self.model not in get_args(Model):
-            raise ValueError(f"a body's model is one of {', '.join(get_args(Model))}, not {self.model!r}")
+            raise ValueError(f"a body's model is one of {', '.join(get_args(Model))}, not {shortened(self.model)}")
         height: object = self.height
         if not isinstance(height, float | int | np.floating | np.integer) or not 0.0 < height <= HIGHEST:
-            raise ValueError(f"a body flies above 0 and up to {HIGHEST:g} m high, not {height!r}")
+            raise ValueError(f"a body flies above 0 and up to {HIGHEST:g} m high, not {shortened(height)}")

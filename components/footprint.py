@@ -36,9 +36,9 @@ class Footprint:
         object.__setattr__(self, "corners", _pairs(self.corners, "a footprint's corners are"))
         most = self._largest
         if not is_between(0.02, self.radius, most):
-            raise ValueError(f"a footprint's radius is from 0.02 to {most:g} m, not {self.radius!r}")
+            raise ValueError(f"a footprint's radius is from 0.02 to {most:g} m, not {shortened(self.radius)}")
         if not is_between(0.0, self.length, most):
-            raise ValueError(f"a footprint's length is from 0 to {most:g} m, not {self.length!r}")
+            raise ValueError(f"a footprint's length is from 0 to {most:g} m, not {shortened(self.length)}")
         if self.corners and not (
             len(self.corners) >= 3
             and all(isfinite(number) and abs(number) <= most for corner in self.corners for number in corner)
@@ -76,7 +76,7 @@ class Road:
         if len(self.line) < 2 or not all(isfinite(number) and abs(number) <= far for number in numbers):
             raise ValueError(f"a road goes through 2 or more places (x, z) within {far:g} m")
         if not is_between(0.05, self.width, 1000.0):
-            raise ValueError(f"a road's width is from 0.05 to 1000 m, not {self.width!r}")
+            raise ValueError(f"a road's width is from 0.05 to 1000 m, not {shortened(self.width)}")
 
 
 def is_between(least: float, thing: object, most: float) -> bool:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from reprlib import repr as shortened
 from typing import TYPE_CHECKING, ClassVar
 
 from .footprint import Footprint, is_between
@@ -40,6 +41,6 @@ class Presser(Footprint):
         """Raise ValueError for an impossible footprint."""
         Footprint.__post_init__(self)  # a class with slots is made twice, and `super()` means the first one
         if not is_between(0.0, self.strength, 1.0):
-            raise ValueError(f"a presser's strength is from 0 to 1, not {self.strength!r}")
+            raise ValueError(f"a presser's strength is from 0 to 1, not {shortened(self.strength)}")
         if not is_between(0.0, self.wear, 1.0):
-            raise ValueError(f"a presser's wear is from 0 to 1, not {self.wear!r}")
+            raise ValueError(f"a presser's wear is from 0 to 1, not {shortened(self.wear)}")

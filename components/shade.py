@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from math import hypot, isfinite
+from reprlib import repr as shortened
 from sys import float_info
 
 from .footprint import is_between
@@ -44,9 +45,9 @@ class Shade:
     def __post_init__(self) -> None:
         """Raise ValueError for an impossible shade."""
         if not _is_place(self.place):
-            raise ValueError(f"a shade's place is three finite numbers (x, y, z), not {self.place!r}")
+            raise ValueError(f"a shade's place is three finite numbers (x, y, z), not {shortened(self.place)}")
         if not _is_place(self.up) or hypot(*self.up) < 1e-6:
-            raise ValueError(f"a shade's up is a direction (x, y, z), not {self.up!r}")
+            raise ValueError(f"a shade's up is a direction (x, y, z), not {shortened(self.up)}")
         if self.size is None:
             self._must_be_round()
         else:
@@ -56,19 +57,19 @@ class Shade:
         if self.radius is None:
             raise ValueError("a shade has a radius, or the size of a box")
         if not _is_length(self.radius):
-            raise ValueError(f"a shade's radius is above 0 m, not {self.radius!r}")
+            raise ValueError(f"a shade's radius is above 0 m, not {shortened(self.radius)}")
         if self.height is not None and not _is_length(self.height):
-            raise ValueError(f"a shade's height is above 0 m, not {self.height!r}")
+            raise ValueError(f"a shade's height is above 0 m, not {shortened(self.height)}")
         if self.capsule and (self.height is None or self.height < 2.0 * self.radius):
             raise ValueError(f"a capsule's height is at least twice its radius, {self.radius!r}, not {self.height!r}")
 
     def _must_be_a_box(self) -> None:
         if not _is_place(self.size) or not all(map(_is_length, self.size)):  # type: ignore[arg-type]
-            raise ValueError(f"a shade's size is three lengths above 0 m, not {self.size!r}")
+            raise ValueError(f"a shade's size is three lengths above 0 m, not {shortened(self.size)}")
         if self.radius is not None or self.height is not None or self.capsule:
             raise ValueError("a shade with a size is a box: it has no radius, no height, and is no capsule")
         if not is_between(-_LARGEST, self.yaw, _LARGEST):
-            raise ValueError(f"a shade's yaw is finite, not {self.yaw!r}")
+            raise ValueError(f"a shade's yaw is finite, not {shortened(self.yaw)}")
 
 
 def _is_place(thing: object) -> bool:

@@ -1,6 +1,6 @@
 """Checking and converting what a game hands in."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from reprlib import repr as shortened
 
 import numpy as np
@@ -35,7 +35,7 @@ def as_floats(thing: object, due: str, /, *, holes: bool = False) -> NDArray[np.
     """
     try:
         array = thing if type(thing) is np.ndarray and thing.dtype == np.float32 else _as_singles(thing)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ValueError(f"{due}, not {shortened(thing)}") from None
     bad = np.isinf(array) if holes else ~np.isfinite(array)
     if thing is None or bad.any():
@@ -76,6 +76,26 @@ def as_rays(origin: object, direction: object, /) -> tuple[Doubles, Doubles]:
         raise ValueError(f"{due}, and a direction has a length above 0")
     start, way = np.broadcast_arrays(*each)
     return start, way
+
+
+def as_camera(camera: object, /) -> Callable[[], tuple[object, object]]:
+    """Return the camera of a group as a function that returns the view and the projection matrix.
+
+    Raises TypeError for anything but a function. The returned function raises it if the camera returns anything else.
+    """
+    if not callable(camera):
+        raise TypeError(f"the camera of a group is a function that returns two matrices, not {shortened(camera)}")
+
+    def ask() -> tuple[object, object]:
+        told = camera()
+        try:
+            view, projection = told
+        except (TypeError, ValueError):
+            due = "the camera of a group returns the view and the projection matrix"
+            raise TypeError(f"{due}, not {shortened(told)}") from None
+        return view, projection
+
+    return ask
 
 
 def is_somewhere(pose: Pose, /) -> bool:

@@ -2,7 +2,6 @@
 
 import logging
 import os
-import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
 from functools import cache
@@ -11,6 +10,7 @@ from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from pathlib import Path
+from secrets import token_hex
 
 import numpy as np
 
@@ -112,14 +112,12 @@ def _checksum(data: bytes | memoryview, key: str) -> bytes:
 def _write_whole(path: Path, data: bytes) -> None:
     """Write a file atomically, so that no reader ever finds half of it; raises OSError."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, suffix=".part")
+    part = path.with_name(f"{token_hex(DIGEST // 2)}.part")  # tempfile's would be its owner's alone
     try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-        Path(name).replace(path)
-    except OSError:
-        Path(name).unlink(missing_ok=True)
-        raise
+        part.write_bytes(data)
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
 
 
 def _forget_oldest(folder: Path, suffix: str, most: int) -> None:

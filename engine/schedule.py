@@ -8,6 +8,7 @@ from enum import IntEnum
 from functools import partial
 from inspect import isasyncgenfunction, iscoroutinefunction, isgeneratorfunction
 from itertools import count
+from reprlib import repr as shortened
 from time import perf_counter, thread_time
 from typing import Any, Protocol
 
@@ -166,7 +167,7 @@ class Schedule:
         if self._closed:
             raise RuntimeError("this prairie has been released: load it again to add a system")
         if not (isinstance(name, str) and name.strip()):
-            raise ValueError(f"a system's name is a text that is not empty, unlike {name!r}")
+            raise ValueError(f"a system's name is a text that is not empty, unlike {shortened(name)}")
         if name in self._systems:
             raise ValueError(f"there is a system '{name}' already; replace it, or take another name")
         ready = _ready(name, run)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from math import ceil, floor, log
+from reprlib import repr as shortened
 from statistics import median
 from time import perf_counter
 
@@ -177,7 +178,7 @@ class Governor:
     def hold(self, seconds: float | None) -> None:
         if seconds is not None and not (isinstance(seconds, NUMBER_TYPES) and 0.0 < seconds <= LONGEST):
             due = f"a time above 0 s and up to {LONGEST:g} s, such as 1 / 60, or None for no limit"
-            raise ValueError(f"hold is {due}, not {seconds!r}")
+            raise ValueError(f"hold is {due}, not {shortened(seconds)}")
         self._hold = seconds
 
     def begin(self, outlook: Outlook, /, *, goes_on: bool = False) -> None:

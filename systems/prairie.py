@@ -10,9 +10,9 @@ import moderngl
 
 from ..engine.camera import View, as_origin, camera_at, projection_matrix, view_matrix, view_of
 from ..engine.declared.parts import DEPTHS, as_parts
-from ..engine.declared.quality import LodName
+from ..engine.declared.quality import PRESETS, LodName
 from ..engine.gl.guest import guest_view
-from ..engine.handed import must_be_a, must_be_flags, must_be_known, must_be_seed, must_be_viewer
+from ..engine.handed import as_camera, must_be_a, must_be_flags, must_be_known, must_be_seed, must_be_viewer
 from ..engine.plugged import bring_systems
 from ..engine.scene import LoadedScene, SceneLike, must_be_read, read_again, read_scene
 from ..engine.schedule import Phase, Schedule
@@ -56,9 +56,6 @@ class Prairie(Tending):
     loaded: LoadedScene
     """The scene, and the files that it was read from."""
 
-    preset: str | None
-    """Preset that overrides the scene's own quality. A new value takes effect with the next `reload`."""
-
     governor: Governor
     """The governor of the frame time; change its `hold` at any time."""
 
@@ -74,7 +71,7 @@ class Prairie(Tending):
         self.governor = Governor(hold)  # raises for a bad hold, so before any entities are made
         site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
         super().__init__(site, World(self.advance), live=live)
-        self.loaded, self.preset, self._origin = loaded, preset, (0.0, 0.0, 0.0)
+        self.loaded, self._preset, self._origin = loaded, preset, (0.0, 0.0, 0.0)
         self._readings: WeakKeyDictionary[Site, LoadedScene] = WeakKeyDictionary()
         self._seasons = Seasons(loaded.scene)
         self._ripening = Ripening(self._seasons, live=live)
@@ -135,6 +132,20 @@ class Prairie(Tending):
     def files(self) -> dict[str, Path]:
         """Paths of the scene's file, if it has one, and of the files that it refers to, by name."""
         return self.loaded.paths
+
+    @property
+    def preset(self) -> str | None:
+        """Preset that overrides the scene's own quality, or None; a new one takes effect with the next `reload`.
+
+        Setting it raises ValueError for an unknown preset.
+        """
+        return self._preset
+
+    @preset.setter
+    def preset(self, preset: str | None) -> None:
+        self._must_be_there("choose another preset")
+        must_be_known("preset", preset, PRESETS)
+        self._preset = preset
 
     @property
     def painter(self) -> Painter | None:
@@ -263,15 +274,16 @@ class Prairie(Tending):
         At each draw, `camera` is called for the view and projection matrices that `draw` takes. The prairie is drawn
         after groups of a lower `order` and before those of a higher one. A batch may have several groups, each with
         other `parts`. The group's `visible` shows or hides it; its `delete`, and `release`, remove it from the batch.
-        Raises RuntimeError after `release`, and what `draw` raises for a viewer, parts and depth.
+        Raises RuntimeError after `release`, TypeError for a camera that is no function, and what `draw` raises for a
+        viewer, parts and depth. The batch raises TypeError if `camera` returns anything but two matrices.
         """
         self._must_be_there("put it into a batch")
         must_be_viewer(viewer)
         must_be_known("depth", str(depth), DEPTHS)
-        chosen = None if parts is None else as_parts(parts)
+        asked, chosen = as_camera(camera), None if parts is None else as_parts(parts)
 
         def draw() -> None:
-            self.draw(*camera(), viewer=viewer, parts=chosen, depth=depth)
+            self.draw(*asked(), viewer=viewer, parts=chosen, depth=depth)
 
         return self._assembly.screen.group(draw, batch, order, parent)
 

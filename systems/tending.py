@@ -1,6 +1,7 @@
 """The changes that a game makes to a prairie: of winds, grass, ground and light."""
 
 from collections.abc import Iterable
+from reprlib import repr as shortened
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -85,7 +86,7 @@ class Tending(Answering):
         among = [each.plant == "flower" for each in self.scene.grass.values()]
         number = self.scene.number_of(kind)
         if number is None:
-            raise TypeError(f"sow takes the name of a kind of grass, not {kind!r}")
+            raise TypeError(f"sow takes the name of a kind of grass, not {shortened(kind)}")
         sow(self.site.ground.density, number, among, footprint, density, pose, soft=soft)
 
     def clear(self, footprint: Footprint | Road, *, soft: float = 0.0, pose: Pose = HERE) -> None:
@@ -138,7 +139,7 @@ class Tending(Answering):
                 f"'{name}' are trees: give each another Tree, or reload the scene with another leaf or bark"
             )
         if self.scene.number_of(name) is None:
-            raise TypeError(f"change_kind takes the name of a kind of grass, not {name!r}")
+            raise TypeError(f"change_kind takes the name of a kind of grass, not {shortened(name)}")
         self._seasons.change(name, keys, over=over, time=self.time)
 
     def ground_texture(self, texture: object, *, side: float | None = None, linear: bool = False) -> None:

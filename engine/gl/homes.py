@@ -75,7 +75,11 @@ class Home(Generic[Thing]):
         return True
 
     def _release(self) -> None:
+        """Release the thing; Mesa drops the general binding of uniform buffers with a block's own buffer."""
+        gl = self._gl
+        bound = gl.number("UNIFORM_BUFFER_BINDING")
         self.thing.release()
+        gl.glBindBuffer(ENUMS["UNIFORM_BUFFER"], gl.living("Buffer", bound))
         if self.is_here():
             self._gl.glDeleteVertexArrays(1, self._mark)
 

@@ -173,10 +173,10 @@ class _Composer:
             parent.key = None
 
     def _put_pair(self, parent: Node, key: Node, value: Node) -> None:
-        name = key.data
-        if not isinstance(name, str):
+        name = key.data if isinstance(key.data, str) else str(key.data)
+        if key.data != name:  # its value is read all the same, so that what is wrong in it is told too
             self._report(key.line, key.column, "a key must be text; write it in quotes")
-        elif name == "<<":
+        if name == "<<":
             self._report(key.line, key.column, "merge keys ('<<') are not read; write the keys out")
         elif name in parent.keys:
             first = parent.keys[name]

@@ -43,11 +43,13 @@ class _Reading:
         if isinstance(data, dict):
             node.data = {}
             for key, inner in data.items():
-                if not isinstance(key, str):
-                    self.problems.append(self._problem(where, f"a key must be text, found {shortened(key)}"))
-                    continue
-                node.below[key] = node.keys[key] = below = self.node(inner, (*where, key))
-                node.data[key] = below.data
+                name = key if isinstance(key, str) else shortened(key)
+                below = self.node(inner, (*where, name))
+                if name != key:  # its value is read all the same, so that what is wrong in it is told too
+                    problem = f"a key must be text, found {name}"
+                    self.problems.append(Problem("", below.line + 1, 1, problem, key=key_path(where)))
+                node.below[name] = node.keys[name] = below
+                node.data[name] = below.data
         elif isinstance(data, list):
             node.below = {step: self.node(inner, (*where, step)) for step, inner in enumerate(data)}
             node.data = [below.data for below in node.below.values()]

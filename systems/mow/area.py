@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
 from itertools import pairwise
+from reprlib import repr as shortened
 
 import numpy as np
 
@@ -40,11 +41,11 @@ _DEEP_WITHIN = -1e9
 def must_be_area(area: object, pose: object, done: str, /) -> None:
     """Raise TypeError for no area or no pose, ValueError for a pose that is not finite; `done` is a participle."""
     if not isinstance(area, Footprint | Road):
-        raise TypeError(f"grass is {done} under a Footprint or a Road, not under {area!r}")
+        raise TypeError(f"grass is {done} under a Footprint or a Road, not under {shortened(area)}")
     if not isinstance(pose, Pose):
-        raise TypeError(f"a footprint lies at a Pose, not at {pose!r}")
+        raise TypeError(f"a footprint lies at a Pose, not at {shortened(pose)}")
     if not is_somewhere(pose):
-        raise ValueError(f"a footprint lies where {SOMEWHERE}, not at {pose!r}")
+        raise ValueError(f"a footprint lies where {SOMEWHERE}, not at {shortened(pose)}")
 
 
 def signed_distances(area: Area, pose: Pose, place: Floats, /, *, least: float = 0.0, near: Segments = None) -> Floats:

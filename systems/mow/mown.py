@@ -2,6 +2,7 @@
 
 from functools import partial
 from math import inf, isnan
+from reprlib import repr as shortened
 
 import numpy as np
 from numpy.typing import NDArray
@@ -128,6 +129,6 @@ def _must_be_valid(done: str, area: object, height: object, pose: object) -> Non
     """Raise the errors of `Mown.cut`; `done` is the verb's participle."""
     must_be_area(area, pose, done)
     if isinstance(height, bool) or not isinstance(height, NUMBER_TYPES):
-        raise TypeError(f"grass is {done} to a height in metres, not to {height!r}")
+        raise TypeError(f"grass is {done} to a height in metres, not to {shortened(height)}")
     if isnan(height) or height < 0.0:
         raise ValueError(f"grass is {done} to 0 m or more, not to {height}")

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from functools import partial
 from math import isfinite
+from reprlib import repr as shortened
 
 import numpy as np
 
@@ -126,6 +127,6 @@ def _painted_densities(density: Density, part: Rectangle) -> Values:
 def _must_be_number(thing: object, rule: str, highest: float, unit: str = "") -> None:
     """Raise TypeError or ValueError unless a value is a number from 0 to `highest`; `rule` begins the message."""
     if isinstance(thing, bool) or not isinstance(thing, NUMBER_TYPES):
-        raise TypeError(f"{rule} from 0 to {highest:g}{unit}, not {thing!r}")
+        raise TypeError(f"{rule} from 0 to {highest:g}{unit}, not {shortened(thing)}")
     if not isfinite(thing) or not 0.0 <= thing <= highest:
         raise ValueError(f"{rule} from 0 to {highest:g}{unit}, not {thing}")

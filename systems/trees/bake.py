@@ -84,9 +84,8 @@ def dilated(values: Floats, cover: Floats, levels: int, /) -> list[Bytes]:
     for one in reversed(_levels(both, levels)):
         covered = one[..., 4:] > 0.0
         own = 255.0 * one[..., :4] / np.where(covered, one[..., 4:], 1.0)
-        around = (
-            found[-1].repeat(2, axis=1).repeat(2, axis=2) if found else np.full_like(own, own[covered[..., 0]].mean())
-        )
+        mean = own[covered[..., 0]].mean() if covered.any() else 0.0
+        around = found[-1].repeat(2, axis=1).repeat(2, axis=2) if found else np.full_like(own, mean)
         found.append(np.where(covered, own, around))
     return [_as_bytes(each) for each in reversed(found)]
 

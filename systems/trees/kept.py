@@ -50,13 +50,18 @@ def kept_pictures(key: str, sides: list[tuple[int, int]], /) -> list[Picture] | 
         if all(
             texels.dtype == np.uint8 and texels.shape == size
             for picture, each in zip(found, sizes, strict=True) for texels, size in zip(picture, each, strict=True)
-        ):  # fmt: skip
+        ) and _are_drawn(found):  # fmt: skip
             return found
     return None
 
 
 def keep_pictures(key: str, pictures: list[Picture], /) -> None:
-    """Write what `kept_pictures` returns; a folder that cannot be written is reported once."""
+    """Write what `kept_pictures` returns; a folder that cannot be written is reported once.
+
+    Nothing is written where a driver has drawn nothing, as one without memory may: later runs would show no trees.
+    """
+    if not _are_drawn(pictures):
+        return
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=QUICKLY) as archive:
         for one, levels in enumerate(pictures):
@@ -64,6 +69,12 @@ def keep_pictures(key: str, pictures: list[Picture], /) -> None:
                 with archive.open(f"{one}.{level}.npy", "w") as file:
                     np.lib.format.write_array(file, texels, allow_pickle=False)
     keep(key, SUFFIX, buffer.getvalue(), most=MOST)
+
+
+def _are_drawn(pictures: list[Picture]) -> bool:
+    """Return whether each picture covers something; optical depths, after each model's picture, are not asked."""
+    shown = [*pictures[0][0][::2], *(levels[0] for levels in pictures[1::2])]
+    return all(texels[..., 3].any() for texels in shown)
 
 
 def sizes_of(sides: list[tuple[int, int]], /) -> list[list[tuple[int, int, int, int]]]:

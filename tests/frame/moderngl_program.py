@@ -131,6 +131,7 @@ class Gl:
         name = (c_int * 1)()
         self.glGenBuffers(1, name)
         self.glBindBufferBase(0x8C8E, 0, name[0])
+        self.glBindBuffer(0x8A11, name[0])
         self.glColorMask(1, 0, 1, 1)
 
     def outputs(self) -> None:
@@ -329,6 +330,19 @@ def check_clip_space(game: Game) -> str:
         game.gl.glClipControl(0x8CA1, 0x935E)
     unlike = float((np.abs(pictures[1] - pictures[0]) > 12).mean())
     return "" if unlike < 0.01 else f"{unlike:.0%} are unlike"
+
+
+def check_release(game: Game) -> str:
+    """All GL state is as before after another prairie has been released."""
+    with game.target(1) as target:
+        prairie = Prairie.load(sys.argv[1], ctx=game.ctx, live=False)
+        draw(prairie)
+        game.gl.hostile()
+        before = game.gl.values()
+        prairie.release()
+        told = compared(before, game.gl.values())
+        game.tidy(target)
+        return told
 
 
 def check_released(game: Game) -> str:

@@ -197,6 +197,27 @@ def test_d6_into_textures_of_several_samples_it_draws_what_is_in_range_and_leave
         thing.release()
 
 
+@pytest.mark.parametrize("samples", [0, 4])
+def test_d6_all_numbers_that_it_draws_are_finite(
+    ctx: moderngl.Context, stage: Stage, load: Load, camera: Aim, samples: int
+) -> None:
+    """Where Mesa clips a ribbon at a corner, and in a sample beyond a crest, they were not: blurs spread such."""
+    prairie = load(linear=True)
+    colours, depth = ctx.texture(stage.size, 4, dtype="f4"), ctx.depth_renderbuffer(stage.size)
+    several = ctx.renderbuffer(stage.size, 4, samples=samples, dtype="f4")
+    deep = ctx.depth_renderbuffer(stage.size, samples=samples)
+    plain, drawn = ctx.framebuffer([colours], depth), ctx.framebuffer([several], deep)
+    for x, yaw, pitch in ((-7.3, 333.0, -32.0), (2.3, 77.0, -8.0), (-8.8, 148.0, -17.0)):
+        drawn.use()
+        drawn.clear(depth=1.0)
+        height = float(prairie.height_at([(x, 5.0)])[0])
+        prairie.draw(*stage.matrices(camera(x, height + 1.7, 5.0, yaw=yaw, pitch=pitch)))
+        ctx.copy_framebuffer(plain, drawn)
+        assert np.isfinite(np.frombuffer(plain.read(components=4, dtype="f4"), np.float32)).all()
+    for thing in (drawn, plain, several, deep, colours, depth):
+        thing.release()
+
+
 def test_d6_without_a_context_of_its_own_a_prairie_takes_the_current_one(
     stage: Stage, load: Load, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -40,11 +40,12 @@ for name in sys.argv[1:]:
     assert done.stdout.splitlines() == [f"{name} esper" if name in whole else name for name in tallgrass.__all__]
 
 
-def test_the_import_alone_loads_no_other_package_and_no_module_of_ours() -> None:
+def test_the_import_alone_lists_every_name_and_loads_no_other_package_and_no_module_of_ours() -> None:
     program = """
 import sys
 before = set(sys.modules)
 import tallgrass
+assert set(tallgrass.__all__) <= set(dir(tallgrass))
 print(*sorted({name for name in set(sys.modules) - before if name.partition(".")[0] not in sys.stdlib_module_names}))
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
@@ -62,5 +63,6 @@ print(*sorted({"matplotlib", "rich", "typer", "tallgrass.app", "tallgrass.testin
 
 
 def test_a_name_that_is_not_there_is_refused_as_python_does() -> None:
-    with pytest.raises(AttributeError, match="module 'tallgrass' has no attribute 'Meadow'"):
+    with pytest.raises(AttributeError, match="module 'tallgrass' has no attribute 'Meadow'") as refusal:
         tallgrass.Meadow  # noqa: B018 - looking it up is the test
+    assert (refusal.value.name, refusal.value.obj) == ("Meadow", tallgrass)  # Python suggests a name from these

@@ -7,7 +7,7 @@ import esper
 import numpy as np
 import pytest
 
-from tallgrass import Gust, Pose, Presser, Tree, WindSource
+from tallgrass import Footprint, Gust, Hover, Pose, Presser, Road, Shade, Tree, WindSource
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.blast import Blast
@@ -98,3 +98,22 @@ def test_d2_a_prairie_says_that_its_world_was_deleted_and_nothing_else(caplog: p
         if "short-lived" in esper.list_worlds():
             esper.delete_world("short-lived")
     assert len(caplog.messages) == 1
+
+
+def test_of_a_whole_array_in_place_of_a_number_one_line_shows_how_it_begins(prairie: Prairie) -> None:
+    many: Any = np.zeros((9, 9))
+    kind = next(iter(prairie.scene.grass))
+    for ask in (
+        lambda: Footprint(radius=many),
+        lambda: Footprint(length=many),
+        lambda: Road([(0, 0), (1, 1)], many),
+        lambda: Presser(wear=many),
+        lambda: Shade((0.0, 0.0, 0.0), many),
+        lambda: Hover(height=many),
+        lambda: prairie.cut(Footprint(), many),
+        lambda: prairie.sow(kind, Footprint(), many),
+        lambda: prairie.clear(many),
+        lambda: setattr(prairie.governor, "hold", many),
+    ):
+        with pytest.raises((TypeError, ValueError), match=r"^[^\n]* array\(\[\[0[^\n]{,60}$"):
+            ask()

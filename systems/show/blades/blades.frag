@@ -71,7 +71,7 @@ void main() {
 #ifdef ORGANS
     covered *= clamp(half_length + 0.5 - abs(onward), 0.0, min(1.0, 2.0 * half_length));
 #endif
-    covered = covered < FAINT ? 0.0 : covered;
+    covered = covered >= FAINT ? covered : 0.0;
 #ifdef DEEP
     if (covered < depth_threshold(number, clamp(2.0 - 2.0 * half_width, 0.0, 1.0)))
         discard;

@@ -14,7 +14,7 @@ const float PIXEL_OF_VEINS = 2.3731382;  // pi * pi / (6 ln 2): rate at which av
 // Relative brightness of a blade at place `across`, from -1 to 1, where half its width is `half_wide` pixels. `veined` is the
 // visibility of the rib, and of the veins.
 float vein_brightness(vec2 veined, float across, float half_wide) {
-    if (half_wide < RIB_FROM)
+    if (!(half_wide >= RIB_FROM))  // so too where it is no number, as of ribbons that Mesa clips at the picture's corners
         return 1.0;
     float broad = length(vec2(RIB, PIXEL_OF_RIB / half_wide)), frequency = VEINS / half_wide;
     float rib = RIB_PALE * RIB * (exp2(-(across * across) / (broad * broad)) / broad - MEAN_OF_RIB);

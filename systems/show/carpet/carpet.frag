@@ -67,6 +67,8 @@ uniform int part;  // pixels to draw: 0, all; 1, those with a coverage of at lea
 #include "systems/show/carpet/met.glsl"
 #endif
 
+const float MOST_RADIANCE = 65504.0;  // the largest number of 16 bits: framebuffers of radiance have these
+
 ByKind densities_here;  // density of each kind at the place
 
 #if KINDS > 4 || defined(EDGED)
@@ -270,6 +272,8 @@ void main() {
         shown = draw_pixel(slope, 0.0, cut_height, share, hidden, dx, dy, ground, soil_dx, soil_dy);
     }
 #endif
-    if (!shown || over_hosts > 0.0 && pixel.a < NOTHING || part != 0 && pixel.a < HALF == (part == 1))
+    // With several samples a pixel, one beyond a crest has a place that is extrapolated, at worst to infinity.
+    bool is_number = dot(pixel.rgb, vec3(1.0)) < MOST_RADIANCE;
+    if (!shown || !is_number || over_hosts > 0.0 && pixel.a < NOTHING || part != 0 && pixel.a < HALF == (part == 1))
         discard;
 }

@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 
 from tallgrass.engine.scene.compose import MOST_BYTES, MOST_VALUES, decode, read_document
 from tallgrass.engine.scene.problem import SceneError
+from tallgrass.engine.scene.validate import validate
 
 
 def problems(text: str) -> list[str]:
@@ -43,6 +44,13 @@ def test_everything_that_does_not_stop_the_reading_is_told_in_one_go() -> None:
         "6:4 the tag '!!int' is not read; leave it out, values are plain text and numbers",
         "7:4 a number of 80 characters is too long",
     ]
+
+
+def test_of_a_key_that_is_no_text_only_what_is_wrong_with_it_is_told() -> None:
+    with pytest.raises(SceneError, match=r"^f:2:9: a key must be text; write it in quotes\n[^\n]*\n *\^$"):
+        validate(read_document("tallgrass: 2\ngrass: {1: {}}", file="f"))
+    with pytest.raises(SceneError, match=r"(?s)a key must be text.*unknown key 'heigth', did you mean 'height'"):
+        validate(read_document("tallgrass: 2\ngrass: {1: {heigth: [1, 2]}}", file="f"))
 
 
 @pytest.mark.parametrize("opening", ["[", "{a: ", "- ", "[{a: ["])

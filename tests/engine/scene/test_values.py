@@ -104,7 +104,9 @@ def test_a_kind_without_a_name_is_refused(key: str, name: str) -> None:
 def test_a_mapping_without_a_version_and_one_with_other_keys_than_texts_are_refused() -> None:
     with pytest.raises(SceneError, match=r"^the scene: a scene begins with 'tallgrass: 2'"):
         read_scene({"grass": GREEN})
-    assert "grass: a key must be text, found 3" in told(grass={3: {}, **GREEN})
+    assert told(grass={3: {}}) == "grass: a key must be text, found 3"
+    wrong = "grass: a key must be text, found 3\ngrass.3.heigth: unknown key 'heigth', did you mean 'height'?"
+    assert told(grass={3: {"heigth": [1, 2]}}) == wrong
 
 
 def test_values_that_hold_themselves_and_too_many_are_refused() -> None:

@@ -191,6 +191,13 @@ def check_batch(_: Game) -> str:
         told["inside"] = "" if (draw() == (255, 0, 0)).all(axis=-1)[behind].all() else "it is not over the prairie"
         sprites[0].group = orders[0]
         group.delete()
+        astray = prairie.group(batch, lambda: None, order=1)  # type: ignore[arg-type, return-value]
+        try:
+            draw()
+            told["astray"] = "it is drawn"
+        except TypeError as error:
+            told["astray"] = "" if "returns the view and the projection matrix, not None" in str(error) else str(error)
+        astray.delete()
         told["taken out"] = different(draw(), without)
         other, again = Prairie(LOADED, live=False), Prairie(LOADED, live=False)
         for order, extra in ((1, other), (3, again)):

@@ -3,7 +3,6 @@
 import io
 import os
 import sys
-import tempfile
 from hashlib import blake2b
 from pathlib import Path
 from typing import Any, Never
@@ -227,12 +226,21 @@ def test_a_place_where_nothing_can_be_written_is_told_once_and_no_error(
     def refuse(*_args: Any, **_options: Any) -> Never:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(tempfile, "mkstemp", refuse)
+    monkeypatch.setattr(Path, "write_bytes", refuse)
     for _ in range(2):
         assert cached_growth(KIND, SMALL, seed=5) is GROWN
     assert stored(tmp_path) == []
     (told,) = caplog.messages
     assert told.startswith(f"nothing can be cached in {tmp_path} (Permission denied), so plants and clouds")
+
+
+@pytest.mark.usefixtures("grows")
+@pytest.mark.skipif(os.name != "posix", reason="files have no modes")
+def test_a_cache_that_one_user_ships_can_be_read_by_another(tmp_path: Path) -> None:
+    cached_growth(KIND, SMALL, seed=5)
+    (found,) = stored(tmp_path)
+    (own := tmp_path / "own").touch()
+    assert found.stat().st_mode == own.stat().st_mode
 
 
 @pytest.mark.usefixtures("grows")

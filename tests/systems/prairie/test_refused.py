@@ -314,6 +314,11 @@ def test_a_viewer_is_called_by_a_text(prairie: Prairie) -> None:
     assert not prairie.viewers.values()
 
 
+def test_a_group_has_a_function_for_its_camera(prairie: Prairie) -> None:
+    with pytest.raises(TypeError, match=r"^the camera of a group is a function that returns two matrices, not None$"):
+        prairie.group(object(), None)  # type: ignore[arg-type]
+
+
 def test_a_released_prairie_says_so_when_it_is_asked_for_more(prairie: Prairie) -> None:
     handle = prairie.add(Gust())
     prairie.release()
@@ -325,6 +330,7 @@ def test_a_released_prairie_says_so_when_it_is_asked_for_more(prairie: Prairie) 
         ("add a system", lambda: prairie.systems.add("input", "late", print)),
         ("move its time on", lambda: prairie.advance(0.1)),
         ("set its time", lambda: setattr(prairie, "time", 1.0)),
+        ("choose another preset", lambda: setattr(prairie, "preset", "low")),
         *(
             ("ask about it", partial(ask, [(0.0, 0.0)]))
             for ask in (

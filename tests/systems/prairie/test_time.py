@@ -101,3 +101,21 @@ def test_what_is_no_instant_is_refused_and_time_stays(prairie: Prairie, time: fl
     with pytest.raises(TypeError, match=r"^a prairie's time is set to a number of seconds, not to 'noon'$"):
         prairie.time = "noon"  # type: ignore[assignment]
     assert prairie.time == 3.0
+
+
+def test_ground_is_trodden_and_worn_alike_at_any_frame_rate_where_it_is_asked_in_each_tick(prairie: Prairie) -> None:
+    """As in a game that is played over a network; without asking, frames between ticks, or none, tread other ways."""
+    seldom, walker = Prairie.load(SCENE), esper.create_entity(Presser(wear=0.3), Pose(-5.0, 3.0))
+    for tick in range(20):
+        esper.add_component(walker, Pose(-5.0 + 0.5 * tick, 3.0 + np.sin(tick)))
+        for each in (prairie, seldom):
+            each.advance(0.05)
+            each.bent_at([(0.0, 0.0)])
+        if tick % 7:
+            watch(prairie)
+    watch(seldom)
+    np.testing.assert_array_equal(prairie.grass_at(PLACES).density, seldom.grass_at(PLACES).density)
+    np.testing.assert_array_equal(prairie.bent_at(PLACES), seldom.bent_at(PLACES))
+    assert prairie.grass_at([(0.0, 3.0)]).density < 1.0
+    esper.delete_entity(walker, immediate=True)
+    seldom.release()

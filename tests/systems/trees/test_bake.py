@@ -29,6 +29,8 @@ def test_how_light_has_come_is_the_mean_of_what_is_covered_and_goes_on_where_not
         assert (each[0, :edge, :edge] == 200).all()
         assert (each[0, edge:, :edge] == 90).all()
     assert ((levels[0] >= 90) & (levels[0] <= 200)).all()
+    nothing = np.zeros((32, 48), np.float32)
+    assert not dilated(light, nothing, 3)[0].any()  # as where a driver draws nothing
 
 
 def test_of_a_tree_texels_are_larger_that_tell_how_light_has_come() -> None:

@@ -52,6 +52,20 @@ def test_a_file_that_is_broken_or_does_not_fit_counts_as_none(folder: Path) -> N
     assert kept_pictures(KEY, [(48, 80)]) is None
 
 
+@pytest.mark.parametrize("picture", [0, 1])
+def test_pictures_that_a_driver_has_left_empty_are_neither_kept_nor_found(
+    folder: Path, picture: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made = pictures()
+    made[picture][0][-2:, ..., 3] = 0
+    keep_pictures(KEY, made)
+    assert not list(folder.iterdir())
+    with monkeypatch.context() as before:
+        before.setattr(kept, "_are_drawn", lambda _: True)
+        keep_pictures(KEY, made)
+    assert kept_pictures(KEY, SIDES) is None
+
+
 def test_where_nothing_can_be_written_that_is_said_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
