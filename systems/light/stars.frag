@@ -7,6 +7,6 @@ flat in vec3 background;
 out vec4 pixel;
 
 void main() {
-    vec3 light = background + exp(-0.5 * dot(aside, aside)) * added;
+    vec3 light = background + exp(dot(aside, aside) * -0.5) * added;
     pixel = vec4(tone_mapped(light) - tone_mapped(background), 0.0);
 }

@@ -12,7 +12,7 @@ flat out vec3 background;  // radiance of the sky there
 uniform mat3 turn;           // from the stars' axes to the scene's
 uniform float zenith_depth;  // optical depth of the air for a star overhead
 
-const vec2 AIR = vec2(0.025, 11.0);             // of the mass of air by the elevation's sine (Rozenberg, Twilight, 1966)
+const vec2 AIR = vec2(0.025, -11.0);            // of the mass of air by the elevation's sine (Rozenberg, Twilight, 1966)
 const vec4 OUTSIDE = vec4(2.0, 2.0, 0.0, 1.0);  // a place in clip space that no picture shows
 
 // Pixels of the picture in a solid angle about a direction [1/sr]: they are smaller away from its middle.
@@ -28,7 +28,7 @@ void main() {
     if (toward.y <= 0.0 || at.w <= 0.0)
         return;
     aside = STAR_REACH * (2.0 * vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)) - 1.0);
-    float through = transmittance(zenith_depth / (toward.y + AIR.x * exp(-AIR.y * toward.y)));
+    float through = transmittance(zenith_depth / (toward.y + AIR.x * exp(AIR.y * toward.y)));
     background = sky_toward(toward);
     vec2 place = at.xy / at.w;
     if (cloud_edge <= 1.0) {
