@@ -63,7 +63,8 @@ FRAME = np.dtype(
         ("sun", "3f4"), ("exposure", "f4"),
         # Radiance of a thin cloud in full shade; threshold of clouds in their map, above 1 for none.
         ("cloudlight", "3f4"), ("cloud_edge", "f4"),
-        ("groundlight", "3f4"), ("pad_a", "V4"),  # mean radiance of the ground, which lights clouds from below
+        # Mean radiance of the ground, which lights clouds from below; light of a star of magnitude 0 [radiance sr].
+        ("groundlight", "3f4"), ("starlight", "f4"),
         ("sunlight", "3f4"), ("haze_density", "f4"),  # radiance of a white leaf in full sun; 1 / haze distance [1/m]
         ("skylight", "3f4"), ("tallest_grass", "f4"),  # under the whole sky; bound of blades' height [m]
         ("zenith", "3f4"), ("patch_side", "f4"),  # radiance overhead; [m]

@@ -20,8 +20,10 @@ from .repeating import CLOUDS_SIDE, heaps
 SIDE = 64
 """Texels along a side of the block."""
 
-OCTAVES, GAIN = (2, 4, 8, 16), 0.65
-"""Heaps along a side in each octave; amplitude of an octave, relative to the octave before."""
+OCTAVES, GAIN = (2, 4, 8, 16), 0.5 ** (1 / 3)
+"""Heaps along a side in each octave; amplitude of an octave, relative to the octave before.
+
+Eddies half as large stir air half as much to the third root (Kolmogorov, The Local Structure of Turbulence, 1941)."""
 
 STEEPEST = 8.0
 """Largest gradient component that a texel can hold [1 / side]."""
@@ -42,12 +44,12 @@ GLSL = {"BILLOWS_STEEPEST": STEEPEST, "BILLOWS_TEXELS": float(SIDE), "BILLOWS_SI
 
 
 def billow_noise() -> Floats:
-    """Return the noise, scaled to [0, 1] and clipped at the lowest and highest 0.5 %, shape (SIDE,) * 3."""
+    """Return the noise, scaled to [0, 1] about a mean of 0.5, and clipped where 1 % is farther off, (SIDE,) * 3."""
     random = np.random.default_rng(SEED)
     points = (random.random((3, count, count, count), np.float32) for count in OCTAVES)
     field = sum(GAIN**number * heaps(each, SIDE) for number, each in enumerate(points))
-    low, high = np.quantile(field, (0.005, 0.995))
-    return np.asarray(np.clip((field - low) / (high - low), 0.0, 1.0), np.float32)
+    field = field - np.mean(field)
+    return np.asarray(0.5 + 0.5 * np.clip(field / np.quantile(np.abs(field), 0.99), -1.0, 1.0), np.float32)
 
 
 @cache

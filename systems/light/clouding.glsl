@@ -4,7 +4,7 @@
 #include "systems/light/cloudscape.py"
 #include "systems/light/heaps.py"
 
-uniform sampler2D heaps;    // cloud map: density, and its slopes along x and z
+uniform sampler2D heaps;    // cloud map: broad density, its slopes along x and z, and fine density
 uniform sampler3D billows;  // noise of billows, and its gradient along the axes of the block
 
 // From positions in sides of the cloud map's square to those in the block of billows. It is rotated, so that no rows of the block are
@@ -35,17 +35,18 @@ struct CloudPoint {
     float along;   // position on the way, 0 to 1
     float excess;  // excess density, negative outside clouds
     float dome;    // excess density without billows
-    float column;  // excess density at the base below
+    float column;  // excess density of the column, which loses its fine part with height
     float relief;  // how far the billows are lit and shaded one by one, 0 at bases to 1
-    vec3 map;      // texel of the cloud map
+    vec4 map;      // texel of the cloud map
     vec4 billow;   // texel of the billows
 };
 
 CloudPoint cloud_at(Way way, float along) {
     vec2 uv = way.start + way.span * along;
-    vec3 map = textureLod(heaps, uv, 0.0).rgb;
+    vec4 map = textureLod(heaps, uv, 0.0);
     vec4 billow = textureLod(billows, BLOCK * vec3(uv.x, along * (CLOUD_TALLEST / CLOUDS_SIDE), uv.y), way.mip_level);
-    float column = map.x - cloud_edge, dome = column - tallest_column() * along * along;
+    float below = 1.0 - along, column = map.x + HEAPS_FINE * below * below * (map.w - 0.5) - cloud_edge;  // small heaps are low
+    float dome = column - tallest_column() * along * along;
     float relief = clamp(CLOUD_RELIEF * along, 0.0, 1.0);
     float strength = clamp(CLOUD_SUPPORT * column + 1.0 - relief, 0.0, 1.0);
     float excess = dome + CLOUD_BILLOWED * strength * (billow.x - 0.5);

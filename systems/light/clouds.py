@@ -1,9 +1,11 @@
 """Clouds: constants of a drifting layer of clouds, and its mean effect on the light of the sky and the ground.
 
 A cloud stands on a level base. Its height is the root of its excess density: how much the cloud map exceeds its value
-at the edge, relative to the most that it does anywhere. So sides lean inwards, up to round tops. Billows stand out from
-them. `cloudscape.frag` marches through the layer and accumulates optical depth and two sorts of light: sunlight from
-lit sides, and from sides in shade what is scattered through the cloud many times. So bases are flat and grey, tops are
+at the edge, relative to the most that it does anywhere. So sides lean inwards, up to round tops. Fine parts of the map
+fade with height: they fray bases and leave scraps of cloud. Billows stand out from all sides.
+
+`cloudscape.frag` marches through the layer and accumulates optical depth and two sorts of light: sunlight from lit
+sides, and from sides in shade what is scattered through the cloud many times. So bases are flat and grey, tops are
 heaped and bright towards the sun, edges are soft.
 """
 

@@ -1,5 +1,6 @@
 """Clouds drawn into a picture of reduced resolution, which the sky samples."""
 
+import math
 from collections.abc import Mapping
 
 import moderngl
@@ -11,12 +12,12 @@ from ...engine.gl.stream import release_all
 from ...engine.gl.texture import interpolated
 from ..frame.block import FrameBlock, joined
 from .billows import billows_texture
-from .clouds import FADE
+from .clouds import DEPTH, DOME, FADE
 from .heaps import heaps_texture
 
 MOST_ROWS = 364
 """Largest number of rows of the clouds' picture: marching through clouds costs ten times as much as the rest of the
-sky. In a view of 40 degrees a pixel is then 2 mrad high, 1 m on the nearest clouds; billows are 18 m wide and edges 3 m
+sky. In a view of 40 degrees a pixel is then 2 mrad high, 1 m on the nearest clouds; billows are 18 m wide and edges 5 m
 soft. It does not depend on the angle of view, so that zooming makes no new pictures."""
 
 COARSE_ROWS = MOST_ROWS // 2
@@ -31,20 +32,20 @@ LEAST_RISE = 1e-6
 MOST_STEPS = 32
 """Largest number of steps along a line of sight."""
 
-STEP_LENGTHS, STEP_OUTSIDE, STEP_INSIDE = (0.015, 0.165, 0.02), 0.27, 0.2
+STEP_LENGTHS, STEP_OUTSIDE, STEP_INSIDE = (0.015, 0.165, 0.02), 0.35, 0.2
 """Shortest step, and what may be added to it at most outside clouds and inside, relative to the way from the bases to
 the highest tops. Outside, a step grows by `STEP_OUTSIDE` per unit of missing density, as the map hardly rises faster;
 inside, by `STEP_INSIDE` per unit of excess density. So step lengths change gradually, and no edges show. The shortest
 step is some 3 m; the longest is shorter than heaps are wide."""
 
-MARCH_DEPTH = 500.0
-"""Optical depth of the whole way, straight up, per unit of excess density: domes then hide as much overhead as the
-columns that shadows use. Seen with their sides, clouds hide up to 0.07 more of the sky."""
+MARCH_DEPTH = 1.5 * math.sqrt(DOME) * DEPTH**1.5
+"""Optical depth of the whole way, straight up, per unit of excess density: where the column that shadows use has an
+optical depth of 1, the dome above it has the same. Seen with their sides, clouds hide up to 0.05 more of the sky."""
 
-BASE_DEPTH, BASE_DEPTH_RISE = 0.5, 8.0
+BASE_DEPTH, BASE_DEPTH_RISE = 0.2, 4.0
 """Factor on the optical depth at a base, and its increase over the whole height, up to 1: it makes bases soft."""
 
-OPAQUE = 0.02
+OPAQUE = 0.04
 """Transmittance that counts as 0."""
 
 GLSL = {

@@ -24,6 +24,7 @@ from .materials import grain, pigment, side_contrast
 from .repeating import drifted, repeating_texture
 from .shining import Shining
 from .sky import COLUMNS, ROWS
+from .stars import Stars
 from .sun import sun_at
 
 GRID_COLUMNS, GRID_ROWS = 48, 48
@@ -33,7 +34,7 @@ GRID: dict[str, str | int] = {"ACROSS": GRID_COLUMNS, "UP": GRID_ROWS}
 
 
 class LightPart(Part):
-    """Holds the textures of sky, clouds and litter, and the terrain's slope and horizon maps; draws the sky."""
+    """Holds the stars, the maps of sky, clouds and litter, and the terrain's slope and horizon maps; draws the sky."""
 
     def __init__(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], shining: Shining) -> None:
         self.ctx, self._units, self._shining = ctx, units, shining
@@ -43,14 +44,14 @@ class LightPart(Part):
         program = joined(ctx, block, units, "systems/light/sky.vert", "systems/light/sky.frag", GRID)
         self._array = ctx.vertex_array(program, [])
         self._sky = interpolated(ctx.texture((COLUMNS, ROWS), 3, dtype="f4"))
-        self._clouds = Cloudscape(ctx, block, units)
+        self._clouds, self._stars = Cloudscape(ctx, block, units), Stars(ctx, block, units)
         self._repeating: moderngl.Texture | None = None
         self.lie = LieMap(ctx, block, units)
         self._toward = 0.0, -1.0
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
-        """Set a cloud cover, so that rehearsals draw clouds."""
-        record["cloud_edge"] = 0.5
+        """Set a cloud cover and a light of stars, so that rehearsals draw clouds and stars."""
+        record["cloud_edge"], record["starlight"] = 0.5, 1.0
 
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Take over a changed terrain or seed, and the present light."""
@@ -67,6 +68,7 @@ class LightPart(Part):
             self.lie.leap()
         if shining.daylight is not self._lit or before is not grown:
             write_light(record, light, shining.daylight, list(grown.scene.grass.values()))
+            self._stars.shine(light, shining.daylight, record)
             self._toward = toward_sun(light)
         if shining.daylight is not self._lit:
             self._sky.write(shining.daylight.sky.map.astype(np.float32))
@@ -78,6 +80,7 @@ class LightPart(Part):
         release_all(self._repeating)
         self._repeating = repeating_texture(self.ctx, seed=seed)
         self._clouds.lay(seed=seed)
+        self._stars.lay(seed=seed)
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Write the clouds' drift."""
@@ -99,15 +102,15 @@ class LightPart(Part):
         return self._clouds.draw()
 
     def draw_behind(self) -> int:
-        """Draw the sky behind everything else; return the number of draw calls."""
+        """Draw the sky, and the stars by night, behind everything else; return the number of draw calls."""
         self._sky.use(self._units["sky"])
         self._clouds.use()
         self._array.render(moderngl.TRIANGLE_STRIP, vertices=2 * (GRID_COLUMNS + 1), instances=GRID_ROWS)
-        return 1
+        return 1 + self._stars.draw()
 
     def release(self) -> None:
         """Release all GL objects."""
-        release_all(self._array, self._array.program, self._sky, self._clouds, self.lie, self._repeating)
+        release_all(self._array, self._array.program, self._sky, self._clouds, self._stars, self.lie, self._repeating)
 
 
 def write_light(record: NDArray[np.void], declared: Light, light: Daylight, kinds: Sequence[GrassKind], /) -> None:

@@ -1,4 +1,4 @@
-"""The cloud map as the sky's shaders read it: density, and its slopes along x and z."""
+"""The cloud map as the sky's shaders read it: broad density, its slopes along x and z, and fine density."""
 
 from functools import lru_cache
 
@@ -11,25 +11,33 @@ from .repeating import CACHED_SEEDS, SIDE, repeating_levels
 STEEPEST = 24.0
 """Largest slope that a texel can hold, along an axis [1 / side]."""
 
-SLOPE_CUT = 40.0
-"""Cut-off wave number of the slopes [1 / side]: it removes the steps of the map's 256 values."""
+FINE_FROM = 16.0
+"""Wave number from which density is fine [1 / side]: twice that of the broadest heaps. It fades with height, as small
+heaps are low: it frays bases and makes scraps of cloud, but no towers."""
 
-GLSL = {"HEAPS_STEEPEST": STEEPEST}
+FINEST = 0.5
+"""Largest fine density that a texel can hold."""
+
+GLSL = {"HEAPS_STEEPEST": STEEPEST, "HEAPS_FINE": 2.0 * FINEST}
 
 
 @lru_cache(maxsize=CACHED_SEEDS)
 def heap_texels(*, seed: int) -> NDArray[np.uint8]:
-    """Return the density of a scene's cloud map and its slopes along x and z as three channels, (SIDE, SIDE, 3)."""
+    """Return a scene's cloud map as four channels, (SIDE, SIDE, 4).
+
+    They are broad density, its slopes along x and z, and fine density: the rest of the map's density.
+    """
     density = repeating_levels(seed=seed)[0][..., 0] / 255.0
     wave = np.fft.fftfreq(SIDE, 1.0 / SIDE)
-    spectrum = np.fft.fft2(density) * np.exp(-((np.hypot(wave[:, None], wave) / SLOPE_CUT) ** 2)) * 2j * np.pi
-    slopes = (np.fft.ifft2(spectrum * along).real for along in (wave[None], wave[:, None]))
-    texels = np.stack([density, *(0.5 + 0.5 * np.clip(each / STEEPEST, -1.0, 1.0) for each in slopes)], axis=-1)
-    return np.rint(255.0 * texels).astype(np.uint8)
+    spectrum = np.fft.fft2(density) * np.exp(-((np.hypot(wave[:, None], wave) / FINE_FROM) ** 2))
+    broad = np.clip(np.fft.ifft2(spectrum).real, 0.0, 1.0)
+    slopes = (np.fft.ifft2(2j * np.pi * along * spectrum).real / STEEPEST for along in (wave[None], wave[:, None]))
+    signed = (0.5 + 0.5 * np.clip(each, -1.0, 1.0) for each in (*slopes, (density - broad) / FINEST))
+    return np.rint(255.0 * np.stack([broad, *signed], axis=-1)).astype(np.uint8)
 
 
 def heaps_texture(ctx: moderngl.Context, *, seed: int) -> moderngl.Texture:
     """Return `heap_texels` as a repeating texture."""
-    texture = ctx.texture((SIDE, SIDE), 3, heap_texels(seed=seed), alignment=1)
+    texture = ctx.texture((SIDE, SIDE), 4, heap_texels(seed=seed))
     texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
     return texture

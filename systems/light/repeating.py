@@ -63,13 +63,16 @@ SUFFIX, MOST_FILES = ".ground", 24
 CLOUDS_SIDE = 2600.0
 """Side of the cloud map's square [m]."""
 
-BROADEST_WAVE, FALL_OFF, BROAD_CUT, HEAPS_CUT = 5.0, 2.5, 8.0, 14.0
+BROADEST_WAVE, FALL_OFF, BROAD_CUT = 5.0, 2.5, 8.0
 """Wave number of the broadest clouds [1 / side]; exponent by which amplitude falls with wave number; cut-off wave
-numbers of broad clouds and of heaps. Finer detail comes from `billows`."""
+number of broad clouds."""
 
-HEAPS, HEAPS_AMPLITUDE = 8, 0.9
-"""Heaps along a side; amplitude of the heaps relative to the broad clouds (Worley, A Cellular Texture Basis Function,
-1996)."""
+HEAPS, HEAPS_AMPLITUDE, HEAPS_OCTAVES, HEAPS_CUT = 8, 0.9, 4, 2.5
+"""Heaps along a side; their amplitude relative to the broad clouds; number of octaves; and their cut-off wave number
+[1 / heap] (Worley, A Cellular Texture Basis Function, 1996).
+
+In each octave heaps are half as wide and half as high as in the octave before: outlines of clouds are alike at all
+sizes (Lovejoy, Area-Perimeter Relation for Rain and Cloud Areas, 1982). Finer detail comes from `billows`."""
 
 GLSL = {"CLOUDS_SIDE": CLOUDS_SIDE, "LITTER_SIDE": LITTER_SIDE, "LITTER_ONE": LITTER_ONE}
 
@@ -98,18 +101,23 @@ def cloud_map(*, seed: int) -> NDArray[np.uint8]:
     amplitude *= np.exp(-((wave_number / BROAD_CUT) ** 2))
     spectrum = amplitude * np.exp(2j * np.pi * random.random((SIDE, SIDE)))
     broad = np.fft.ifft2(spectrum).real
-    points = random.random((HEAPS, HEAPS, 2), np.float32).transpose(2, 0, 1)
-    heaped = np.fft.ifft2(np.fft.fft2(heaps(points, SIDE)) * np.exp(-((wave_number / HEAPS_CUT) ** 2))).real
-    field = broad / broad.std() + HEAPS_AMPLITUDE * heaped / heaped.std()
+    field = broad / broad.std()
+    for octave in range(HEAPS_OCTAVES):
+        finer = 2**octave
+        points = random.random((HEAPS * finer, HEAPS * finer, 2), np.float32).transpose(2, 0, 1)
+        cut = np.exp(-((wave_number / (HEAPS_CUT * HEAPS * finer)) ** 2))
+        heaped = np.fft.ifft2(np.fft.fft2(heaps(points, SIDE)) * cut).real
+        field += HEAPS_AMPLITUDE / finer * heaped / heaped.std()
     rank = np.empty(field.size)
     rank[np.argsort(field, axis=None, kind="stable")] = np.arange(field.size) / field.size
     return np.asarray(np.floor(rank * 256.0), np.uint8).reshape(SIDE, SIDE)
 
 
 def heaps(points: Floats, side: int, /) -> Floats:
-    """Return inverted Worley noise, tileable, shape (side,) * d: minus the distance to the nearest point, in cells.
+    """Return inverted Worley noise, tileable, shape (side,) * d: minus the squared distance to the nearest point.
 
-    `points` has one in each of n**d cells, at a part of the cell's sides, shape (d, n, ..., n).
+    So heaps are round, with creases between them. The unit is a cell; `points` has one in each of n**d cells, at a part
+    of the cell's sides, shape (d, n, ..., n).
     """
     axes, count = range(len(points)), points.shape[1]
     middles = (np.arange(side // count, dtype=np.float32) + 0.5) / (side // count)
@@ -122,7 +130,7 @@ def heaps(points: Floats, side: int, /) -> Floats:
             others = tuple(2 * each + 1 for each in axes if each != axis)
             squared = squared + np.expand_dims(np.moveaxis(apart, -1, axis + 1), others)
         np.minimum(nearest, squared, out=nearest)
-    return -np.sqrt(nearest.reshape((side,) * len(axes)))
+    return -nearest.reshape((side,) * len(axes))
 
 
 def litter_map(*, seed: int) -> Doubles:

@@ -1,13 +1,10 @@
-#include "lib/clouds.glsl"
-#include "lib/light.glsl"
+#include "systems/light/sky.glsl"
 
 in vec4 ray;
 in vec3 light;
 in vec2 uv;
 in float mean_opacity;
 out vec4 pixel;
-
-uniform sampler2D clouds;  // picture of clouds: opacity; sunlight of lit sides and scattered light that they send; opacity before the sun
 
 const vec2 LIMB = vec2(0.00443, 0.00483);  // sines of the radii of the disc's soft edge; its diameter is 0.53 degrees
 const float DISC = 12.0;     // radiance of the disc, relative to a white leaf in full sun: far above white
@@ -26,7 +23,7 @@ void main() {
     float sunny = ray.w > 0.0 ? glow(ray.xyz) : 0.0;
     if (cloud_edge <= 1.0) {
         vec4 cloud = textureLod(clouds, uv, 0.0);
-        seen = seen + cloud.x * (groundlight - seen) + cloud.z * (cloudlight - groundlight);
+        seen = clouds_before(seen, cloud);
         sunny = cloud.y + sunny * max(1.0 - cloud.w - mean_opacity, 0.0);  // a low sun is dimmed by the clouds' mean opacity
     }
     seen += sunlight * sunny;

@@ -48,7 +48,7 @@ PEAK = (1.0 + FORWARD**2) / (2.0 * FORWARD)
 GLSL = {"PEAK": PEAK}
 
 NIGHT = np.array([0.0030, 0.0052, 0.0120])
-"""Radiance of the night sky: stars, and a moon that is not drawn."""
+"""Radiance of the night sky: faint stars, and a moon that is not drawn. Bright stars are drawn one by one."""
 
 _SINE = (np.arange(ROWS) / (ROWS - 1.0)) ** 2
 _AZIMUTH = np.linspace(0.0, pi, COLUMNS)

@@ -213,12 +213,14 @@ def test_f5_an_overcast_sky_is_as_bright_as_the_ground_below_is_lit(room: Stage,
 
 def test_f5_clouds_are_brighter_on_the_side_of_the_sun(room: Stage, load: Load) -> None:
     """Where a cloud thins out towards the sun, to the right, it is brighter than with the sun on its left."""
-    skies = [sky_over(room, load, 0.5, up=1.3, azimuth=side).reshape(*room.size[::-1], 3) for side in (90.0, -90.0)]
-    blue, (right, left) = sum(np.ptp(sky, axis=2) for sky in skies), map(bright, skies)
+    sides = [load(f"{SCENE}light: {{ azimuth: {side}, elevation: 60, clouds: 0.5 }}") for side in (90, -90)]
+    views = [Camera((x, 2.0, 0.0), 0.0, 1.3, np.radians(50.0)) for x in np.arange(4) * CLOUDS_SIDE / 4.0]
+    skies = [np.stack([room.shot(side, view) for view in views]) for side in sides]
+    blue, (right, left) = sum(np.ptp(sky, axis=3) for sky in skies), (sky.mean(axis=3) for sky in skies)
     way = 16  # pixels
-    thins = blue[:, 2 * way :] - blue[:, : -2 * way]
-    brighter = (right - left)[:, way:-way]
-    brighter -= brighter.mean(axis=0)  # about the sun all the sky is
+    thins = blue[..., 2 * way :] - blue[..., : -2 * way]
+    brighter = (right - left)[..., way:-way]
+    brighter -= brighter.mean(axis=(0, 1))  # about the sun all the sky is
     assert np.corrcoef(thins.ravel(), brighter.ravel())[0, 1] > 0.15
 
 
@@ -242,9 +244,10 @@ def test_f5_bases_of_clouds_are_about_a_third_as_bright_as_their_sunlit_sides(
     room: Stage, load: Load, cover: float
 ) -> None:
     prairie = load(f"{SCENE}light: {{ azimuth: 180, elevation: 45, clouds: {cover} }}")
-    sky = shown_as(room.shot(prairie, Camera((0.0, 2.0, 0.0), 0.0, 0.6, np.radians(50.0))) / 255.0).reshape(-1, 3)
+    views = (Camera((x, 2.0, 0.0), 0.0, 0.6, np.radians(50.0)) for x in np.arange(4) * CLOUDS_SIDE / 4.0)
+    sky = shown_as(np.stack([room.shot(prairie, view) for view in views]) / 255.0).reshape(-1, 3)
     clouds = bright(sky[None])[0][np.ptp(sky, axis=1) < 0.15 * sky.max(axis=1)]
-    assert 0.25 < np.percentile(clouds, 5) / np.percentile(clouds, 95) < 0.4
+    assert 0.25 < np.percentile(clouds, 5) / np.percentile(clouds, 95) < 0.43
 
 
 def grown(mask: NDArray[np.bool_], pixels: int) -> NDArray[np.bool_]:
@@ -254,9 +257,12 @@ def grown(mask: NDArray[np.bool_], pixels: int) -> NDArray[np.bool_]:
     return mask
 
 
-@pytest.mark.parametrize(("pitch", "most"), [(UP, 0.016), (0.3, 0.05)])
+@pytest.mark.parametrize(("pitch", "most"), [(UP, 0.035), (0.3, 0.06)])
 def test_f5_hardly_any_puffs_float_beside_clouds(room: Stage, load: Load, pitch: float, most: float) -> None:
-    """What is narrower than 7 pixels, and farther than 3 from what is broader, is a puff."""
+    """What is narrower than 7 pixels, and farther than 3 from what is broader, is a puff or a scrap of cloud.
+
+    With billows as strong outside clouds as inside they were 0.05 and 0.07 of all clouds.
+    """
     skies, puffs = [load(f"{SCENE}light: {{ elevation: 60, clouds: {part} }}") for part in (0.1, 0.0)], []
     for x in np.arange(4) * CLOUDS_SIDE / 4.0:
         up = Camera((float(x), 2.0, 0.0), 0.0, pitch, np.radians(40.0))
