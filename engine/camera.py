@@ -9,7 +9,7 @@ from reprlib import repr as shortened
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.arrays import Doubles, Floats, Point
+from ..components.arrays import Doubles, Floats, Place, Point
 from .curve import Curve
 from .declared.camera import CameraSource, Stop
 from .handed import FARTHEST, as_floats
@@ -95,6 +95,11 @@ class View:
 def forward(yaw: float, pitch: float, /) -> tuple[float, float, float]:
     """Return the unit vector in which a camera of this yaw and pitch [rad] looks: yaw 0 is -z, 90° is +x."""
     return math.sin(yaw) * math.cos(pitch), math.sin(pitch), -math.cos(yaw) * math.cos(pitch)
+
+
+def ahead(place: Place, yaw: float, way: float, /) -> Place:
+    """Return the place on the ground at a distance `way` [m] from another along a yaw [rad]."""
+    return place[0] + way * math.sin(yaw), place[1] - way * math.cos(yaw)
 
 
 def is_mirrored(view: View, /) -> bool | None:
