@@ -8,7 +8,7 @@ import numpy as np
 
 from ..components.body import Body
 from ..components.pose import Pose
-from ..engine.camera import Camera, forward
+from ..engine.camera import Camera, ahead, forward
 from ..systems.bodies.fly import foot, lean, level
 from ..systems.prairie import Prairie
 from ..systems.wind.blast import Blast, Shape
@@ -156,7 +156,7 @@ class Flight:
 
     def __init__(self, prairie: Prairie, walker: Walker, ground: Ground) -> None:
         (x, _, z), yaw = walker.position, walker.yaw
-        self.saucer = launched(x + DISTANCE * math.sin(yaw), z - DISTANCE * math.cos(yaw), yaw, ground)
+        self.saucer = launched(*ahead((x, z), yaw, DISTANCE), yaw, ground)
         self._prairie = prairie
         self._entity = prairie.add(BLAST, pose=jet(self.saucer, ground), name="saucer")
         self._follow(ground)

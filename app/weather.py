@@ -1,13 +1,13 @@
 """Winds that the window's viewer sets off at the place it looks at."""
 
 from itertools import count
-from math import cos, degrees, isnan, remainder, sin, tau
+from math import degrees, isnan, remainder, tau
 from typing import Literal
 
 import numpy as np
 
 from ..components.wind import WindPrimitive
-from ..engine.camera import Camera, forward
+from ..engine.camera import Camera, ahead, forward
 from ..engine.declared.way import Waypoint
 from ..engine.terrain.pick import pick
 from ..engine.terrain.record import Terrain
@@ -41,10 +41,10 @@ def looked_at(camera: Camera, ground: Ground, terrain: Terrain, /) -> tuple[floa
 
     Without an intersection within `FARTHEST` it is the ground `AHEAD`.
     """
-    eye, ahead = np.array([camera.position]), np.array([forward(camera.yaw, camera.pitch)])
-    x, _, z = pick(terrain, eye, ahead, farthest=FARTHEST)[0].tolist()
+    eye, ray = np.array([camera.position]), np.array([forward(camera.yaw, camera.pitch)])
+    x, _, z = pick(terrain, eye, ray, farthest=FARTHEST)[0].tolist()
     if isnan(x):
-        x, z = camera.position[0] + AHEAD * sin(camera.yaw), camera.position[2] - AHEAD * cos(camera.yaw)
+        x, z = ahead(camera.position[::2], camera.yaw, AHEAD)
     return on_terrain(x, z, ground)[:2]
 
 
@@ -58,7 +58,7 @@ def raised(kind: Raised, place: tuple[float, float], yaw: float, time: float, /)
     if kind == "blast":
         disc = Shape(disc=BLAST_RADIUS)
         return Blast(position=[x, z], outline=disc, start=time, stop=time + BLAST_TIME, ease=0.35)
-    end = [x + SPIN_WAY * sin(yaw), z - SPIN_WAY * cos(yaw)]
+    end = [*ahead(place, yaw, SPIN_WAY)]
     path = [Waypoint(at=time, position=[x, z]), Waypoint(at=time + SPIN_TIME, position=end)]
     return Whirlwind(path=path, start=time, stop=time + SPIN_TIME, ease=1.0)
 

@@ -26,3 +26,9 @@ Mask = NDArray[np.bool_]
 
 Bytes = NDArray[np.uint8]
 """Bytes, and pictures in display colours."""
+
+Place = tuple[float, float]
+"""Place on the ground, (x, z) [m]."""
+
+Point = tuple[float, float, float]
+"""Point in the world, (x, y, z) [m]."""

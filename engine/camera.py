@@ -9,12 +9,10 @@ from reprlib import repr as shortened
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.arrays import Doubles, Floats
+from ..components.arrays import Doubles, Floats, Place, Point
 from .curve import Curve
 from .declared.camera import CameraSource, Stop
 from .handed import FARTHEST, as_floats
-
-Place = tuple[float, float, float]
 
 Heights = Callable[[Floats], Floats]
 """Returns heights [m], shape (n,), at ground positions (x, z) [m], shape (n, 2)."""
@@ -97,6 +95,11 @@ class View:
 def forward(yaw: float, pitch: float, /) -> tuple[float, float, float]:
     """Return the unit vector in which a camera of this yaw and pitch [rad] looks: yaw 0 is -z, 90° is +x."""
     return math.sin(yaw) * math.cos(pitch), math.sin(pitch), -math.cos(yaw) * math.cos(pitch)
+
+
+def ahead(place: Place, yaw: float, way: float, /) -> Place:
+    """Return the place on the ground at a distance `way` [m] from another along a yaw [rad]."""
+    return place[0] + way * math.sin(yaw), place[1] - way * math.cos(yaw)
 
 
 def is_mirrored(view: View, /) -> bool | None:
@@ -239,7 +242,7 @@ def _look_on_path(
     return yaw, max(-math.pi / 2, min(math.pi / 2, pitch))
 
 
-def view_of(view: object, projection: object, origin: Place = (0.0, 0.0, 0.0)) -> View:
+def view_of(view: object, projection: object, origin: Point = (0.0, 0.0, 0.0)) -> View:
     """Return the two matrices as numpy arrays for column vectors.
 
     Each is a 4x4 array, or pyglet's `Mat4`, whose 16 numbers run column by column. Where `view` scales, as for a game
@@ -257,7 +260,7 @@ def view_of(view: object, projection: object, origin: Place = (0.0, 0.0, 0.0)) -
     return _usable(one.tobytes(), other.tobytes())
 
 
-def as_origin(place: object, /) -> Place:
+def as_origin(place: object, /) -> Point:
     """Return a scene's origin [m]. Raises ValueError for anything but three numbers up to `OUTERMOST`."""
     due = "an origin is a place (x, y, z) [m]"
     found = as_floats(place, due)

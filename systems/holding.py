@@ -177,8 +177,9 @@ class Holding:
         return next(self._staged.steps, "over") == "over"
 
     def _staging(self, site: Site) -> Generator[None, None, None]:
-        for each in site.representations:
-            yield from self.painters[each.name].staging(site.representations)
+        stocks = {each.name: each for each in site.representations}
+        for name in stocks:
+            yield from self.painters[name].staging(stocks)
 
     def _take_staged(self, site: Site) -> None:
         """Draw the staged grass of a site from now on."""

@@ -8,8 +8,8 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.arrays import Ints
-from ..engine.camera import Place, View, view_of
+from ..components.arrays import Ints, Point
+from ..engine.camera import View, view_of
 from ..engine.gl.guest import clear
 from ..engine.gl.stream import release_all
 from ..engine.terrain.sample import height_at
@@ -59,7 +59,7 @@ def terrain_cells(ground: Ground, /) -> Ints:
     return flat[cells_on(terrain, flat, patch=patch)]
 
 
-def cells_within(ground: Ground, eye: Place, cone: tuple[float, float], /, *, sway: float) -> Ints:
+def cells_within(ground: Ground, eye: Point, cone: tuple[float, float], /, *, sway: float) -> Ints:
     """Return the cells of the terrain inside an eye's view cone, (n, 2).
 
     `sway` is the distance that grass may reach beyond its patch [m].
@@ -139,7 +139,7 @@ class EveryBlade:
         *,
         reach: int | None = None,
         leaves_from: float = 0.0,
-        seen_at: Sequence[Place] = (),
+        seen_at: Sequence[Point] = (),
     ) -> None:
         """Draw sky, ground, all trees and all blades of `cells` (n, 2) into the bound framebuffer.
 
@@ -235,7 +235,7 @@ def draw_truth(
     *,
     samples: int = 4,
     reach: int | None = None,
-    seen_at: Sequence[Place] = (),
+    seen_at: Sequence[Point] = (),
 ) -> Truth:
     """Return the reference picture of a prairie that has been drawn once, and its uncertainty.
 

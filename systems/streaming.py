@@ -4,11 +4,11 @@ from collections.abc import Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 
+from ..components.arrays import Point
 from ..components.viewer import Viewer
 from ..engine.terrain.blocks import Blocks, Numbers
 from ..engine.terrain.record import Terrain
 from ..engine.terrain.stream import paste, window_of
-from .frame.feature import Eye
 from .show.carpet.found import Found
 
 GOES, WAITS = 0.75, 2.0
@@ -42,7 +42,7 @@ class Streaming:
         self._pending: _Pending | None = None
         self._executor = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")  # starts its thread at the first request
 
-    def follow(self, terrain: Terrain, eye: Eye, others: Iterable[Viewer], /, *, time: float) -> None:
+    def follow(self, terrain: Terrain, eye: Point, others: Iterable[Viewer], /, *, time: float) -> None:
         """Move a terrain's window towards the middle of all viewers, if it streams.
 
         The viewer that looks now sees from `eye` (x, y, z) [m]. If the middle is too far from it, only this viewer

@@ -6,6 +6,7 @@ from pathlib import Path
 from time import perf_counter
 
 from ... import __version__
+from ...engine.gl.smaller import Size
 from ...engine.scene import read_scene
 from ..figures.make import need_matplotlib
 from ..studio.encode import make_folder, write_whole
@@ -20,8 +21,6 @@ from .pop import LIMITS, pop_measured
 from .scale import scale_measured
 from .sent import Result
 from .walk import walk_measured
-
-Size = tuple[int, int]
 
 LARGE, SMALL = (1280, 720), (640, 360)
 """Picture sizes of the benchmarks [pixels]; the small one is for `bench pop`."""

@@ -1,11 +1,12 @@
 """Anchors of winds: the places and headings that they declare, by which they can be moved and turned."""
 
 from dataclasses import dataclass
-from math import atan2, cos, degrees, radians, sin
+from math import atan2, degrees, radians
 from typing import Any
 
 from pydantic import BaseModel
 
+from ...components.arrays import Place
 from ...components.wind import WindPrimitive
 from .fields import Key, keys_of
 from .values import Way
@@ -25,8 +26,7 @@ class Anchor:
     """A place that a wind declares, and the way to its key."""
 
     way: Way
-    place: tuple[float, float]
-    """Ground position (x, z) [m]."""
+    place: Place
 
 
 def declared_anchors(wind: WindPrimitive, number: int, /) -> list[Anchor]:
@@ -57,14 +57,9 @@ def heading(wind: WindPrimitive, number: int, /) -> tuple[Way, float] | None:
     return None if named is None else (("wind", number, named), radians(float(getattr(wind, named))))
 
 
-def turned_to(middle: tuple[float, float], place: tuple[float, float], /) -> float:
+def turned_to(middle: Place, place: Place, /) -> float:
     """Return the heading from one ground position (x, z) [m] to another [degrees], in [-180, 180]."""
     return round(degrees(atan2(place[0] - middle[0], middle[1] - place[1])), WHOLE)
-
-
-def ahead(middle: tuple[float, float], yaw: float, away: float, /) -> tuple[float, float]:
-    """Return the ground position (x, z) [m] at a distance `away` [m] along a heading [rad]."""
-    return middle[0] + away * sin(yaw), middle[1] - away * cos(yaw)
 
 
 def _key(part: BaseModel, name: str, *, form: str) -> Key | None:

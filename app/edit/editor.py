@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel
 
+from ...components.arrays import Place
 from ...components.wind import WindPrimitive
 from ...engine.declared.scene import Scene
 from ...engine.plugins import wind_kinds
@@ -21,7 +22,6 @@ from .brush import Brush, new_picture, read_picture, stroked
 from .fields import first_part, keys_of
 from .history import Draft, History
 from .pen import Pen
-from .pick import Place
 from .remake import Remaking
 from .values import NOTHING, Way, value_at, with_value
 

@@ -5,13 +5,13 @@ from collections.abc import Sequence
 import numpy as np
 from imgui_bundle import imgui
 
-from ...components.arrays import Doubles
+from ...components.arrays import Doubles, Place
 from ...systems.overlay.marks import on_ground
 from ...systems.overlay.masks import masked
 from ...systems.overlay.paint import wind_color
 from .editor import Editor
 from .grips import Grip, blowing_of
-from .pick import Place, Sight
+from .pick import Sight
 
 FAR = 400.0
 """Largest distance from the eye at which outlines are drawn [m]."""

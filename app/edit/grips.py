@@ -5,15 +5,15 @@ from typing import Literal
 
 import numpy as np
 
-from ...components.arrays import Floats
+from ...components.arrays import Floats, Place
 from ...components.wind import WindPrimitive
+from ...engine.camera import ahead
 from ...systems.overlay.masks import EDGE_WEIGHT
 from ...systems.prairie import Prairie
 from ...systems.wind.blow import Blowing
 from ...systems.wind.quarantine import QuarantinedError
-from .anchors import Anchor, ahead, declared_anchors, heading, turned_to
+from .anchors import Anchor, declared_anchors, heading, turned_to
 from .editor import Editor
-from .pick import Place
 from .values import Way
 
 SHORTEST, LONGEST, USUAL = 2.5, 12.0, 6.0

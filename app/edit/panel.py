@@ -10,7 +10,7 @@ from ...engine.plugins import wind_kinds
 from ...systems.prairie import Prairie
 from ..overlay import statistics_lines
 from .editor import Editor
-from .tree import Box, Tree, last_box, show_refusal
+from .tree import Bounds, Tree, last_box, show_refusal
 
 WIDTH = 400.0
 """Initial width of the panel [pixels]."""
@@ -36,7 +36,7 @@ class Panel:
         self.tree = Tree(editor, wind_kinds().names())
         self.message = ""
         """Message of the last saving."""
-        self.buttons: dict[str, Box] = {}
+        self.buttons: dict[str, Bounds] = {}
         """Boxes of buttons and tabs in the last frame, by name."""
         self._held = False
         self._picked: int | None = None

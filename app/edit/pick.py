@@ -7,14 +7,11 @@ from math import isnan
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...components.arrays import Doubles
+from ...components.arrays import Doubles, Place
 from ...engine.camera import View
 from ...engine.terrain.pick import pick
 from ...engine.terrain.record import Terrain
 from ...engine.terrain.sample import height_at
-
-Place = tuple[float, float]
-"""Ground position (x, z) [m]."""
 
 NEAREST = 0.2
 """Depth of the near plane, behind which points have no pixel [m]."""

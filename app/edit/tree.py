@@ -16,7 +16,7 @@ from .values import NOTHING, Way, value_at
 from .widgets import OWN_NUMBERS, written
 from .widgets import field as shown_field
 
-Box = tuple[float, float, float, float]
+Bounds = tuple[float, float, float, float]
 """Left, top, right and bottom of an item, from the window's upper left [pixels]."""
 
 REFUSED = imgui.ImVec4(1.0, 0.45, 0.35, 1.0)
@@ -33,7 +33,7 @@ class Tree:
     kinds: Sequence[str]
     """Names of all kinds of wind."""
 
-    boxes: dict[Way, Box] = field(default_factory=dict)
+    boxes: dict[Way, Bounds] = field(default_factory=dict)
     """Boxes of the keys' fields in the last frame, by way."""
 
     opened: set[Way] = field(default_factory=set)
@@ -196,7 +196,7 @@ class Tree:
         self.boxes[way] = last_box()
 
 
-def last_box() -> Box:
+def last_box() -> Bounds:
     """Return the box of the last item."""
     low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
     return low.x, low.y, high.x, high.y

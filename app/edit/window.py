@@ -5,6 +5,7 @@ from dataclasses import replace
 import pyglet
 from pyglet.window import key, mouse
 
+from ...components.arrays import Place
 from ...engine.camera import View
 from ...systems.prairie import Prairie
 from ..overlay import HELP
@@ -20,7 +21,7 @@ from .grips import Grip, grip_at, grips_of, pulled
 from .gui import Gui
 from .history import Draft
 from .panel import Panel
-from .pick import Place, Sight, nearest
+from .pick import Sight, nearest
 
 NEAR = 14.0
 """Largest distance between pointer and grip at which the grip is taken [pixels]."""

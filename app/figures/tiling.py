@@ -1,7 +1,5 @@
 """The tiling from above: which patches are drawn, and in which representation (figure 5)."""
 
-from math import cos, sin
-
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
@@ -10,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
 
+from ...engine.camera import ahead
 from ...systems.around.outlook import Outlook
 from ...systems.overlay.patches import patch_colors
 from ...systems.site import Site
@@ -47,10 +46,10 @@ def _tiles(axes: Axes, outlook: Outlook, site: Site) -> None:
         )
     )
     middle, half = outlook.viewer.cone
-    rays = [_toward(x, z, middle + side, 3.0 * far) for side in (-half, half)]
+    rays = [ahead((x, z), middle + side, 3.0 * far) for side in (-half, half)]
     axes.add_patch(Polygon([rays[0], (x, z), rays[1]], closed=False, fill=False, edgecolor=INK, linewidth=1.2))
     axes.plot(x, z, "o", color=INK, markersize=5)
-    to_x, to_z = _toward(x, z, middle, 0.5 * far)
+    to_x, to_z = ahead((x, z), middle, 0.5 * far)
     seen_from_above(axes, (to_x - 0.7 * far, to_x + 0.7 * far), (to_z - 0.7 * far, to_z + 0.7 * far))
     key: list[Artist] = [
         Patch(color=each.color, alpha=0.85, label=f"{each.label}, to distance {reach}")
@@ -58,10 +57,6 @@ def _tiles(axes: Axes, outlook: Outlook, site: Site) -> None:
     ]
     key += [Patch(color=CULLED, label="culled"), Line2D([], [], color=INK, marker="o", label="viewer and view cone")]
     axes.legend(handles=key, loc="center left", bbox_to_anchor=(1.03, 0.5))
-
-
-def _toward(x: float, z: float, azimuth: float, away: float) -> tuple[float, float]:
-    return x + away * sin(azimuth), z - away * cos(azimuth)
 
 
 FIGURES = (

@@ -44,7 +44,7 @@ def block(name: str, record: np.dtype[np.void], /) -> str:
         kind, offset = record[field], _offset(record, field)
         if kind.base.names:
             structs += struct(field.capitalize(), kind.base)
-        expected += 0 if _is_padding(kind) else -expected % {(): 4, (2,): 8}.get(kind.shape, 16)
+        expected += -expected % _alignment(kind)
         if expected != offset:
             raise ValueError(f"{name}.{field} is at {offset}, and std140 has it at {expected}")
         expected += kind.itemsize
@@ -74,6 +74,11 @@ def _offset(record: np.dtype[np.void], field: str) -> int:
     fields = record.fields
     assert fields is not None
     return fields[field][1]
+
+
+def _alignment(kind: np.dtype[np.void]) -> int:
+    """Return the multiple of bytes that a field of a std140 block begins at: a number, a pair, or anything larger."""
+    return 1 if _is_padding(kind) else {(): 4, (2,): 8}.get(kind.shape, 16)
 
 
 _KINDS: Sequence[str] = ("float", "vec2", "vec3", "vec4")

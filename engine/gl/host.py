@@ -18,9 +18,7 @@ from .functions import ENUMS, Functions
 from .limits import Limits
 from .outputs import Outputs
 from .units import Units
-from .viewports import Viewports
-
-Box = tuple[int, int, int, int]
+from .viewports import Box, Viewports
 
 DEFAULT_CLIP = ENUMS["LOWER_LEFT"], ENUMS["NEGATIVE_ONE_TO_ONE"]
 """OpenGL's default clip space: origin and depth mode of `glClipControl`."""

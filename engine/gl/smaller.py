@@ -20,6 +20,7 @@ from .units import UNITS
 log = logging.getLogger("tallgrass")
 
 Size = tuple[int, int]
+"""Width and height of a picture [pixels]."""
 
 OVER = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
 """Blending of premultiplied colours over what was drawn before."""

@@ -9,6 +9,9 @@ from .functions import ENUMS, Functions
 
 Value = TypeVar("Value")
 
+Box = tuple[int, int, int, int]
+"""Part of a framebuffer: first column, first row from the bottom, columns, rows."""
+
 BYTES = 16
 """Size of a box: four numbers."""
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles, Floats
+from ..wind.shape import smooth
 from .transitions import Transitions
 
 Three = tuple[int, int, int]
@@ -68,12 +69,6 @@ class Appearance:
         spread.cover[:, rows] = self.cover
         spread.morph[rows], spread.handed[rows], spread.growth[rows] = self.morph, self.handed, self.growth
         return spread
-
-
-def smooth(progress: Floats, /) -> Floats:
-    """Return the smoothstep of `progress`, which is clamped to [0, 1]."""
-    x = _clamped(progress)
-    return np.asarray(x * x * (np.float32(3.0) - np.float32(2.0) * x))
 
 
 def _clamped(value: Floats, /) -> Floats:

@@ -1,6 +1,6 @@
 """Drawing of bodies: opaque, with a soft border along the silhouette."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from math import cos, sin
 
@@ -10,9 +10,7 @@ from numpy.typing import NDArray
 
 from ...components.body import Body
 from ...components.shade import Shade
-from ...engine.gl.shaders import Texts
 from ...engine.gl.stream import Stream, attributes, release_all
-from ..frame.block import FrameBlock, joined
 from ..light.color import linear
 from .saucer import RADIUS, THICK, borders, saucer
 
@@ -54,7 +52,7 @@ def axes(body: Body, /) -> tuple[Axis, Axis, Axis]:
 
 FILES = "systems/bodies/body.vert", "systems/bodies/body.frag"
 DEFINES: Sequence[Mapping[str, str | int]] = {}, {"BORDER": 1}
-"""GLSL defines of the program for the body, and of that for its soft border."""
+"""GLSL defines of the programs of a `BodyPainter`: for the body, and for its soft border."""
 
 
 class _Layer:
@@ -75,18 +73,6 @@ class _Layer:
         release_all(self.array, *self.buffers, self.program)
 
 
-def texts_of_bodies(block: FrameBlock, /) -> Iterator[Texts]:
-    """Return the sources of the saucer's programs."""
-    return (block.texts(*FILES, defines) for defines in DEFINES)
-
-
-def programs_of_bodies(
-    ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /
-) -> Iterator[moderngl.Program]:
-    """Compile the saucer's programs, one each time the iterator is advanced."""
-    return (joined(ctx, block, units, *FILES, defines) for defines in DEFINES)
-
-
 class BodyPainter:
     """Draws saucers with their programs."""
 
@@ -99,16 +85,9 @@ class BodyPainter:
         """Upload the instances of bodies."""
         self.stream.write(instances_of(bodies))
 
-    def draw(self) -> int:
-        """Draw the bodies, opaque; return the number of draw calls."""
-        return self._draw(self.solid)
-
-    def draw_border(self) -> int:
-        """Blend their soft silhouettes over what is behind them; return the number of draw calls."""
-        return self._draw(self.border)
-
-    def _draw(self, layer: _Layer) -> int:
-        """Draw all instances of a layer; return the number of draw calls."""
+    def draw(self, *, border: bool = False) -> int:
+        """Draw the bodies, opaque, or blend their soft silhouettes over that; return the number of draw calls."""
+        layer = self.border if border else self.solid
         if self.stream.count:
             layer.array.render(moderngl.TRIANGLES, instances=self.stream.count)
         return int(self.stream.count > 0)

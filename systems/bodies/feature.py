@@ -12,11 +12,11 @@ from ...components.shade import Shade
 from ...engine.gl.shaders import Texts
 from ...engine.gl.stream import release_all
 from ..around.outlook import Outlook
-from ..frame.block import BODIES, FrameBlock
+from ..frame.block import BODIES, FrameBlock, joined
 from ..frame.feature import Feature, Part, Start
 from ..shadows.shades import round_shade
 from ..space.grown import Grown
-from .draw import BodyPainter, programs_of_bodies, shade_of, texts_of_bodies
+from .draw import DEFINES, FILES, BodyPainter, shade_of
 from .fly import flying, may_fly
 
 
@@ -57,7 +57,7 @@ class BodiesPart(Part):
 
     def texts(self) -> Iterator[Texts]:
         """Return the sources of the painter's programs, if it is due."""
-        return texts_of_bodies(self._block) if self._is_due else iter(())
+        return (self._block.texts(*FILES, each) for each in DEFINES if self._is_due)
 
     def making(self) -> Iterator[None]:
         """Make the painter, if it is due, a program at a time."""
@@ -88,7 +88,8 @@ class BodiesPart(Part):
             self.painter = BodyPainter(self._ctx, self._programs())
 
     def _programs(self) -> Iterator[moderngl.Program]:
-        return programs_of_bodies(self._ctx, self._block, self._units)
+        """Compile the painter's programs, one each time the iterator is advanced."""
+        return (joined(self._ctx, self._block, self._units, *FILES, each) for each in DEFINES)
 
     def send(self, outlook: Outlook, record: NDArray[np.void], /) -> None:
         """Upload the bodies in the air, and write the nearest ones' shadows."""
@@ -105,7 +106,7 @@ class BodiesPart(Part):
 
     def draw_soft(self, beyond: float = 0.0) -> int:
         """Draw their soft silhouettes."""
-        return 0 if self.painter is None else self.painter.draw_border()
+        return 0 if self.painter is None else self.painter.draw(border=True)
 
     def release(self) -> None:
         """Release the painter."""

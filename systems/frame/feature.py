@@ -8,14 +8,13 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.arrays import Point
 from ...engine.gl.shaders import Texts
 from ...engine.world import World
 from ..around.outlook import Outlook
 from ..space.grown import Grown
 from ..wind.quarantine import Quarantine
 from .block import FrameBlock
-
-Eye = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -142,7 +141,7 @@ class Feature:
     def settle(self, grown: Grown, before: Grown, /, *, time: float) -> None:
         """Take over a site that has changed or been replaced, at `time` [s]; `before` is the old one."""
 
-    def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
+    def step(self, viewer: str, eye: Point, /, *, time: float) -> None:
         """Advance to a viewer's next frame, with its eye at (x, y, z) [m], at a time [s]."""
 
     def look(self, outlook: Outlook, /) -> None:

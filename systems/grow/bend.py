@@ -8,6 +8,9 @@ from .organs import BLADE, GIVES, TONES, width_along
 from .record import Blades, Postures
 from .section import FLAT, Section
 
+Side = tuple[float, float, float]
+"""Unit vector to the viewer's right."""
+
 
 def spine(blades: Blades, postures: Postures, message: ArrayLike, /, *, points: int) -> Floats:
     """Return points along bent blades, from root to tip at even steps, in the patch [m], shape (n, points, 3).
@@ -88,12 +91,12 @@ def ribbon(
     points: int,
     taper: float,
     section: Section = FLAT,
-    side: tuple[float, float, float] | None = None,
+    side: Side | None = None,
 ) -> tuple[Floats, Floats]:
     """Return the left and right edge of bent blades [m], each of shape (n, points, 3).
 
     The half width follows `widths`, along the fixed horizontal axis across the face; with a round section, along
-    `side`, the unit vector to the viewer's right.
+    `side`.
     """
     centre = spine(blades, postures, message, points=points)
     half = 0.5 * widths(blades, np.linspace(0.0, 1.0, points), taper, section)
@@ -105,6 +108,11 @@ def ribbon(
         axis = np.where(is_blade[:, None], side, axis)
     out = half[:, :, None] * axis[:, None, :]
     return (centre - out).astype(np.float32), (centre + out).astype(np.float32)
+
+
+def sides_of(section: Section, /) -> tuple[Side | None, ...]:
+    """Return the `side` of `ribbon` for views along z and along x; flat blades are the same in both, and need none."""
+    return ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)) if section.is_round else (None,)
 
 
 def across(blades: Blades, /) -> Doubles:

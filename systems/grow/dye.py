@@ -4,7 +4,7 @@ import numpy as np
 
 from ...components.arrays import Doubles
 from .organs import DYED, eyed_along
-from .raster import ribbon_triangles
+from .raster import along_ribbons
 from .record import Blades
 
 
@@ -15,7 +15,7 @@ def eyed(blades: Blades, triangles: Doubles, /, *, points: int, toward: tuple[fl
     are blotched on their inner side only.
     """
     organ = np.broadcast_to(blades.organ, blades.height.shape)
-    ends = eyed_along(organ, np.linspace(0.0, 1.0, points))[:, :, None]
+    ends = along_ribbons(eyed_along(organ, np.linspace(0.0, 1.0, points)))
     inner = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]) @ np.asarray(toward) > 0.0
     blotched = np.repeat(DYED[organ, 1] < 1.0, 2 * (points - 1))
-    return np.asarray(ribbon_triangles(ends, ends)[:, :, 0] * (inner | ~blotched)[:, None])
+    return np.asarray(ends * (inner | ~blotched)[:, None])

@@ -45,7 +45,7 @@ def headed(growth: Growth, /) -> Headed | None:
     covered, total, heads = np.zeros(2), np.zeros(2), members[-1, 1] + 1
     for head in range(heads):
         rows = members[members[:, 1] == head, 0]
-        corners = ribbon_triangles(left[rows].astype(np.float64), right[rows].astype(np.float64))
+        corners = ribbon_triangles(left[rows], right[rows])
         areas = [_areas(corners[..., axes]) for axes in ([0, 2], [0, 1], [2, 1])]
         covered += areas[0][0], 0.5 * (areas[1][0] + areas[2][0])
         total += areas[0][1], 0.5 * (areas[1][1] + areas[2][1])

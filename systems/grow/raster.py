@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles, Rows
+from ...components.arrays import Doubles, Floats, Rows
 
 _CHUNK = 1 << 15
 """Number of fragments processed at a time: few enough for the processor's cache."""
@@ -83,11 +83,17 @@ def interpolate(corners: Doubles, values: Doubles, fragments: Fragments, /) -> D
     return value
 
 
-def ribbon_triangles(left: Doubles, right: Doubles, /) -> Doubles:
+def ribbon_triangles(left: Floats | Doubles, right: Floats | Doubles, /) -> Doubles:
     """Return the triangles of ribbons from their edges (n, points, k), shape (n * (points - 1) * 2, 3, k)."""
+    left, right = left.astype(np.float64), right.astype(np.float64)
     lower = np.stack([left[:, :-1], right[:, :-1], right[:, 1:]], axis=2)
     upper = np.stack([left[:, :-1], right[:, 1:], left[:, 1:]], axis=2)
     return np.stack([lower, upper], axis=2).reshape(-1, 3, left.shape[2])
+
+
+def along_ribbons(values: Doubles, /) -> Doubles:
+    """Return values at the points of ribbons (n, points) as those at the corners of their triangles, (triangles, 3)."""
+    return ribbon_triangles(values[:, :, None], values[:, :, None])[:, :, 0]
 
 
 class _DepthBuffer:

@@ -6,13 +6,14 @@ from dataclasses import replace
 import moderngl
 import numpy as np
 
+from ...components.arrays import Point
 from ...components.lamp import Lamp
 from ...components.pose import Pose
 from ...components.shade import Shade
 from ...engine.declared.lamp import LampOnPath
 from ...engine.terrain.sample import height_at
 from ..frame.block import FrameBlock
-from ..frame.feature import Eye, Feature, Start
+from ..frame.feature import Feature, Start
 from ..space.grown import Grown
 from .card import LampPart, Lit
 
@@ -31,7 +32,7 @@ class Lamps(Feature):
         """Take over a scene that was read again."""
         self._grown = grown
 
-    def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
+    def step(self, viewer: str, eye: Point, /, *, time: float) -> None:
         """Collect all lamps with their poses at a time [s]; raise ValueError for one without a position."""
         declared = self._grown.scene.lamps
         self.shining = self._games() + (self._scenes(declared, time) if declared else [])

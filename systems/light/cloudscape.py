@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.gl.guest import clear
+from ...engine.gl.smaller import Size
 from ...engine.gl.stream import release_all
 from ...engine.gl.texture import interpolated
 from ..frame.block import FrameBlock, joined
@@ -58,8 +59,6 @@ GLSL = {
     "CLOUD_BASE_DEPTH_RISE": BASE_DEPTH_RISE,
     "CLOUD_OPAQUE": OPAQUE,
 }
-
-Size = tuple[int, int]
 
 
 class Cloudscape:

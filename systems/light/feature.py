@@ -4,8 +4,9 @@ from collections.abc import Mapping
 
 import moderngl
 
+from ...components.arrays import Point
 from ..frame.block import FrameBlock
-from ..frame.feature import Eye, Feature, Start
+from ..frame.feature import Feature, Start
 from ..space.grown import Grown
 from .draw import LightPart
 from .shining import Shining
@@ -25,7 +26,7 @@ class Lighting(Feature):
         if grown.scene.light != before.scene.light:
             self.shining.declare(grown.scene.light, time=time)
 
-    def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
+    def step(self, viewer: str, eye: Point, /, *, time: float) -> None:
         """Advance the light to a time [s]."""
         self.shining.step(viewer, time=time)
 

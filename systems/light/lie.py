@@ -8,10 +8,11 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Bytes, Doubles, Floats
+from ...components.arrays import Bytes, Doubles, Floats, Place
 from ...engine.gl.shaders import program, set_uniform
 from ...engine.gl.stream import release_all
 from ...engine.gl.texture import interpolated
+from ...engine.gl.viewports import Box
 from ...engine.noise import noise_grid, noise_table
 from ...engine.terrain.record import Terrain
 from ...engine.terrain.rectangle import Rectangle
@@ -29,11 +30,6 @@ _FARTHEST = GLSL["FIRST"] * GLSL["LONGER"] ** (GLSL["STEPS"] - 1)
 
 IMAGES = 4
 """Mirror images of a terrain at its edges, itself included: the sun has another azimuth in each."""
-
-Box = tuple[int, int, int, int]
-"""Rectangle of a map: first column, first row, columns, rows."""
-
-Place = tuple[float, float]
 
 FILLED, SHADER = "engine/gl/fill.vert", "systems/light/lie.frag"
 
@@ -95,7 +91,7 @@ class LieMap:
         self._make_programs(mirrored=False)
         self._map: _Map | None = None
         self._next: _NextMap | None = None
-        self._toward_sun: Place | None = None
+        self._toward_sun: tuple[float, float] | None = None
         self._executor = ThreadPoolExecutor(1, thread_name_prefix="tallgrass")  # starts its thread at the first task
 
     def _make_programs(self, *, mirrored: bool) -> None:
@@ -168,7 +164,7 @@ class LieMap:
         assert self._map is not None
         self._map.lie.use(self._unit)
 
-    def prepare(self, toward_sun: Place, /) -> int:
+    def prepare(self, toward_sun: tuple[float, float], /) -> int:
         """Draw this frame's rows, for the horizontal direction (x, z) to the sun; return the number of draw calls."""
         map_, rows = self._map, max(self._samples_a_frame // self._columns, 1)
         assert map_ is not None
@@ -210,7 +206,7 @@ class LieMap:
         self.use()
         return calls
 
-    def _draw_changed(self, map_: _Map, toward_sun: Place) -> int:
+    def _draw_changed(self, map_: _Map, toward_sun: tuple[float, float]) -> int:
         """Draw what changed heights affect; return the number of draw calls.
 
         The slope map is drawn at once. So is the part of the horizon map that the changed heights may shadow, if it is

@@ -14,7 +14,7 @@ from ...components.wind import WindPrimitive
 from ...engine.gl.mipmaps import mipmapped_image
 from ...engine.gl.rasteriser import anisotropy
 from ...engine.kept import DIGEST, code_hash, keep, kept
-from ..grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
+from ..grow.raster import Fragments, along_ribbons, interpolate, rasterise, ribbon_triangles
 from ..wind.blow import mean_wind
 
 SIDE = 512
@@ -196,10 +196,10 @@ def understorey_map(*, seed: int) -> tuple[Doubles, Doubles]:
     spine = root[:, None] + np.pad(np.cumsum(steps, axis=1), ((0, 0), (1, 0), (0, 0)))
     half = width[:, None] * np.maximum(np.sin(np.pi * (0.18 + 0.82 * along)), 0.0) ** 0.8
     aside = np.stack([-ahead[..., 1], ahead[..., 0]], axis=-1) * half[..., None]
-    height = (0.5 * random.random((count, 1)) + 0.6 * along * (1.0 - 0.35 * along))[..., None]
+    height = 0.5 * random.random((count, 1)) + 0.6 * along * (1.0 - 0.35 * along)
     lines = [SUPERSAMPLED * (spine + part * aside) for part in (-1.0, 0.0, 1.0)]
     corners = np.concatenate([ribbon_triangles(*pair) for pair in pairwise(lines)])
-    heights = np.tile(ribbon_triangles(height, height)[..., 0], (2, 1))
+    heights = np.tile(along_ribbons(height), (2, 1))
     bright = random.uniform(0.75, 1.15, count) * (1.0 + KEEL * random.choice([-1.0, 1.0], count) * [[1.0], [-1.0]])
     fragments = rasterise(corners, heights, shape=_FINE_SHAPE, wrap=True)
     height_map, lit, mask = _height_map(fragments, corners, heights), np.zeros(_FINE_SHAPE), np.zeros(_FINE_SHAPE)

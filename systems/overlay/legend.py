@@ -21,7 +21,9 @@ SWATCH = 2.6
 BACKGROUND_OPACITY = 205
 """Opacity of the background, out of 255."""
 
-Box = tuple[int, int, int, int]
+Bounds = tuple[int, int, int, int]
+"""Left, top, right and bottom of a swatch [pixels]."""
+
 Colors = tuple[Color, ...]
 
 
@@ -29,7 +31,7 @@ Colors = tuple[Color, ...]
 class Entry:
     """One line of the legend."""
 
-    draw: Callable[[ImageDraw.ImageDraw, Box, Colors], None] | None
+    draw: Callable[[ImageDraw.ImageDraw, Bounds, Colors], None] | None
     """Draws its swatch; None for a line without one, whose text has the colour."""
 
     colors: Colors
@@ -109,7 +111,7 @@ def _as_bytes(color: Color) -> tuple[int, int, int]:
     return red, green, blue
 
 
-def _draw_areas(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
+def _draw_areas(draw: ImageDraw.ImageDraw, box: Bounds, colors: Colors) -> None:
     """Draw colours side by side."""
     left, top, right, bottom = box
     sides = np.linspace(left, right, len(colors) + 1).round().astype(int).tolist()
@@ -117,14 +119,14 @@ def _draw_areas(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
         draw.rectangle((a, top, b - 1, bottom), (*_as_bytes(color), 255))
 
 
-def _draw_outline(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
+def _draw_outline(draw: ImageDraw.ImageDraw, box: Bounds, colors: Colors) -> None:
     """Draw a tinted box with an outline."""
     line = max(2, (box[3] - box[1]) // 6)
     red, green, blue = (0.3 * mark + 0.7 * paper for mark, paper in zip(colors[0], DARK, strict=True))
     draw.rectangle(box, (*_as_bytes((red, green, blue)), 255), (*_as_bytes(colors[0]), 255), line)
 
 
-def _draw_inside(draw: ImageDraw.ImageDraw, box: Box, colors: Colors) -> None:
+def _draw_inside(draw: ImageDraw.ImageDraw, box: Bounds, colors: Colors) -> None:
     """Draw a square with one colour inside the other."""
     left, top, right, bottom = box
     side = bottom - top

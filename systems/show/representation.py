@@ -88,8 +88,8 @@ class RepresentationPainter(Part, ABC):
         """Return whether the programs can draw another representation's stock too."""
         raise NotImplementedError
 
-    def staging(self, stocks: "Sequence[Any]", /) -> Iterator[None]:
-        """Upload a new stock beside the one in use, a piece at a time; `stocks` are all the new representations."""
+    def staging(self, stocks: Mapping[str, Any], /) -> Iterator[None]:
+        """Upload a new stock beside the one in use, a piece at a time; `stocks` are all new representations by name."""
         raise NotImplementedError
 
     def restock(self) -> None:

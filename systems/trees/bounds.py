@@ -25,9 +25,6 @@ from .motion import (
 )  # fmt: skip
 from .twig import BLOCK, card_reach
 
-SLICES = 8
-"""Number of level slices of a tree."""
-
 LARGER = 1.35
 """Greatest size of a near tree's twig on its card, relative to its own: where two thirds of the twigs are drawn."""
 
@@ -50,19 +47,6 @@ class Balls(NamedTuple):
 
     radius: Doubles
     """(n,) [m]."""
-
-
-class Slices(NamedTuple):
-    """Upright bounding cylinders of a model's slices in any wind, the lowest first."""
-
-    low: Doubles
-    """(SLICES,) [m]."""
-
-    high: Doubles
-    """(SLICES,) [m]."""
-
-    radius: Doubles
-    """(SLICES,) [m]."""
 
 
 def twig_balls(twigs: NDArray[np.void], height: float, habit: Habit, /) -> Balls:
@@ -154,25 +138,3 @@ def _sway(place: Doubles, pivot: NDArray[np.floating], height: float) -> Doubles
     trunk = 0.5 * high**2 * (LOAD_AT_END - high) * height  # `cantilever` of crown.glsl
     limb = out * out / (out + LIMB_STIFF)
     return np.asarray(MOST_TRUNK * trunk + MOST_LIMB * limb)
-
-
-def slices_of(balls: Balls, /) -> Slices:
-    """Return the slices of the parts with these bounding spheres."""
-    low, high = balls.middle[:, 1] - balls.radius, balls.middle[:, 1] + balls.radius
-    ends = np.linspace(low.min(), high.max(), SLICES + 1)
-    out = np.hypot(balls.middle[:, 0], balls.middle[:, 2]) + balls.radius
-    within = (low[:, None] <= ends[1:]) & (high[:, None] >= ends[:-1])
-    return Slices(ends[:-1], ends[1:], np.where(within, out[:, None], 0.0).max(axis=0))
-
-
-def highest_shown(slices: Doubles, root: Doubles, scale: Doubles, sides: Doubles, /) -> Doubles:
-    """Return the height of each model up to which a tree is in the picture, (n,) [m]; 0 or less where none of it is.
-
-    `slices` are each tree's `Slices`, (n, 3, SLICES), `root` is its place (n, 3) [m], and `sides` are planes of the
-    frustum.
-    """
-    low, high, radius = (scale[:, None, None] * slices[:, each, :, None] for each in range(3))
-    up, level = sides[:, 1], np.hypot(sides[:, 0], sides[:, 2])
-    foot = (root @ sides[:, :3].T + sides[:, 3])[:, None]
-    shown = (foot + np.where(up > 0.0, high, low) * up + radius * level >= 0.0).all(axis=2)
-    return np.asarray(np.where(shown, slices[:, 1], 0.0).max(axis=1, initial=0.0))

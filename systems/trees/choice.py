@@ -1,7 +1,6 @@
 """Choosing which trees a picture shows, and how: those of all models at once."""
 
 from collections.abc import Sequence
-from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -11,9 +10,8 @@ from ...components.arrays import Doubles, Indices, Ints
 from ..space.cone import distance_in_order
 from ..space.frustum import outside_planes
 from ..space.window import cell_of
-from .bounds import highest_shown
 from .habit import NEEDLES
-from .leafy import GROUPED_FROM, blocks_of_models, blocks_shown, near_twigs
+from .leafy import blocks_of_models, blocks_shown, near_twigs
 from .model import MARGIN, Model
 from .shells import SHELLS, farthest_of, rings_of, shells_of
 from .standing import BAREST, WIDEST_ROW, Standing, columns_of, far_instances, ring_opacity, set_detail
@@ -129,9 +127,6 @@ class _Seen(NamedTuple):
     pixel_radius: Doubles
     """Radius of a stem of its model that is a pixel wide at its nearest point [m]."""
 
-    top: Doubles
-    """Height of its model up to which it is in the picture [m]; infinite where all of it may be."""
-
 
 class Choice:
     """All trees of a frame, to choose from; `variety` is the spread of brightness within each model."""
@@ -142,8 +137,6 @@ class Choice:
         self._blocks = blocks_of_models(models)
         self._needles = np.array([model.habit.leaf.form == NEEDLES for model in models], np.bool_)
         """Models with needles: hardly one covers a pixel wholly, so that most of their pictures are soft edges."""
-        self._slices = np.array([model.slices for model in models])
-        """`Slices` of each model, shape (models, 3, SLICES) [m]."""
         numbers = np.array([_model_numbers(*pair) for pair in zip(models, variety, strict=True)])[self._model].T
         height, middle, half, radius, hertz, self._leaf, spread = numbers
         self._height, self._ring = rows["height"].copy(), rows["ring"].copy()
@@ -181,9 +174,6 @@ class Choice:
         order = order[_stable_order(self._model[number[order]])]
         number, distance = number[order], distance[order]
         seen = self._seen(look, number, distance)
-        shown = np.flatnonzero(seen.top > 0.0)
-        if len(shown) < len(number):
-            seen, distance = _only(seen, shown), distance[shown]
         leafy, twigs = self._leafy(look, seen, distance), self._on_cards(look, seen)
         shell, ring = shells_of(seen.along, look.reach), rings_of(seen.along, look.reach)
         back = np.where(self._needles[seen.model] & (shell == 0) & (ring > 0), SHELLS + ring, shell)
@@ -209,20 +199,7 @@ class Choice:
         instances["opacity"] = ring_opacity(ring, along)
         ahead = nearest_ahead(look.clip, middle, look.eye, self._reach.take(number, axis=0))
         pixel_radius = THINNEST * np.maximum(ahead, AWAY) / (look.focal * scale)
-        top = self._shown_up_to(look, number, instances)
-        return _Seen(number, self._model[number], instances, along, in_order, pixel_radius, top)
-
-    def _shown_up_to(self, look: Look, number: Indices, instances: NDArray[np.void]) -> Doubles:
-        """Return the height of each tree's model up to which it is in the picture [m]; 0 or less where none of it is.
-
-        Only of near trees it is computed, where it saves most.
-        """
-        near, top = np.flatnonzero(instances["twig_share"] >= GROUPED_FROM), np.full(len(number), inf)
-        rows = number[near]
-        top[near] = highest_shown(
-            self._slices[self._model[rows]], instances["root"][near], self._scale[rows], look.sides
-        )
-        return top
+        return _Seen(number, self._model[number], instances, along, in_order, pixel_radius)
 
     def _on_cards(self, look: Look, seen: _Seen) -> tuple[Indices, Doubles]:
         """Return the blocks of twigs drawn on cards: each one's tree, as an index into `seen`, and `first`."""
@@ -268,12 +245,6 @@ def _bounding_spheres(middle: Doubles, reach: Doubles) -> tuple[Doubles, Doubles
     low = np.minimum.reduceat(middle - reach[:, None], first)
     high = np.maximum.reduceat(middle + reach[:, None], first)
     return 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1)
-
-
-def _only(seen: _Seen, rows: Indices) -> _Seen:
-    """Return these rows of the trees in a picture."""
-    of_trees = (each[rows] for each in (seen.along, seen.in_order, seen.pixel_radius, seen.top))
-    return _Seen(seen.number[rows], seen.model[rows], seen.instances.take(rows), *of_trees)
 
 
 def _by_stream(

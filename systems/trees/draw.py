@@ -6,8 +6,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles
-from ...engine.camera import Place
+from ...components.arrays import Doubles, Point
 from ...engine.gl.shaders import Texts, set_used_uniforms
 from ...engine.gl.stream import release_all
 from ..around.outlook import Outlook
@@ -62,7 +61,7 @@ class TreePart(Part):
         self.leaves_from: float | None = None
         """Height of their own pictures from which all trees are drawn leaf by leaf, for a reference, and lower ones as
         pictures [pixels]; None lets the size of leaves decide."""
-        self.detail_eyes: Sequence[Place] = ()
+        self.detail_eyes: Sequence[Point] = ()
         """Eyes that `leaves_from` is measured from: the nearest counts [m]. Without any, the viewer's does."""
         self.held = False
         """Whether level of detail stays as for the last eye where this was False."""
@@ -193,7 +192,7 @@ class TreePart(Part):
             self._detail_eye = eye
         clip = record["clip"].reshape(4, 4).T.astype(np.float64)
         focal = float(record["half_screen"][1] * np.linalg.norm(clip[1, :3]))
-        detail_eyes: Sequence[Place | Doubles] = (self._detail_eye,) if self.held else ()
+        detail_eyes: Sequence[Point | Doubles] = (self._detail_eye,) if self.held else ()
         if self.leaves_from is not None and self.detail_eyes:
             detail_eyes = self.detail_eyes
         patch, centre = float(record["patch_side"]), outlook.viewer.centre

@@ -13,29 +13,8 @@ uniform sampler2DArray tree_depths; // optical depths, by direction and in the m
 uniform sampler2DArray tree_cards;  // in place of twigs' cards: tileable noise
 #endif
 
-in vec3 on;            // outputs of far.vert
-flat in vec4 tile_corners;
-flat in vec2 mix_shares;
-flat in vec2 row_of_trees;
-flat in float texel_side;
-#ifdef CAST
-flat in vec4 cast_shade;   // outputs of far.vert
-flat in vec3 foot_shade;
-#else
-flat in vec4 sun_weights;
-flat in vec4 ray_weights;
-in vec4 sun_radiance;
-in vec4 wood_gain;
-flat in vec4 sky_radiance;
-flat in vec3 below;
-flat in vec3 haze_colour;
-flat in vec3 old_pigment;
-flat in vec2 picture_texels;
-flat in vec2 limb_phases;
-flat in vec3 clump_progress;
-flat in float grass_scale;
-#endif
-flat in vec4 motion;
+#define PASSED in
+#include "systems/trees/far.glsl"
 
 out vec4 pixel;
 

@@ -17,35 +17,12 @@ uniform float lines; // height of its model's pictures [texels]
 #ifdef CAST
 uniform vec4 tile;        // of the map: middle (across, up) [m], half the side [m], index
 uniform vec3 grass_shade; // of its model: radius of its shade on grass [m]; optical depth times squared radius [m²]; depth at its foot
-
-flat out vec4 cast_shade; // radius of its shade, of half its picture; optical depth in the middle; 1 in the map from above; position along the
-                          // sun's rays [m]
-flat out vec3 foot_shade; // radius of its foot's shade; optical depth there; its foliage
 #else
 uniform vec4 high;                        // heights of its outline's corners, -1 to 1, from foot to top
 uniform vec4 reaches[2 * COLUMNS * ROWS]; // by picture: distances of the corners left and right, of half their height
-
-flat out vec4 sun_weights;  // weights of the pictures' optical depths for the sun, along its axes and in all
-flat out vec4 ray_weights;  // and for the ray from the eye behind what is seen, with all its leaves
-out vec4 sun_radiance;      // radiance of its leaves under the sun; opacity
-out vec4 wood_gain;         // what its wood has more; radius that THICKEST stands for, on it [m]
-flat out vec4 sky_radiance; // radiance of the sky; mean of its leaves' normals' y
-flat out vec3 below;
-flat out vec3 haze_colour;
-flat out vec3 old_pigment;    // mean pigment of its old bark
-flat out vec2 picture_texels; // size of its pictures, across and up [texels]
-flat out vec2 limb_phases;    // phases of its limbs' swing, along and across its picture [rad]
-flat out vec3 clump_progress; // progress of clumps of leaves from the first picture to the second, both ways, and their spread
-flat out float grass_scale;   // its height, relative to that of the grass about its foot
 #endif
-
-out vec3 on;                // position on its picture, each way from 0 to 1, or across a row, with CAST of half its height; height over its foot,
-                            // of the tree's
-flat out vec4 tile_corners; // corners of the mixed pictures in their texture, the first and the second
-flat out vec2 mix_shares;   // share of the second
-flat out vec4 motion;       // its random number; amplitude of its limbs and displacement of its top, relative to its picture; mip level
-flat out vec2 row_of_trees; // number of trees in a row; distance between them, relative to a picture
-flat out float texel_side;  // size of the coarser texels that are read, relative to a picture
+#define PASSED out
+#include "systems/trees/far.glsl"
 
 const vec2 MIXES = vec2(0.3, 0.7);  // parts of the angle from one picture to the next between which they are mixed
 const float ASKEW_ROWS = 2.0;  // range of the yaws of rows of trees: else all would be parallel [rad]

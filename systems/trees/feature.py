@@ -9,19 +9,19 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles, Floats
+from ...components.arrays import Doubles, Floats, Place, Point
 from ...components.pose import Pose
 from ...components.tree import HIGHEST, LOWEST, Tree
 from ...engine.declared.tree import TreeKind
 from ...engine.terrain.sample import height_at
 from ...engine.world import uncollected
 from ..frame.block import FrameBlock
-from ..frame.feature import Eye, Feature, Start
+from ..frame.feature import Feature, Start
 from ..space.grown import Grown
 from .crown import FOOT, FOOT_MEETS_MOST, LEAST_SHADE
 from .draw import TreePart
 from .fading import FadingShade
-from .felled import Place, found_again
+from .felled import found_again
 from .forest import Forest, Gone, Rows
 from .habit import HABITS
 from .model import MODELS, models_of
@@ -93,7 +93,7 @@ class Trees(Feature):
             self._seedlings += seedlings(forest.all(), list(scene.trees))
         self.entities = [self._world.create(*each) for each in self._seedlings]
 
-    def step(self, viewer: str, eye: Eye, /, *, time: float) -> None:
+    def step(self, viewer: str, eye: Point, /, *, time: float) -> None:
         """Find which trees stand where; a tree of an undeclared kind is reported once and left out."""
         if self.wild is not None:
             self.wild.follow(viewer, eye)

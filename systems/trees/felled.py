@@ -4,14 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...components.arrays import Doubles
+from ...components.arrays import Doubles, Place
 
 SAME = 0.05
 """Distance within which two trees are the same one [m]: another processor or release may place it differently, and no
 two trees are so close."""
-
-Place = tuple[float, float]
-"""Place of a tree, (x, z) [m]."""
 
 
 def found_again(numbers: Sequence[int], stood: Sequence[Place] | None, places: Doubles, /) -> list[int]:

@@ -6,14 +6,13 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles, Floats, Mask
+from ...components.arrays import Doubles, Floats, Mask, Place
 from ...components.tree import HIGHEST, LOWEST
 from ...engine.declared.tree import TreeKind
 from ...engine.noise import noise_table, smooth_noise
 from ...engine.random import hash3, stream, unit
 from ...engine.terrain.sample import height_at, natural_at, slope_at
 from ..space.grown import Grown
-from .felled import Place
 from .habit import HABITS
 from .place import stands
 from .scatter import SQUARE, Scatter, Squares, apart

@@ -10,7 +10,7 @@ from ...components.arrays import Doubles
 from ...engine.declared.tree import HabitName
 from .bake import picture_size
 from .bark import Wood, bark_of
-from .bounds import Balls, Slices, blocks_of, grouped, near_wood, slices_of, twig_balls, wood_balls
+from .bounds import Balls, blocks_of, grouped, near_wood, twig_balls, wood_balls
 from .crown import leaf_area, shade_of, shading
 from .grow import Tree, grown
 from .habit import HABITS, Habit
@@ -68,9 +68,6 @@ class Model:
     blocks: Balls
     """Bounds of the blocks that its twigs are grouped into."""
 
-    slices: Slices
-    """Bounds of its slices."""
-
     hertz: float
     """Frequency of its trunk [Hz]."""
 
@@ -105,7 +102,6 @@ def _model(habit: Habit, height: float, *, seed: int) -> Model:
     ends = tree.twigs.foot + tree.twigs.length[:, None] * tree.twigs.along
     balls = twig_balls(twigs, height, habit)
     bark_balls = wood_balls(vertices, np.concatenate([twigs, limbs]), height)
-    slices = slices_of(Balls(*(np.concatenate(each) for each in zip(balls, bark_balls, strict=True))))
     nearest, near_blocks = near_wood(wood[0], vertices, bark_balls)
     radius = float(np.hypot(ends[:, 0], ends[:, 2]).max())
     top = float(ends[:, 1].max())
@@ -113,7 +109,7 @@ def _model(habit: Habit, height: float, *, seed: int) -> Model:
     return Model(
         habit, height, twigs, limbs, vertices, (nearest, *wood[1:]), near_blocks, 0.5 * top, half,
         *picture_size(MARGIN * radius / half), radius, balls, blocks_of(balls, twigs["grouped"].astype(np.intp)),
-        slices, trunk_hertz(height, habit.slender * height), float(area.sum()),
+        trunk_hertz(height, habit.slender * height), float(area.sum()),
     )  # fmt: skip
 
 

@@ -4,6 +4,7 @@
 const float FURROWED_MEAN = 0.925, BANDED_MEAN = 0.88;  // mean brightness of furrowed and banded bark, relative to its ground
 const vec2 SOILED = vec2(0.3, 2.8);  // heights between which soil and moss on bark end, relative to the grass's, with noise added
 const float SOIL_TONE = 0.62;  // brightness of bark below them, relative to clean bark
+const float RIBBED = 0.8;  // tone of a leaf's midrib, relative to the leaf's
 
 // Brightness of bark under soil and moss at a height, relative to the grass's.
 float soil_tone(float height) {

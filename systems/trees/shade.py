@@ -7,11 +7,10 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles
+from ...components.arrays import Doubles, Point
 from ...engine.gl.guest import borrow, clear
 from ...engine.gl.stream import Stream, release_all
 from ...engine.gl.units import BORROWED
-from ..frame.feature import Eye
 from ..wind.mean import MeanWind
 from .kind import GpuKind
 from .motion import CROWN_BENDS, TONES_APART, TRUNK_LEANS, TRUNK_SWINGS, tones, trunk_hertz
@@ -72,7 +71,7 @@ class ShadeMap:
         row["trees_aside"] = strength * CROWN_BENDS * high * np.array([sin(heading), -cos(heading)])
         row["trees_tones"] = tones(trunk_hertz(max(high, 1.0), USUAL_TRUNK * high), time)
 
-    def follow(self, eye: Eye, standing: Standing, record: NDArray[np.void], /) -> None:
+    def follow(self, eye: Point, standing: Standing, record: NDArray[np.void], /) -> None:
         """Write where the maps lie for an eye."""
         row, sun = record[0], record["sun"][0].astype(np.float64)
         if float(sun @ self._sun) < STEADY:

@@ -15,7 +15,6 @@ layout(location = 0) out vec4 pixel;
 layout(location = 1) out vec4 second;
 
 const float APART = 7.0;  // difference of the thresholds of leaves and twigs, by their random numbers
-const float RIBBED = 0.8;  // as in twig.vert
 #else
 in float stem_cover;
 flat in vec3 leaf_colour;

@@ -40,7 +40,6 @@ const float LEAVES_AROUND = 1.4;  // range of the angle of leaves around it, abo
 const float NODS = 0.35, TILTED = 0.6;  // drooping of leaves; turn about their stalks
 const vec2 LEAF_SIZES = vec2(0.75, 0.45);  // least size of a leaf, relative to its kind's, and its range
 const float STALK = 0.12;  // length of the stalk, relative to the leaf's
-const float RIBBED = 0.8;  // tone of a leaf's midrib, relative to the leaf's
 
 // A side shoot of a twig: sine and cosine of its angle; position, and length. The first is the twig itself.
 vec4 shoot_at(int twig, int shoot) {

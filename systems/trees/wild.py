@@ -5,11 +5,11 @@ from concurrent.futures import Future, ThreadPoolExecutor
 
 import numpy as np
 
+from ...components.arrays import Place, Point
 from ...components.pose import Pose
 from ...components.tree import Tree
 from ...engine.world import World
-from ..frame.feature import Eye
-from .felled import Place, found_again
+from .felled import found_again
 from .forest import Forest, Gone, Rows, Square
 from .scatter import SQUARE
 from .standing import Standing
@@ -55,7 +55,7 @@ class Wild:
             entity for own in self._planted.values() for entity, seedling in own if self._unchanged(entity, seedling)
         }
 
-    def follow(self, viewer: str, eye: Eye, /) -> None:
+    def follow(self, viewer: str, eye: Point, /) -> None:
         """Make the trees near a viewer's eye (x, y, z) [m] entities."""
         square = int(np.floor(eye[0] / SQUARE)), int(np.floor(eye[2] / SQUARE))
         if self._viewer_squares.get(viewer) == square and self._generation == self._world.check():
@@ -112,7 +112,7 @@ class Wild:
         else:
             self._forest.gone.pop(square, None)
 
-    def standing(self, viewer: str, eye: Eye, rows: Rows, /) -> Standing:
+    def standing(self, viewer: str, eye: Point, rows: Rows, /) -> Standing:
         """Return the trees that a viewer is shown; `rows` are all that are entities."""
         inputs = id(rows), self._viewer_squares.get(viewer), tuple(self._planted), self._forest.version
         known = self._standing.get(viewer)
@@ -124,7 +124,7 @@ class Wild:
             self._standing[viewer] = known
         return known[1]
 
-    def _still_growing(self, viewer: str, eye: Eye) -> bool:
+    def _still_growing(self, viewer: str, eye: Point) -> bool:
         """Return whether a viewer's distant trees are still growing; start growing them if need be."""
         if viewer not in self._growing:
             self._growing[viewer] = self._executor.submit(self._forest.grow_about, eye)

@@ -6,22 +6,8 @@
 
 uniform sampler2DArray tree_cards;  // in place of twigs' cards: tileable noise
 
-in vec2 bark_at;
-in vec3 facing;
-in vec3 seen_at;
-#ifdef BAKED
-in vec4 inside;
-#else
-in vec3 sun_radiance;
-in vec3 sky_radiance;
-flat in vec3 haze_colour;
-#endif
-in float stem_cover;
-flat in float ribbon;
-in vec2 edge;
-in float age;
-in float grass_height;
-flat in vec2 grass_here;
+#define PASSED in
+#include "systems/trees/wood.glsl"
 
 #ifdef BAKED
 layout(location = 0) out vec4 pixel;

@@ -26,22 +26,8 @@ uniform vec3 leaf_shape;
 uniform mat4 baked;
 #endif
 
-out vec2 bark_at;
-out vec3 facing;
-out vec3 seen_at;
-#ifdef BAKED
-out vec4 inside;
-#else
-out vec3 sun_radiance;  // radiance of mean bark that faces the sun, and of the sky's light; above the grass
-out vec3 sky_radiance;
-flat out vec3 haze_colour;
-#endif
-out float stem_cover;     // coverage
-flat out float ribbon;    // 1 on a ribbon, which is shaded as if round
-out vec2 edge;            // softness of its edges; position of the vertex, relative to the stem's edge
-out float age;            // age of its bark, 0 to 1; or radius of the stem, of THICKEST
-out float grass_height;   // height over the ground, relative to the grass's
-flat out vec2 grass_here; // leaf area of that grass; its extinction of sunlight
+#define PASSED out
+#include "systems/trees/wood.glsl"
 
 const float ON_EDGE = 0.5;  // beyond it, a vertex is on a ribbon's edge: bytes have no 0
 

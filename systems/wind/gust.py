@@ -13,6 +13,7 @@ from ...components.arrays import Floats
 from ...components.declaration import DeclarationError, Pair
 from ...components.pose import Pose
 from ...components.wind import Extent, Grass, TwinValues, WindPrimitive
+from ...engine.camera import ahead
 from ...engine.memo import by_identity
 from .shape import rim, rim_width
 
@@ -135,7 +136,7 @@ class Gust(WindPrimitive):
     def pose(self, *, time: float) -> Pose:
         """Return the frame of the front's middle at `time` [s]."""
         heading, way = radians(self.direction), self._way(time)
-        return Pose(self.position[0] + way * sin(heading), self.position[1] - way * cos(heading), heading)
+        return Pose(*ahead((self.position[0], self.position[1]), heading, way), heading)
 
     def extent(self, *, time: float) -> Extent:
         """Return its rectangle: from the front back to where grass is at rest again."""

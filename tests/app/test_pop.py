@@ -20,7 +20,7 @@ from tallgrass.app.bench.verdict import Step
 from tallgrass.app.cli import run
 from tallgrass.app.studio.studio import Studio
 from tallgrass.app.studio.take import Take
-from tallgrass.engine.camera import Place
+from tallgrass.components.arrays import Point
 from tallgrass.systems.around.transitions import SEAMLESS
 from tallgrass.systems.reference import Truth as Drawn
 from tallgrass.systems.reference import draw_truth
@@ -142,7 +142,7 @@ def test_n3_frames_that_are_not_held_against_the_reference_show_less_than_those_
 def test_n3_a_tile_of_the_reference_is_cut_from_it_and_its_trees_are_chosen_once_for_the_leg(
     scene: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    seen_at = list[tuple[Place, ...]]()
+    seen_at = list[tuple[Point, ...]]()
 
     def drawn(*given: Any, **keys: Any) -> Drawn:
         seen_at.append(keys["seen_at"])

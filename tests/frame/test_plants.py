@@ -259,7 +259,7 @@ def test_f3_what_an_organ_is_made_of_stands_out_near_by_and_leaves_the_colour_of
     aim, pictures = camera(*eye, pitch=pitch, view=view), []
     for _ in range(2):
         pictures.append(stage.shot(load(scene, lod="blades"), aim).astype(float))
-        monkeypatch.setattr(representation, "any_teeth", lambda _: False)
+        monkeypatch.setattr(representation, "any_with", lambda *_: False)
     fine, whole = pictures
     assert np.abs(fine - whole).mean() > 1.0
     np.testing.assert_allclose(fine.mean(axis=(0, 1)), whole.mean(axis=(0, 1)), rtol=0.02)
@@ -280,7 +280,7 @@ def test_f3_florets_far_off_are_drawn_without_their_teeth(
 ) -> None:
     aim = camera(0.0, 30.0, 3.0, pitch=-80, view=40)
     toothed = stage.shot(load(HEATH, lod="blades"), aim)
-    monkeypatch.setattr(representation, "any_teeth", lambda _: False)
+    monkeypatch.setattr(representation, "any_with", lambda *_: False)
     np.testing.assert_array_equal(stage.shot(load(HEATH, lod="blades"), aim), toothed)
 
 

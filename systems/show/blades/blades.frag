@@ -1,38 +1,16 @@
-centroid in vec3 color;  // with several samples a pixel, a sample beyond a ribbon's edge would extrapolate it
-flat in float shown;
-#ifdef FOLDS
-centroid in vec3 keel;  // radiance of a fold's right face above the mean of both
-#endif
+#define PASSED in
+#include "systems/show/blades/ribbon.glsl"
 #ifdef TOOTHED
 #include "systems/show/blades/toothed.glsl"
 #endif
 #ifdef DEEP
 #include "systems/show/deep.glsl"
-
-flat in int number;
-#endif
-#ifdef PARTED
-uniform int part;     // 1: pixels that hide what is behind them; 2: the others
-flat in float hides;  // coverage from which on a pixel hides what is behind it
+#else
+#include "systems/show/blades/veins.glsl"
 #endif
 #ifdef SOFT
 const float THINNEST = 0.01;  // least half width of a ribbon that counts [pixel]
 const float FAINT = 0.004;  // coverage that is left out: in bytes, it would only be rounded up
-noperspective in float aside;  // distance from the middle line, positive to the right [pixel]
-noperspective in float half_width;  // of the ribbon [pixel]
-#ifdef ORGANS
-noperspective in float onward;  // distance from the ribbon's middle along it [pixel]
-flat in float half_length;  // of the ribbon [pixel]
-#endif
-#endif
-
-#ifndef DEEP
-#include "systems/show/blades/veins.glsl"
-
-flat in vec2 veined;  // visibility of its rib, and of its veins
-#ifndef SOFT
-in vec2 across;  // place across it, -1 to 1, times its width; its width
-#endif
 #endif
 
 out vec4 pixel;

@@ -55,11 +55,6 @@ def blade_program(
     )  # fmt: skip
 
 
-def shader_record(record: np.dtype[np.void], /) -> np.dtype[np.void]:
-    """Return `BLADE` or `ORGAN` named as vertex attributes: `root` is a colour in shaders, so it is `root_at`."""
-    return np.dtype([(name if name != "root" else "root_at", record[name]) for name in record.names or ()])
-
-
 def own_segment_defines(own: Sequence[int | None], /) -> dict[str, str | int]:
     """Return the defines of kinds that set the number of segments of their blades at the finest level.
 
@@ -177,7 +172,9 @@ class BladeDrawing:
         organs = organ_defines(record)
         self.ribbons = Ribbons(ctx, block, [segments], units, soft=False, defines=organs)
         self.program = blade_program(ctx, block, units, RIBBON, organs)
-        self.blades, self.messages = Stream(ctx, shader_record(record)), Stream(ctx, MESSAGE)
+        attributes = [(name if name != "root" else "root_at", record[name]) for name in record.names or ()]
+        self.blades = Stream(ctx, np.dtype(attributes))  # in shaders, `root` is a colour
+        self.messages = Stream(ctx, MESSAGE)
         streams = [stream.binding(self.program, each="/v") for stream in (self.blades, self.messages)]
         self.array = ctx.vertex_array(self.program, streams)
 

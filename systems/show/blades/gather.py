@@ -60,16 +60,11 @@ def distances(pool: BladePool, slots: NDArray[np.int64], eye: tuple[float, float
     return np.asarray(np.sqrt(x, out=x))
 
 
-def far_first(away: Floats, /) -> NDArray[np.intp]:
-    """Return the indices that sort distances (n,) from largest to smallest, shape (n,).
-
-    Distances are rounded to 1 / 65535 of the largest: numpy sorts 16-bit integers faster than floats.
-    """
-    return np.argsort(nearness(away), kind="stable")
-
-
 def nearness(away: Floats, /) -> NDArray[np.uint16]:
-    """Return distances as 16-bit integers that fall with distance, from 65535 at 0 to 0 at the largest; same shape."""
+    """Return distances as 16-bit integers that fall with distance, from 65535 at 0 to 0 at the largest; same shape.
+
+    Numpy sorts these faster than floats.
+    """
     near = away * np.float32(-65535.0 / max(float(away.max(initial=0.0)), 1e-6))
     near += np.float32(65535.0)
     return near.astype(np.uint16)

@@ -8,7 +8,7 @@ from ...around.outlook import Outlook
 from ..strips.gather import lies_ahead
 from ..strips.pool import is_reversed
 from ..strips.representation import StripRepresentation
-from .gather import Numbers, far_first
+from .gather import Numbers, nearness
 from .pool import BladePool
 from .shown import Standing
 
@@ -69,7 +69,8 @@ def gather_morph(
     side, moved = strips.quality.patch, outlook.appearance.morph[rows][:, None]
     behind = np.arange(len(rows), 0, -1)[:, None] * (DIAGONAL * side)
     on_strips = behind + (counts[:, None] - slices) * (side / counts[:, None]) + AMONG * away
-    queue = far_first(((1.0 - moved) * away + moved * on_strips).astype(np.float32).reshape(-1))
+    key = ((1.0 - moved) * away + moved * on_strips).astype(np.float32).reshape(-1)
+    queue = np.argsort(nearness(key), kind="stable")
     count = pool.present.shape[1]
     numbers = ((shown.places * count).astype(np.uint32)[:, None] + np.arange(count, dtype=np.uint32)).reshape(-1)
     shows = (pool.present.take(shown.slots, axis=0) & (left > 0.0)[:, None] & ~home).reshape(-1)

@@ -29,17 +29,8 @@ def organ_defines(record: np.dtype[np.void], /) -> Mapping[str, str | int]:
     }
 
 
-def any_teeth(growths: Sequence[Growth], /) -> bool:
-    """Return whether any kind has organs with teeth or ligules."""
-    return _has_any(TEETH + LIGULES, growths)
-
-
-def any_ligules(growths: Sequence[Growth], /) -> bool:
-    """Return whether any kind has organs with ligules."""
-    return _has_any(LIGULES, growths)
-
-
-def _has_any(counts: NDArray[np.int64], growths: Sequence[Growth]) -> bool:
+def any_with(counts: NDArray[np.int64], growths: Sequence[Growth], /) -> bool:
+    """Return whether any kind has an organ whose count, of `TEETH` or `LIGULES`, is above 0."""
     return any(counts[model.blades.organ].any() for growth in growths for model in growth.models)
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ....components.arrays import Floats
 from ....engine.declared.quality import Quality
+from ....engine.gl.mipmaps import at_once
 from ....engine.gl.remembered import Remembered, Shelves
 from ....engine.gl.shaders import Texts, set_uniform
 from ....engine.gl.stream import Records, Stream, release_all
@@ -31,7 +32,7 @@ from .morph import at_home, gather_morph
 from .plant import BladeStock, rank_bounds
 from .pool import BladePool, BladesKept
 from .shown import BladesShown, Standing, together
-from .store import STANDING, STANDING_ROW, BladeStore
+from .store import STANDING, STANDING_ROW, BladeStore, storing
 
 PARTED = 1
 """Distance up to which the depth buffer sorts blades [patch sides]."""
@@ -100,7 +101,7 @@ class BladesPainter(RepresentationPainter):
 
     def __init__(self, canvas: Canvas, stock: BladeStock, strips: StripRepresentation, quality: Quality) -> None:
         ctx, block, units, rings = canvas.ctx, canvas.block, canvas.units, quality.blade_rings
-        self.ctx, self._stock, self.store = ctx, stock, BladeStore(ctx, stock, strips.stock)
+        self.ctx, self._stock, self.store = ctx, stock, at_once(storing(ctx, stock, strips.stock))
         self._staged: tuple[BladeStock, StripRepresentation, BladeStore] | None = None
         """Stock, strips and store that `restock` takes over."""
         self._strips, self._units, self._received, self._models = strips, units, canvas.received, len(stock.rank)
@@ -151,13 +152,12 @@ class BladesPainter(RepresentationPainter):
         """Return whether blades of another stock have records of the same fields."""
         return bool(representation.stock.records.dtype == self._stock.records.dtype)
 
-    def staging(self, stocks: Sequence[Any], /) -> Iterator[None]:
+    def staging(self, stocks: Mapping[str, Any], /) -> Iterator[None]:
         """Send the blades of another stock to GL, a piece at a time; the current ones stay."""
-        blades, strips = (next(stock for stock in stocks if stock.name == name) for name in ("blades", "strips"))
         release_all(self._staged and self._staged[2])
         self._staged = None
-        store = yield from BladeStore.beside(self.ctx, blades.stock, strips.stock)
-        self._staged = blades.stock, strips, store
+        stock, strips = stocks["blades"].stock, stocks["strips"]
+        self._staged = stock, strips, (yield from storing(self.ctx, stock, strips.stock))
 
     def restock(self) -> None:
         """Replace the stock by the staged one."""
@@ -171,7 +171,7 @@ class BladesPainter(RepresentationPainter):
         self._orders, self._uploads = Remembered[_Order](), Remembered[_Upload]()
 
     def making_for_winds(self) -> Iterator[None]:
-        """Make the programs of receivers for all winds that may blow, one at a time."""
+        """Compile the programs of the receivers' pass for all orders of winds, one at a time."""
         return self.hearing.making()
 
     def make_ready(self, grown: Grown, /) -> None:

@@ -12,14 +12,14 @@ from ....engine.declared.quality import Quality
 from ...around.kept import Kept
 from ...around.outlook import Outlook
 from ...around.patches import NOWHERE, PatchTable
-from ...grow.organs import any_eyes
+from ...grow.organs import LIGULES, TEETH, any_eyes
 from ...grow.record import NOTHING, Growth
 from ...space.ground import Ground
 from ...space.grown import Grown
 from ..representation import Canvas, Color, Representation
 from ..strips.representation import StripRepresentation
 from .draw import own_segment_defines
-from .organs import any_ligules, any_teeth
+from .organs import any_with
 from .painter import BladesPainter
 from .plant import BladeStock, carry_blades, plant_blades, sow_blades, stock_blades
 from .pool import BladePool, BladesKept
@@ -56,7 +56,8 @@ class BladeRepresentation(Representation):
         """Return the defines of kinds with segment counts of their own, and of kinds with teeth, ligules or eyes."""
         growths = [*grown.growths, *grown.coming.values()]
         special = {
-            "TOOTHED": any_teeth(growths), "LIGULES_TOO": any_ligules(growths), "EYED": any_eyes(growths),
+            "TOOTHED": any_with(TEETH + LIGULES, growths), "LIGULES_TOO": any_with(LIGULES, growths),
+            "EYED": any_eyes(growths),
         }  # fmt: skip
         return {**own_segment_defines(grown.own_segments), **{name: 1 for name, needed in special.items() if needed}}
 

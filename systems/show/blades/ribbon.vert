@@ -21,45 +21,10 @@ in vec4 base;
 in vec4 painted;
 #endif
 
-centroid out vec3 color;
-flat out float shown;
-#ifdef FOLDS
-centroid out vec3 keel;  // radiance of a fold's right face above the mean of both
-#endif
-#ifdef TOOTHED
-#include "systems/show/blades/teeth.glsl"
-
-flat out float outlined;  // teeth or ligules, as toothed.glsl describes
-flat out vec2 tooth_widths;
-out float tooth;
-#ifdef SIDED
-out vec2 tooth_side;
-#endif
-#endif
-#ifdef SOFT
-noperspective out float aside;  // distance from the middle line, positive to the right [pixel]
-noperspective out float half_width;  // of the ribbon [pixel]
-#ifdef ORGANS
-noperspective out float onward;  // distance from the ribbon's middle along it [pixel]
-flat out float half_length;  // of the ribbon [pixel]
-#endif
-#ifdef PARTED
-flat out float hides;  // coverage from which on a pixel hides what is behind it
-uniform int part;      // 1: pixels that hide what is behind them; 2: the others
-#endif
-#endif
-
-#ifndef DEEP
-flat out vec2 veined;  // visibility of its rib, and of its veins
-#ifndef SOFT
-out vec2 across;  // place across it, -1 to 1, times its width; its width
-#endif
-#endif
-
+#define PASSED out
+#include "systems/show/blades/ribbon.glsl"
 #ifdef DEEP
 #include "lib/random.glsl"
-
-flat out int number;
 #endif
 
 const float AT_TIP = 0.9999;  // place along a blade from which on it is the tip

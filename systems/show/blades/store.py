@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....engine.gl.emit import emitted, record_lookup
-from ....engine.gl.mipmaps import at_once
 from ....engine.gl.stream import Records, release_all, released_unless_finished
 from ....engine.gl.texture import by_texel
 from ..strips.stock import StripStock
@@ -49,31 +48,11 @@ GLSL = (
 class BladeStore:
     """Textures of everything about all patch models' blades that is the same in every frame."""
 
-    def __init__(self, ctx: moderngl.Context, blades: BladeStock, strips: StripStock) -> None:
-        at_once(self.sending(ctx, blades, strips))
-
-    @classmethod
-    def beside(
-        cls, ctx: moderngl.Context, blades: BladeStock, strips: StripStock, /
-    ) -> Generator[None, None, "BladeStore"]:
-        """Return a store whose data is sent to GL a piece at a time."""
-        made = cls.__new__(cls)
-        yield from made.sending(ctx, blades, strips)
-        return made
-
-    def sending(self, ctx: moderngl.Context, blades: BladeStock, strips: StripStock) -> Generator[None, None, None]:
-        """Send all data to GL, a piece at a time."""
-        self.count = blades.records.shape[1]
-        self.organs = organ_defines(blades.records.dtype)
-        self.blades = Records(ctx, blades.records.dtype, BLADES_ROW, rows=-(-blades.records.size // BLADES_ROW))
-        self.blades.write(blades.records.reshape(-1))
-        with released_unless_finished(self.blades):
-            yield
-            self.points = strips.targets.shape[3]
-            self.slices = _texture(ctx, strips.slices.reshape(-1, 1, 1), SLICES_ROW)
-            with released_unless_finished(self.slices):
-                yield
-        self.targets = _texture(ctx, strips.targets.reshape(-1, self.points, 2), TARGETS_ROW)
+    def __init__(self, stock: BladeStock, blades: Records, slices: moderngl.Texture, targets: moderngl.Texture) -> None:
+        self.count = stock.records.shape[1]
+        self.organs = organ_defines(stock.records.dtype)
+        self.blades, self.slices, self.targets = blades, slices, targets
+        self.points = targets.width // TARGETS_ROW
 
     @property
     def defines(self) -> dict[str, str | int]:
@@ -83,6 +62,19 @@ class BladeStore:
     def release(self) -> None:
         """Give everything back."""
         release_all(self.blades, self.slices, self.targets)
+
+
+def storing(ctx: moderngl.Context, stock: BladeStock, strips: StripStock, /) -> Generator[None, None, BladeStore]:
+    """Return a store, whose data is sent to GL a piece at a time."""
+    records, (*_, points, _) = stock.records, strips.targets.shape
+    blades = Records(ctx, records.dtype, BLADES_ROW, rows=-(-records.size // BLADES_ROW))
+    blades.write(records.reshape(-1))
+    with released_unless_finished(blades):
+        yield
+        slices = _texture(ctx, strips.slices.reshape(-1, 1, 1), SLICES_ROW)
+        with released_unless_finished(slices):
+            yield
+    return BladeStore(stock, blades, slices, _texture(ctx, strips.targets.reshape(-1, points, 2), TARGETS_ROW))
 
 
 def _texture(ctx: moderngl.Context, values: NDArray[np.generic], per_row: int) -> moderngl.Texture:

@@ -1,13 +1,6 @@
 // Pixels of a ribbon's teeth or ligules.
 #include "systems/show/blades/teeth.glsl"
 
-flat in float outlined;     // visibility of teeth, above 0, or of ligules, below 0
-flat in vec2 tooth_widths;  // width between teeth, and how much more it is at their ends, relative to the drawn width
-in float tooth;             // number of the tooth, from the root on; or the place along ligules
-#ifdef SIDED
-in vec2 tooth_side;         // teeth: side, -1 to 1; 1. Ligules: number of the ligule, from the middle on, times the width; relative width
-#endif
-
 const float LIGULE_EDGES = 0.4;  // relative brightness of a ligule's middle over its edges
 const float GOLDEN_PART = 0.618034;  // multiples of it, modulo 1, are spread evenly
 

@@ -4,55 +4,10 @@
 #define SUNWARD_BY_VERTEX
 #endif
 #include "lib/light.glsl"
-#include "systems/show/carpet/within.glsl"
 #include "systems/show/carpet/litter.glsl"
 
-// With many kinds, pixels compute themselves what is a varying for FEW_KINDS; carpet.vert describes all varyings.
-#if KINDS > 4
-#define FEW_KINDS
-#else
-#define FEW_KINDS WITHIN in
-#endif
-
-#ifdef EDGED
-#define PER_VERTEX
-#define OF_SOIL
-#define OF_SLOPE WITHIN in
-vec3 place;
-in vec3 mesh_place;
-WITHIN in float mesh_height;
-WITHIN in float mesh_lift;
-WITHIN in float skirt;
-#else
-#define PER_VERTEX WITHIN in
-in vec3 place;
-#define OF_SOIL FEW_KINDS
-#define OF_SLOPE FEW_KINDS
-#endif
-
-WITHIN in float mesh_share;
-OF_SLOPE vec2 rise;
-WITHIN in float curvature;
-WITHIN in float lowered;
-WITHIN in float rim_path;
-PER_VERTEX float tall;
-PER_VERTEX float leaf_area;
-PER_VERTEX ByKind met;
-PER_VERTEX vec3 soil_seen;
-WITHIN in mat4 lit;
-#ifdef HEADS
-PER_VERTEX ByKind riper;
-#endif
-FEW_KINDS float stands;
-FEW_KINDS float strips_before;
-FEW_KINDS float sway;
-FEW_KINDS vec2 slow_noise;
-OF_SOIL float elevation;
-OF_SOIL vec3 sunlit;
-OF_SOIL vec3 skylit;
-OF_SOIL float soil_extinction;
-OF_SOIL float soil_through;
-OF_SOIL vec3 lush;
+#define PASSED in
+#include "systems/show/carpet/carpet.glsl"
 
 out vec4 pixel;
 

@@ -84,7 +84,8 @@ class GroundPainter:
         self._raised = RAISED, OUTLINE
         self.units, self._side = units, side
         self._ctx, self.rims = ctx, ctx.texture((1, 1), 1, dtype="f4")
-        self._stride = COARSE_STRIDE if coarse else 1
+        self.stride = COARSE_STRIDE if coarse else 1
+        """Grid points from one vertex of the mesh to the next."""
         makes = tile_grid, partial(tile_grid, quads=PIECE), partial(skirted_grid, quads=PIECE)
         tile, piece, skirted = (
             (ctx.buffer(make()[0]), *(ctx.buffer(in_orders(*make(stride))) for stride in (1, COARSE_STRIDE)))
@@ -166,11 +167,6 @@ class GroundPainter:
     def _set_uniform(self, name: str, value: object) -> None:
         for layer in self._layers:
             layer.set_uniforms({name: value})
-
-    @property
-    def stride(self) -> int:
-        """Grid points from one vertex of the mesh to the next."""
-        return self._stride
 
     @property
     def _is_cut(self) -> bool:
@@ -276,7 +272,7 @@ class GroundPainter:
     def use(self) -> None:
         """Bind the textures that all programs read."""
         shelf, on_hosts = self.shelves.now, bool(self._block.record["over_hosts"][0])
-        shelf.stride = 1 if on_hosts else self._stride  # it has to lie on the game's ground
+        shelf.stride = 1 if on_hosts else self.stride  # it has to lie on the game's ground
         shelf.shares.use(self.units["shares"])
         self.rims.use(self.units["rims"])
         if self._block.earth:

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Doubles, Floats
-from ...grow.bend import highest_tip, ribbon, segment_normals, spine, tone
+from ...grow.bend import highest_tip, ribbon, segment_normals, sides_of, spine, tone
 from ...grow.dye import eyed
 from ...grow.organs import has_eyes
-from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
+from ...grow.raster import Fragments, along_ribbons, interpolate, rasterise, ribbon_triangles
 from ...grow.record import LENGTHS, Blades, PatchModel, Postures
 from ...grow.section import FLAT, Section
 from ...space.canopy import lodged
@@ -98,13 +98,8 @@ def grow_carpet(
     over the patch's edge into the next patch, a copy: across the view in line, along the view `ASIDE` aside. `height`
     is the canopy's [m]; without it, the highest tip's.
     """
-    seen_along = [
-        ribbon_triangles(*(edge.astype(np.float64) for edge in edges))
-        for side in (((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)) if section.is_round else (None,))
-        for edges in [
-            ribbon(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper, section=section, side=side)
-        ]
-    ]
+    draw = partial(ribbon, blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper, section=section)
+    seen_along = [ribbon_triangles(*draw(side=side)) for side in sides_of(section)]
     centre = spine(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1)
     height = highest_tip(centre, 0.01) if height is None else height
     width = float(blades.width.mean())
@@ -161,8 +156,7 @@ class _Field:
         self._fine = int(np.clip(np.ceil(_SAMPLES_PER_WIDTH * patch / texels / width), 6, 64))
         self._seen_along, self._patch, self._height, self._texels = seen_along, patch, height, texels
         self._normals = np.repeat(normals.reshape(-1, 3), 2, axis=0)
-        ends = tones[:, :, None]
-        self._place = ribbon_triangles(ends, ends)[:, :, 0]
+        self._place = along_ribbons(tones)
 
     def draw(self, heading: NDArray[np.float64], slope: float, /) -> Bytes:
         """Return the image for a heading (2,) and a slope, (texels, texels, 4): rows along z, columns along x."""
@@ -233,10 +227,9 @@ def first_met(
     `slopes` (slopes,) [m/m]. `patch` is the side of the blades' patch [m].
     """
     side = (-float(heading[1]), 0.0, float(heading[0])) if section.is_round else None
-    edges = ribbon(blades, postures, message, points=_POINTS, taper=taper, section=section, side=side)
-    leaf = ribbon_triangles(*(edge.astype(np.float64) for edge in edges))
-    ends = tone(blades, np.linspace(0.0, 1.0, _POINTS))[:, :, None]
-    place_height = np.column_stack([ribbon_triangles(ends, ends)[:, :, 0].mean(axis=1), leaf[:, :, 1].mean(axis=1)])
+    leaf = ribbon_triangles(*ribbon(blades, postures, message, points=_POINTS, taper=taper, section=section, side=side))
+    place = along_ribbons(tone(blades, np.linspace(0.0, 1.0, _POINTS)))
+    place_height = np.column_stack([place.mean(axis=1), leaf[:, :, 1].mean(axis=1)])
     normal = 0.5 * np.cross(leaf[:, 1] - leaf[:, 0], leaf[:, 2] - leaf[:, 0])
     order = np.argsort(-place_height[:, 1])
     along, up = (normal[:, ::2] @ heading)[order], normal[order, 1]

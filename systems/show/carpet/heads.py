@@ -42,8 +42,7 @@ def profile_of(growth: Growth, /) -> Doubles:
     the whole leaf area. Of kinds with heads they are areas of silhouettes: what a plant itself hides does not count.
     """
     blades = growth.models[0].blades
-    left, right = ribbon(blades, growth.postures, (0.0, 0.0), points=_POINTS, taper=_TAPER)
-    triangles = ribbon_triangles(left.astype(np.float64), right.astype(np.float64))
+    triangles = ribbon_triangles(*ribbon(blades, growth.postures, (0.0, 0.0), points=_POINTS, taper=_TAPER))
     area = _side_area(triangles)
     if bears_heads(growth):
         height, seen, heads = _silhouettes(blades, triangles, area)

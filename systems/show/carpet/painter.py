@@ -1,6 +1,6 @@
 """Painting the carpet, and the ground under everything."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import Any
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ....components.arrays import Bytes, Floats
 from ....components.viewer import Viewer
 from ....engine.gl.guest import set_depth_test
+from ....engine.gl.mipmaps import at_once
 from ....engine.gl.remembered import Remembered
 from ....engine.gl.shaders import Texts
 from ....engine.gl.stream import release_all
@@ -31,7 +32,7 @@ from .ground import DENSE, OUTLINE, RAISED, THIN, WHOLE, GroundPainter
 from .pieces import ByLayer, PieceEdges, by_layer, find_edges, no_edges
 from .pool import CarpetKept
 from .stock import CarpetStock
-from .textures import bent_texture, carpet_texture, sending_carpet
+from .textures import bent_texture, sending_carpet
 from .tiles import (
     GRID,
     Tiles,
@@ -64,7 +65,10 @@ class CarpetPainter(RepresentationPainter):
         self._edges, self._tallest = Edges(), 0.0
         self._rims, self._rims_sent = Found.of(ground.terrain).rims, -1
         self._shares = Remembered[Bytes]()
-        self.images, self.bents = carpet_texture(canvas.ctx, stock.growths), bent_texture(canvas.ctx, stock.bents(()))
+        self.images, self.bents = (
+            at_once(sending_carpet(canvas.ctx, stock.growths)),
+            bent_texture(canvas.ctx, stock.bents(())),
+        )
         self._staged: tuple[CarpetStock, moderngl.TextureArray] | None = None
         """The next stock and its images, already in GL."""
         self._came: tuple[float, ...] = ()
@@ -96,12 +100,11 @@ class CarpetPainter(RepresentationPainter):
         """Return whether the programs can draw another representation's stock too."""
         return self.ground.fits(representation.stock)
 
-    def staging(self, stocks: Sequence[Any], /) -> Iterator[None]:
+    def staging(self, stocks: Mapping[str, Any], /) -> Iterator[None]:
         """Upload the images of another stock, a piece at a time, while the present one is drawn."""
-        carpet = next(each for each in stocks if each.name == "carpet")
         self._release_staged()
-        images = yield from sending_carpet(self.images.ctx, carpet.stock.growths)
-        self._staged = carpet.stock, images
+        stock = stocks["carpet"].stock
+        self._staged = stock, (yield from sending_carpet(self.images.ctx, stock.growths))
 
     def restock(self) -> None:
         """Draw the stock that was staged."""

@@ -7,20 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Floats
-from ....engine.gl.mipmaps import PIECE, at_once, mipmapping, stack_for
+from ....engine.gl.mipmaps import PIECE, mipmapping, stack_for
 from ....engine.gl.stream import released_unless_finished
 from ....engine.gl.texture import interpolated
 from ...grow.record import Growth
 from .grow import carpet_of
 
 
-def carpet_texture(ctx: moderngl.Context, growths: Sequence[Growth]) -> moderngl.TextureArray:
-    """Return all carpet images as layers, ordered by form, model, slope and direction."""
-    return at_once(sending_carpet(ctx, growths))
-
-
 def sending_carpet(ctx: moderngl.Context, growths: Sequence[Growth]) -> Generator[None, None, moderngl.TextureArray]:
-    """Make the texture of `carpet_texture`, a piece at a time."""
+    """Return all carpet images as layers, ordered by form, model, slope and direction; send them a piece at a time."""
     by_model = [carpet_of(model).texels for growth in growths for model in growth.models]
     images = [texels.reshape(-1, *texels.shape[2:]) for texels in by_model]
     layers, (rows, columns) = image_count(growths), images[0].shape[1:3]

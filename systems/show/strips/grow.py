@@ -1,15 +1,16 @@
 """Growing strips: images of the blades in vertical slices of a patch, in both orientations (paper, section 2.2)."""
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Doubles, Floats
-from ...grow.bend import highest_tip, ribbon, spine, tone
+from ...grow.bend import highest_tip, ribbon, sides_of, spine, tone
 from ...grow.dye import eyed
 from ...grow.organs import HEADS, has_eyes
-from ...grow.raster import Fragments, interpolate, rasterise, ribbon_triangles
+from ...grow.raster import Fragments, along_ribbons, interpolate, rasterise, ribbon_triangles
 from ...grow.record import Blades, PatchModel, Postures
 from ...grow.section import FLAT, Section
 
@@ -134,15 +135,6 @@ def _count(length: float, texel: float, /) -> int:
     return max(int(np.ceil(length / texel - 1e-6)), 1)
 
 
-def _triangles(
-    blades: Blades, postures: Postures, taper: float, section: Section, side: tuple[float, float, float] | None, /
-) -> Doubles:
-    """Return the triangles of blades at rest, shape (triangles, 3, 3); round blades extend along the vector `side`."""
-    edges = ribbon(blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper, section=section, side=side)
-    left, right = (edge.astype(np.float64) for edge in edges)
-    return ribbon_triangles(left, right)
-
-
 class _Sheet:
     """The image that strips of one orientation are drawn on, one above another, and the blades to draw."""
 
@@ -162,10 +154,8 @@ class _Sheet:
     ) -> None:
         self._blades, self._strips, self._size = blades, strips, size
         self._patch, self._margin, self._height = patch, margin, height
-        self._triangles = [
-            _triangles(blades, postures, taper, section, side)
-            for side in (((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)) if section.is_round else (None,))
-        ]
+        draw = partial(ribbon, blades, postures, (0.0, 0.0), points=_SEGMENTS + 1, taper=taper, section=section)
+        self._triangles = [ribbon_triangles(*draw(side=side)) for side in sides_of(section)]
         self._samples = int(np.clip(np.ceil(4.0 * height / size[0] / float(blades.width.mean())), 4, 10))
         """Number of samples across a texel, in either direction."""
 
@@ -220,8 +210,8 @@ class _Sheet:
 
     def _values(self, corners: Doubles, seen: Fragments, /) -> list[Doubles]:
         """Return each sample's tone, cosine and sine of twice the normal's azimuth, coverage of 1, and rank."""
-        ends = tone(self._blades, np.linspace(0.0, 1.0, _SEGMENTS + 1))[:, :, None]
-        tones = interpolate(corners, ribbon_triangles(ends, ends)[:, :, 0], seen)
+        ends = along_ribbons(tone(self._blades, np.linspace(0.0, 1.0, _SEGMENTS + 1)))
+        tones = interpolate(corners, ends, seen)
         facing, rank = self._blades.facing.astype(np.float64), self._blades.rank.astype(np.float64)
         blade = seen.triangle // (2 * _SEGMENTS)
         twice = [(0.5 + 0.5 * part(2.0 * facing)).take(blade) for part in (np.cos, np.sin)]

@@ -1,6 +1,6 @@
 """The painter of strips: it draws all rings in one order, from far to near."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from itertools import accumulate
@@ -151,11 +151,11 @@ class StripsPainter(RepresentationPainter):
         """Return whether the programs can draw another stock too."""
         return any_heads(form.growth for form in representation.stock.forms) == self._heads
 
-    def staging(self, stocks: Sequence[Any], /) -> Iterator[None]:
+    def staging(self, stocks: Mapping[str, Any], /) -> Iterator[None]:
         """Upload the pictures of a new stock beside those in use, a piece at a time."""
-        new = next(each for each in stocks if each.name == "strips")
         release_all(self._staged)
         self._staged = None
+        new = stocks["strips"]
         self._staged = yield from uploading(self._canvas.ctx, self.rings, new.stock, new.atlas())
 
     def restock(self) -> None:

@@ -40,7 +40,7 @@ def is_reversed(orientation: Ints, along: Ints, turn: Ints, /) -> NDArray[np.boo
     return np.asarray(turn == np.where(orientation == 0, np.where(along == 0, 2, 1), np.where(along == 0, 3, 2)))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(slots=True, eq=False)
 class StripPool:
     """The strips of one ring of 2.5D patches, with a slot for each patch and orientation.
 
@@ -78,16 +78,11 @@ class StripPool:
 
     def __post_init__(self) -> None:
         slots = 2 * self.side * self.side
-        stamp = np.full((slots, 3), NOWHERE, np.int32)
-        stamp[:, 2] = 0  # a valid axis, so that `places` works for empty slots too
-        for name, value in (
-            ("stamp", stamp),
-            ("model_and_turn", np.zeros((slots, 2), np.int32)),
-            ("present", np.zeros((slots, len(self.strips)), np.bool_)),
-            ("least", np.zeros(slots, np.float32)),
-            ("edged", np.zeros(slots, np.bool_)),
-        ):
-            object.__setattr__(self, name, value)
+        self.stamp = np.full((slots, 3), NOWHERE, np.int32)
+        self.stamp[:, 2] = 0  # a valid axis, so that `places` works for empty slots too
+        self.model_and_turn = np.zeros((slots, 2), np.int32)
+        self.present = np.zeros((slots, len(self.strips)), np.bool_)
+        self.least, self.edged = np.zeros(slots, np.float32), np.zeros(slots, np.bool_)
 
     @property
     def slots(self) -> int:

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from pydantic import Field
 
-from tallgrass.app.edit.anchors import ahead, declared_anchors, heading, turned_to
+from tallgrass.app.edit.anchors import declared_anchors, heading, turned_to
 from tallgrass.components.arrays import Floats
 from tallgrass.components.declaration import Pair
 from tallgrass.components.wind import Grass, WindPrimitive
+from tallgrass.engine.camera import ahead
 from tallgrass.engine.declared.way import Waypoint
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust

@@ -6,159 +6,21 @@ Modules that open windows are imported inside the tests, after the display is se
 # ruff: noqa: PLC0415
 
 import difflib
-from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
-from pydantic import BaseModel, Field
 
-from tallgrass.app.edit.fields import keys_of
-from tallgrass.app.edit.pick import Sight
-from tallgrass.app.edit.values import Way
-from tallgrass.app.studio.take import Take
-from tallgrass.components.arrays import Floats
-from tallgrass.components.wind import Extent, Grass
-from tallgrass.engine.camera import View
-from tallgrass.engine.plugins import WindKinds, wind_kinds
-from tallgrass.engine.scene import bundled_scenes, read_scene
-from tallgrass.systems.prairie import Prairie
-from tallgrass.systems.wind.placed import PlacedWind
+from tallgrass.engine.scene import read_scene
+
+from .driving import SCENE, SIZE, button, drag, field, frames, on_ground, opened, seen, shown, strike, tell
 
 if TYPE_CHECKING:
     from tallgrass.app.edit.window import EditWalk
 
 pytest.importorskip("imgui_bundle", reason="the panel is drawn by imgui-bundle, of the extra 'edit'")
 pytestmark = [pytest.mark.window, pytest.mark.gl]
-SIZE = (720, 480)
-LEFT = 1
-
-SCENE = """\
-# A lawn with a whirlwind.
-tallgrass: 2
-seed: 5
-terrain: { size: [60, 60] } # flat
-grass:
-  green: # short
-    height: [0.3, 0.5]
-    root: "#204010"
-    tip: "#40a020"
-wind:
-  - kind: whirlwind # it stays
-    position: [-2, 10]
-    radius: 3
-camera: { position: [5, 20], pitch: -25 }
-light: { elevation: 40 } # high
-quality:
-  blades: 40
-  models: 1
-  blade_rings: [{ to: 1, segments: 2 }]
-  strip_rings: [{ to: 3, strips: 2, columns: 1, sections: 1, texel: 0.02 }]
-  carpet_to: 10
-  carpet: 16
-"""
-
-
-@pytest.fixture
-def walk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator["EditWalk"]:
-    """A walk with a panel through a lawn, drawn twice; pyglet checks every GL call."""
-    monkeypatch.setenv("PYGLET_DEBUG_GL", "1")
-    monkeypatch.chdir(tmp_path)
-    from tallgrass.app.display import need_display
-
-    need_display()
-    from tallgrass.app.edit.window import EditWalk
-    from tallgrass.app.window import open_window
-
-    path = tmp_path / "lawn.yaml"
-    path.write_text(SCENE)
-    started = EditWalk(open_window(SIZE), Prairie.load(path), Take(str(path), SIZE))
-    started.prairie.governor.hold = None
-    frames(started, 2)
-    yield started
-    if not started.closed:
-        assert started.ctx.error == "GL_NO_ERROR"
-    started.close()
-
-
-def frames(walk: "EditWalk", count: int = 1, dt: float = 1 / 30) -> None:
-    for _ in range(count):
-        walk.frame(dt)
-        if not walk.closed:
-            walk.window.dispatch_events()
-
-
-def tell(walk: "EditWalk", event: str, *arguments: object) -> None:
-    walk.window.dispatch_event(event, *arguments)
-    walk.window.dispatch_events()
-
-
-def strike(walk: "EditWalk", name: str, *, ctrl: bool = False) -> None:
-    from pyglet.window import key
-
-    modifiers = key.MOD_CTRL if ctrl else 0
-    tell(walk, "on_key_press", getattr(key, name), modifiers)
-    tell(walk, "on_key_release", getattr(key, name), 0)
-    frames(walk)
-
-
-def drag(walk: "EditWalk", *places: tuple[float, float], modifiers: int = 0) -> None:
-    """Press the left button at the first place [pixels from the lower left], pull it along the others, let go."""
-    x, y = places[0]
-    tell(walk, "on_mouse_motion", x, y, 0, 0)
-    frames(walk)
-    tell(walk, "on_mouse_press", x, y, LEFT, modifiers)
-    frames(walk)
-    for new_x, new_y in places[1:]:
-        tell(walk, "on_mouse_drag", new_x, new_y, new_x - x, new_y - y, LEFT, modifiers)
-        x, y = new_x, new_y
-        frames(walk)
-    tell(walk, "on_mouse_release", x, y, LEFT, modifiers)
-    frames(walk)
-
-
-def field(walk: "EditWalk", way: Way, part: float = 0.5) -> tuple[float, float]:
-    """Return a place in the field of a key, at a fraction of its width [pixels from the window's lower left]."""
-    left, top, right, bottom = walk.panel.tree.boxes[way]
-    return left + part * (right - left), SIZE[1] - (top + bottom) / 2
-
-
-def opened(walk: "EditWalk", *ways: Way) -> None:
-    for way in ways:
-        walk.panel.tree.open(way)
-    frames(walk, 2)
-
-
-def button(walk: "EditWalk", name: str) -> tuple[float, float]:
-    left, top, right, bottom = walk.panel.buttons[name]
-    return (left + right) / 2, SIZE[1] - (top + bottom) / 2
-
-
-def on_ground(walk: "EditWalk", x: float, z: float) -> tuple[float, float]:
-    """Return the pixel of a place on the ground, from the lower left."""
-    sight = Sight(SIZE, View(*walk.matrices(SIZE)), walk.prairie.site.ground.terrain)
-    ((right, up),) = sight.pixels_on_ground([(x, z)]).tolist()
-    return right, up
-
-
-def seen(walk: "EditWalk") -> NDArray[np.float64]:
-    """Draw the prairie without panel and notes, and return the window's picture."""
-    walk.window.switch_to()
-    walk.window.clear()
-    walk.prairie.draw(*walk.matrices(SIZE))
-    return shown()
-
-
-def shown() -> NDArray[np.float64]:
-    """Return the current window's picture (height, width, 3)."""
-    from pyglet.image import get_buffer_manager
-
-    buffers: Any = get_buffer_manager()
-    image = buffers.get_color_buffer().get_image_data()
-    picture = np.frombuffer(image.get_data("RGBA"), np.uint8).reshape(image.height, image.width, 4)
-    return picture[::-1, :, :3].astype(np.float64)
 
 
 def test_n13_a_slider_changes_the_picture_while_the_wind_blows_on(walk: "EditWalk") -> None:
@@ -327,80 +189,6 @@ def test_a_file_that_changes_meanwhile_is_read_again_unless_something_is_unsaved
     strike(walk, "F5")
     assert walk.prairie.scene.light.elevation == 40.0
     assert walk.prairie.scene.wind[0].model_dump()["radius"] == 1
-
-
-def test_n13_every_key_of_a_scene_has_its_field(walk: "EditWalk", tmp_path: Path) -> None:
-    walk.window.set_size(720, 1000)
-    text = bundled_scenes()["storm"].read_text().replace("quality: high", SCENE[SCENE.index("quality:") :])
-    (tmp_path / "lawn.yaml").write_text(text.replace("[200, 200]", "[100, 100]"))
-    walk.editor.read_again()
-    parts = dict(parts_of(walk.editor.scene))
-    assert len(parts) > 30
-    opened(walk, *filter(None, parts))
-    shown = set(walk.panel.tree.boxes)
-    for way, part in parts.items():
-        for key in keys_of(type(part)) if isinstance(part, BaseModel) else ():
-            if key.form != "fixed":
-                assert {(*way, key.name), (*way, key.name, "there")} & shown, (*way, key.name)
-
-
-def parts_of(value: Any, way: Way = ()) -> Iterator[tuple[Way, Any]]:
-    """Yield each part of a scene that can be opened in the panel, models and lists of models, with its way."""
-    if isinstance(value, BaseModel):
-        inner: list[tuple[str | int, Any]] = [(key.name, getattr(value, key.name)) for key in keys_of(type(value))]
-    elif isinstance(value, dict):
-        inner = list(value.items())
-    elif isinstance(value, list) and value and isinstance(value[0], BaseModel):
-        inner = list(enumerate(value))
-    else:
-        return
-    yield way, value
-    for step, each in inner:
-        yield from parts_of(each, (*way, step))
-
-
-class Draught(PlacedWind):
-    """A plugin's wind."""
-
-    kind: str = "draught"
-    """A draught."""
-
-    chill: float = Field(default=2.0, ge=0.0, le=8.0)
-    """How cold it is [degrees]."""
-
-    def extent(self, *, time: float) -> Extent:
-        return Extent(-2.0, 2.0, -2.0, 2.0)
-
-    def mask(self, place: Floats, /, *, time: float) -> Floats:
-        return np.ones(len(place), np.float32)
-
-    def action(self, place: Floats, /, *, time: float, seed: int, grass: Grass) -> Floats:
-        return np.full((len(place), 2), 0.2, np.float32)
-
-
-def test_n13_a_strangers_wind_is_added_where_one_looks_and_has_its_fields(
-    walk: "EditWalk", own_kinds: WindKinds, tmp_path: Path
-) -> None:
-    own_kinds.add("draught", Draught)
-    assert walk.editor.add_wind_of("draught")
-    frames(walk, 3)
-    wind = walk.prairie.scene.wind[1]
-    assert isinstance(wind, Draught)
-    assert walk.editor.picked_wind is wind
-    assert wind.position == pytest.approx(walk.editor.spot, abs=0.01)
-    drag(walk, field(walk, ("wind", 1, "chill"), 0.25), field(walk, ("wind", 1, "chill"), 0.75))
-    assert walk.prairie.scene.wind[1].model_dump()["chill"] == pytest.approx(6.0, abs=0.5)
-    strike(walk, "S", ctrl=True)
-    added = [line for line in (tmp_path / "lawn.yaml").read_text().splitlines() if line not in SCENE.splitlines()]
-    (line,) = added
-    assert line.startswith("  - { kind: draught, position: [")
-
-
-@pytest.fixture
-def own_kinds() -> Iterator[WindKinds]:
-    wind_kinds.cache_clear()
-    yield wind_kinds()
-    wind_kinds.cache_clear()
 
 
 def test_n13_a_tab_has_a_bar_for_every_system_of_the_frame(walk: "EditWalk", monkeypatch: pytest.MonkeyPatch) -> None:

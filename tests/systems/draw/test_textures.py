@@ -15,7 +15,7 @@ from tallgrass.systems.land.part import density_texture, posture_texture
 from tallgrass.systems.light.lie import slow_map
 from tallgrass.systems.light.repeating import LITTER_ONE, SIDE, ground_maps, repeating_levels
 from tallgrass.systems.show.carpet.grow import carpet_of
-from tallgrass.systems.show.carpet.textures import carpet_texture
+from tallgrass.systems.show.carpet.textures import sending_carpet
 from tallgrass.systems.show.strips.pages import ALIGNMENT, packed
 from tallgrass.systems.show.strips.stock import stock_strips
 from tallgrass.systems.show.strips.textures import (
@@ -130,7 +130,7 @@ def test_w3_posture_layers_hold_places_and_directions(ctx: moderngl.Context, gro
 
 
 def test_g4_carpet_layers_are_kinds_models_slopes_and_directions(ctx: moderngl.Context, growths: list[Growth]) -> None:
-    texture = carpet_texture(ctx, growths)
+    texture = at_once(sending_carpet(ctx, growths))
     width, height, layers = texture.size
     texels = np.frombuffer(texture.read(), np.uint8).reshape(layers, height, width, 4)
     each = len(carpet_of(growths[0].models[0]).slope) * 4

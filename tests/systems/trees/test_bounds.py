@@ -8,7 +8,7 @@ from tallgrass.engine.camera import View, projection_matrix, view_matrix
 from tallgrass.systems.space.frustum import picture_sides
 from tallgrass.systems.trees import bark
 from tallgrass.systems.trees.bark import PIXEL_RADII
-from tallgrass.systems.trees.bounds import blocks_inside, highest_shown
+from tallgrass.systems.trees.bounds import blocks_inside
 from tallgrass.systems.trees.leafy import GROUPED_FROM, blocks_of_models, blocks_shown
 from tallgrass.systems.trees.model import Model, models_of
 from tallgrass.systems.trees.standing import INSTANCE
@@ -41,18 +41,6 @@ def inside(places: Doubles, tree: np.void) -> np.ndarray:
     (cosine, sine), (x, y, z) = tree["turn"], places.T
     at = tree["root"] + tree["scale"] * np.stack([cosine * x - sine * z, y, sine * x + cosine * z], axis=1)
     return np.asarray((at @ SIDES[:, :3].T + SIDES[:, 3] >= 0.0).all(axis=1))
-
-
-def test_a_tree_is_in_the_picture_up_to_the_highest_of_its_parts_there(model: Model) -> None:
-    trees = around()
-    slices = np.tile(np.array(model.slices), (len(trees), 1, 1))
-    top = highest_shown(slices, trees["root"].astype(float), trees["scale"].astype(float), SIDES)
-    wood, whole = model.vertices["stem"][:, :3], model.slices.high[-1]
-    for tree, high in zip(trees, top, strict=True):
-        shown = np.concatenate([each[inside(each, tree)] for each in (wood, model.balls.middle)])
-        assert high >= shown[:, 1].max(initial=0.0)
-    assert (top <= 0.0).sum() > 30  # behind the eye or beside the picture
-    assert ((top > 0.0) & (top < whole)).any()  # its crown is above the picture
 
 
 def test_next_to_the_eye_all_wood_in_the_picture_is_drawn_and_little_of_a_tree_beside_it(model: Model) -> None:

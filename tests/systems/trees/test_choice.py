@@ -86,7 +86,7 @@ def test_a_tree_is_in_as_many_streams_as_it_is_drawn_in_ways(models: list[Model]
             sorted(map(tuple, roots(found, model, *each))) for each in (CARDS, WOODS, (FAR,), BACKS)
         )
         assert len(set(wood)) == len(wood) > 0
-        assert set(cards) == set(wood)
+        assert set(cards) <= set(wood)  # of some, no twig is in the picture
         assert len(cards) > len(wood)  # in blocks of twigs
         assert len(set(far)) == len(far) > 0
         assert far == back
