@@ -8,14 +8,13 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Bytes, Floats
+from ....components.arrays import Bytes, Floats, Mask
 from ....components.viewer import Viewer
 from ....engine.gl.guest import set_depth_test
 from ....engine.gl.mipmaps import at_once
 from ....engine.gl.remembered import Remembered
 from ....engine.gl.shaders import Texts
 from ....engine.gl.stream import release_all
-from ...around.appearance import border_width
 from ...around.asked import Asked
 from ...around.outlook import Outlook
 from ...around.patches import PatchTable
@@ -36,6 +35,7 @@ from .textures import bent_texture, sending_carpet
 from .tiles import (
     GRID,
     Tiles,
+    bare_within,
     finest_spacing,
     ground_tiles,
     meets_terrain,
@@ -43,7 +43,6 @@ from .tiles import (
     records_of,
     tiles_around,
     which_seen,
-    within,
 )
 
 RIM_OFFSET = 1.0
@@ -58,7 +57,6 @@ class CarpetPainter(RepresentationPainter):
 
     def __init__(self, canvas: Canvas, stock: CarpetStock, ground: Ground, side: int, *, coarse: bool = False) -> None:
         self._ground, self._spacing = ground, finest_spacing(ground.terrain, ground.patch)
-        self._whole_to = canvas.reach[-2] - int(border_width(canvas.reach[-2])) - 1
         self._units, self._block = canvas.units, canvas.block
         self._around, self._seen = Remembered[Tiles](), Remembered[ByLayer]()
         self._piece_edges = Remembered[PieceEdges]()
@@ -161,7 +159,10 @@ class CarpetPainter(RepresentationPainter):
         """
         patches, viewer = outlook.patches, outlook.viewer
         self._follow_rims()
-        bare_to = self._bare_to(patches, cover)
+        shares_made_of = cover, patches.alive, patches.grows, viewer.centre
+        shares = self._shares.of(viewer.name, shares_made_of, partial(_shares, patches, cover))
+        in_view = patches.near & patches.alive & (shares > 0)
+        carpeted = None if cover is None else in_view.reshape(patches.side, patches.side)
         asked = outlook.noted(Asked, Asked())
         goes_on, self._deep = "beyond" in asked.parts, asked.is_deep
         mown = outlook.noted(Mown, None)
@@ -170,8 +171,7 @@ class CarpetPainter(RepresentationPainter):
             viewer.eye,
             viewer.cone,
             viewer.centre,
-            cover is None,
-            bare_to,
+            carpeted,
             goes_on,
             *self._changes(mown),
             *self._windows,
@@ -180,12 +180,10 @@ class CarpetPainter(RepresentationPainter):
         tiles = self._seen.of(
             viewer.name,
             made_of,
-            partial(self._tiles, viewer, None if cover is None else bare_to, mown, goes_on=goes_on),
+            partial(self._tiles, viewer, carpeted, mown, goes_on=goes_on),
         )
         if tiles is not shelf.tiles:
             self.ground.write(tiles)
-        shares_made_of = cover, patches.alive, patches.grows, viewer.centre
-        shares = self._shares.of(viewer.name, shares_made_of, partial(_shares, patches, cover))
         if shares is not shelf.sent_shares:
             self.ground.write_shares(shares)
         self.ground.look_from(viewer, beyond=float(cover is not None))
@@ -194,11 +192,11 @@ class CarpetPainter(RepresentationPainter):
         """Write the depth at which the carpet stops light from a place [m]; return the number of draw calls."""
         return self.ground.cast(light)
 
-    def _tiles(self, viewer: Viewer, bare_to: int | None, mown: Mown | None, *, goes_on: bool) -> ByLayer:
+    def _tiles(self, viewer: Viewer, carpeted: Mask | None, mown: Mown | None, *, goes_on: bool) -> ByLayer:
         """Return the tiles that a viewer sees, by layer.
 
-        There is no carpet on the terrain up to the discrete distance `bare_to`; with None, nowhere on it. Tiles beyond
-        the terrain are left out unless the ground `goes_on` there.
+        `carpeted` (side, side) tells which patches around the viewer have carpet; with None, there is none on the
+        terrain. Tiles beyond the terrain are left out unless the ground `goes_on` there.
         """
         around = self._tiles_around(viewer)
         seen = which_seen(around, viewer.eye, viewer.cone)
@@ -207,8 +205,8 @@ class CarpetPainter(RepresentationPainter):
             meets = meets_terrain(tiles, self._ground.terrain)
             tiles, seen = tiles[meets], seen[meets]
         bare = on_terrain(tiles, self._ground.terrain)
-        if bare_to is not None:
-            bare &= within(tiles, viewer.centre, patch=self._ground.patch, reach=bare_to)
+        if carpeted is not None:
+            bare &= bare_within(tiles, carpeted, viewer.centre, patch=self._ground.patch)
         return by_layer(tiles, ~bare, self._find_edges(around, viewer, mown).take(seen), viewer.eye)
 
     def _find_edges(self, around: Tiles, viewer: Viewer, mown: Mown | None) -> PieceEdges:
@@ -254,14 +252,6 @@ class CarpetPainter(RepresentationPainter):
         if self._rims_sent != self._rims.version:
             self._rims_sent = self._rims.version
             self.ground.write_rims(self._rims.distance)
-
-    def _bare_to(self, patches: PatchTable, cover: Floats | None) -> int:
-        """Return the discrete distance up to which there is no carpet: less than usual while ranges are shortened."""
-        if cover is None:
-            return self._whole_to
-        has_carpet = patches.alive & patches.near & (cover > 0.0)
-        nearest = patches.distance.min(where=has_carpet, initial=self._whole_to + 1)
-        return int(nearest) - 1
 
     def lay_everywhere(self, outlook: Outlook, /, *, height: float) -> None:
         """Upload a carpet that lies everywhere, at a fraction `height` of the grass's height."""

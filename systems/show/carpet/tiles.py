@@ -5,6 +5,7 @@ from math import cos, sin
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Mask
 from ....engine.terrain.record import Terrain
 from ...space.cone import HALF_DIAGONAL, outside_cone
 from .rims import Rims
@@ -34,6 +35,9 @@ OUTWARD = np.array([False, True, True, False])
 
 ORDERS = 8
 """Number of orders in which the triangles of a tile may be drawn."""
+
+WITHIN_PATCH = 1e-3
+"""Distance by which a tile reaches into a patch before it counts as lying on it [patches]."""
 
 QUARTERED = 1.5 * SPREAD * GRID
 """Smallest ratio of take-over distance to spacing in `TILE` that marks a quarter of a tile."""
@@ -142,9 +146,25 @@ def finest_spacing(terrain: Terrain, patch: float, /) -> float:
     return float(patch / 2.0 ** max(1, int(np.ceil(np.log2(patch / enough)))))
 
 
-def within(tiles: NDArray[np.void], centre: NDArray[np.int32], /, *, patch: float, reach: int) -> NDArray[np.bool_]:
-    """Return which tiles (n,) lie wholly within the discrete distance `reach` of the viewer's cell, shape (n,)."""
-    return _inside(tiles, (centre - reach) * patch, (centre + reach + 1) * patch)
+def bare_within(
+    tiles: NDArray[np.void], carpeted: Mask, centre: NDArray[np.int32], /, *, patch: float
+) -> NDArray[np.bool_]:
+    """Return which tiles (n,) lie wholly in the window around the viewer's cell, on patches without carpet, (n,).
+
+    `carpeted` (side, side) tells of each patch of the window whether it has any, as rows of the patch table have it.
+    """
+    side = len(carpeted)
+    lowest = centre - side // 2
+    along, across = ((lowest[:, None] + np.arange(side)) % side)[::-1]
+    sums = np.zeros((side + 1, side + 1), np.int32)  # numbers of carpeted patches before each corner of a patch
+    sums[1:, 1:] = carpeted[np.ix_(along, across)].cumsum(axis=0).cumsum(axis=1)
+    first, last = (
+        (step(ends / patch + off) - lowest).astype(np.intp)
+        for step, ends, off in zip((np.floor, np.ceil), _corners(tiles), (WITHIN_PATCH, -WITHIN_PATCH), strict=True)
+    )
+    inside = ((first >= 0) & (last <= side)).all(axis=1)
+    (x0, z0), (x1, z1) = (each.clip(0, side).T for each in (first, last))
+    return np.asarray(inside & (sums[z1, x1] - sums[z0, x1] - sums[z1, x0] + sums[z0, x0] == 0))
 
 
 def on_terrain(tiles: NDArray[np.void], terrain: Terrain, /) -> NDArray[np.bool_]:

@@ -24,11 +24,11 @@ from tallgrass.systems.show.carpet.rims import NOWHERE, Rims
 from tallgrass.systems.show.carpet.tiles import (
     GRID,
     TILE,
+    bare_within,
     finest_spacing,
     ground_tiles,
     tiles_around,
     tiles_seen,
-    within,
 )
 from tallgrass.systems.site import Site
 
@@ -120,17 +120,24 @@ def test_the_number_of_tiles_hardly_grows_with_the_terrain() -> None:
     assert counts[1] < 2 * counts[0]
 
 
-@pytest.mark.parametrize(("reach", "wide"), [(0, 2.5), (1, 7.5), (3, 17.5)])
-def test_tiles_within_a_reach_lie_wholly_in_the_square_around_the_viewers_cell(reach: int, wide: float) -> None:
-    centre = np.array([2, -3], np.int32)
-    line = np.arange(-20, 20)
-    tiles = np.zeros(1600, TILE)
-    tiles["tile"][:, :2] = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2) * 1.25
-    tiles["tile"][:, 2] = 1.25 / GRID
-    chosen = tiles["tile"][within(tiles, centre, patch=2.5, reach=reach)]
-    assert len(chosen) == (wide / 1.25) ** 2
-    low = (centre - reach) * 2.5
-    assert ((chosen[:, :2] >= low) & (chosen[:, :2] + 1.25 <= low + wide)).all()
+@pytest.mark.parametrize("side", [2.5, 5.0, 0.625])
+@pytest.mark.parametrize("patch", [2.5, 5.0])
+def test_tiles_are_bare_where_none_of_their_patches_has_carpet(patch: float, side: float) -> None:
+    window, centre = 9, np.array([2, -3], np.int32)
+    carpeted = np.zeros((window, window), np.bool_)
+    cells = {(0, -3), (2, -6), (6, 1)}
+    for x, z in cells:
+        carpeted[z % window, x % window] = True
+    line = side * np.arange(-round(40 / side), round(40 / side))
+    tiles = np.zeros(len(line) ** 2, TILE)
+    tiles["tile"][:, :2] = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
+    tiles["tile"][:, 2] = side / GRID
+    bare = bare_within(tiles, carpeted, centre, patch=patch)
+    for (x, z), is_bare in zip(tiles["tile"][:, :2].tolist(), bare.tolist(), strict=True):
+        lies_on = [range(int(low // patch), int(-(-(low + side) // patch))) for low in (x, z)]
+        patches = {(i, j) for i in lies_on[0] for j in lies_on[1]}
+        inside = all(abs(i - 2) <= window // 2 and abs(j + 3) <= window // 2 for i, j in patches)
+        assert is_bare == (inside and not patches & cells)
 
 
 @pytest.mark.parametrize("patch", [0.5, 2.5, 3.7, 20.0])
@@ -142,11 +149,6 @@ def test_t1_the_ground_near_the_viewer_is_as_fine_as_the_terrain_whatever_the_pa
     assert spacing <= min(1.25, max(1.25 * cell, 0.3))
     assert spacing <= patch / 2
     assert np.log2(patch / spacing) % 1.0 == 0.0
-
-
-def test_no_tile_is_within_a_negative_reach() -> None:
-    tiles = ground_tiles(WIDE, (1.0, 1.7, 2.0), ALL_ROUND, spacing=SPACING)
-    assert not within(tiles, np.zeros(2, np.int32), patch=25.0, reach=-1).any()
 
 
 @pytest.fixture
