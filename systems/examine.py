@@ -44,8 +44,9 @@ def treading_saved(treading: Treading, /) -> tuple[SavedTreading, Arrays]:
         parts = {"pose": walk.pose, "open": walk.open, "way": walk.way, "closed": walk.closed}
         arrays |= {f"{name}_{part}": array for part, array in parts.items()}
     declared = [None if presser is None else fields_of(presser) for presser in treading.declared]
+    worn = [(entity, x, z) for entity, (x, z) in treading.worn.items()]
     saved = SavedTreading(
-        walks=walks, since=treading.since, trodden=treading.trodden, anew=treading.anew, declared=declared
+        walks=walks, since=treading.since, trodden=treading.trodden, anew=treading.anew, declared=declared, worn=worn
     )
     return saved, arrays
 
@@ -63,7 +64,8 @@ def treading_of(saved: SavedTreading, arrays: Arrays, /) -> Treading:
     if not all(-len(declared) <= number < 0 for number, _ in walks[0].pressers):
         refuse("it has pressers that its scene does not declare")
     kept = _stretches(arrays, "kept")
-    return Treading((walks[0], walks[1]), kept, saved.since, saved.trodden, saved.anew, declared)
+    worn = {entity: (x, z) for entity, x, z in saved.worn}
+    return Treading((walks[0], walks[1]), kept, saved.since, saved.trodden, saved.anew, declared, worn)
 
 
 def _doubles(arrays: Arrays, name: str, shape: tuple[int, ...]) -> Doubles:

@@ -23,7 +23,7 @@ from .press.marks import UNTRODDEN, Memory, Trodden
 from .press.trail import FIRST_OF_SCENE, Stretches, Trail
 from .press.walk import EntityPresser, Walk, WalkState, staying
 from .space.grown import Grown
-from .wearing import Wearing
+from .wearing import Place, Wearing
 from .wind.blow import ReceiverArrays
 
 REMEMBERED = 2.0
@@ -57,6 +57,9 @@ class Treading:
 
     declared: list[Presser | None]
     """Component of each of the scene's pressers; None for one that a game has deleted."""
+
+    worn: Mapping[int, Place]
+    """Place (x, z) [m] up to which the way of each of a game's pressers is worn, by its entity."""
 
 
 class Pressers(Feature):
@@ -151,12 +154,12 @@ class Pressers(Feature):
         there = dict(self._world.all(Presser))
         return Treading(
             (scenes, games), self._memory.kept, self._memory.since, self.trodden.time if self.trodden else None,
-            self._is_anew, [there.get(entity) for entity in self._declared],
+            self._is_anew, [there.get(entity) for entity in self._declared], self._wearing.worn,
         )  # fmt: skip
 
     def resume(self, treading: Treading, entities: Mapping[int, int]) -> None:
         """Continue from a state of the same scene; `entities` maps the game's entities in it to those of now."""
-        self._wearing = Wearing()
+        self._wearing = Wearing({entities.get(entity, entity): place for entity, place in treading.worn.items()})
         self._place_declared(0.0)  # so that the scene's pressers have entities, even if the world was cleared
         declared = dict[int, PresserOnPath]()
         for (entity, path), presser in zip(self._declared.items(), treading.declared, strict=True):

@@ -118,6 +118,9 @@ class SavedTreading(Declaration):
     declared: list[dict[str, Any] | None]
     """Fields of each of the scene's pressers; None for one that a game has deleted."""
 
+    worn: list[tuple[int, Number, Number]] = Field(default=[])
+    """Entity of each presser that wears grass off, and the place (x, z) up to which its way is worn [m]."""
+
 
 class SavedEase(Declaration):
     """One value of a kind of grass that is being interpolated, as `Ease` has it."""

@@ -1,6 +1,6 @@
 """Wearing: grass grows thinner each time that a presser which wears it off goes over it."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from math import atan2, hypot
 
@@ -17,19 +17,21 @@ STEP, LEAST_STEP = 1.0, CELL
 JUMP = 5.0
 """Distance beyond which a move in one frame is a jump [m], which wears nothing off."""
 
+Place = tuple[float, float]
+
 
 class Wearing:
     """The ways of all pressers that wear grass off, as far as they are worn."""
 
-    def __init__(self) -> None:
-        self._worn: dict[int, tuple[float, float]] = {}
+    def __init__(self, worn: Mapping[int, Place] | None = None) -> None:
+        self.worn: Mapping[int, Place] = worn or {}
         """Place (x, z) [m] up to which each entity's way is worn."""
 
     def go(self, pressers: Iterable[tuple[int, Presser, Pose]], density: Density, /) -> None:
         """Thin the grass on the ways that all wearing `pressers` have gone since the last call."""
-        there = dict[int, tuple[float, float]]()
+        there = dict[int, Place]()
         for entity, presser, pose in pressers:
-            x, z = self._worn.get(entity, (pose.x, pose.z))
+            x, z = self.worn.get(entity, (pose.x, pose.z))
             half = max(abs(x) for x, _ in presser.corners) if presser.corners else presser.radius
             step, far = max(STEP * half, LEAST_STEP), hypot(pose.x - x, pose.z - z)
             if far > JUMP:
@@ -39,7 +41,7 @@ class Wearing:
                 wear(density, _step_ahead(half, step), Pose(x, z, atan2(ahead[0], -ahead[1])), presser.wear)
                 x, z, far = x + step * ahead[0], z + step * ahead[1], far - step
             there[entity] = x, z
-        self._worn = there
+        self.worn = there
 
 
 @lru_cache(maxsize=64)

@@ -62,7 +62,11 @@ class Blocks:
     loads: bool = True
     """Whether the scene is still being loaded; only then are errors of the function raised."""
 
-    _failed: bool = False
+    failed: set[Numbers] = field(default_factory=set)
+    """Blocks for which the function has failed, so that they are level."""
+
+    _has_told: bool = False
+    """Whether a failure was logged."""
 
     @property
     def step(self) -> int:
@@ -86,27 +90,35 @@ class Blocks:
                 z, x = (np.arange(BLOCK * at, BLOCK * (at + 1) + 1) * self.cell for at in (row, column))
                 if len(self.known) > (self.cells // BLOCK) ** 2 + 2 * SPARE:
                     del self.known[next(iter(self.known))]
-                self.known[row, column] = self._computed(np.asarray(x, np.float64), np.asarray(z, np.float64))
+                try:
+                    self.known[row, column] = self.ask(np.asarray(x, np.float64), np.asarray(z, np.float64))
+                except MapError as error:
+                    self._fail(error)
+                    self.failed.add((row, column))
+                    self.known[row, column] = np.zeros((len(z), len(x)), np.float32), None
             return self.known[row, column]
 
-    def _computed(self, x: Doubles, z: Doubles) -> Piece:
-        try:
-            return self.ask(x, z)
-        except MapError as error:
-            if self.loads:
-                raise
-            if not self._failed:
-                _log.warning("the ground is level where its function fails: %s", error)
-            self._failed = True
-            return np.zeros((len(z), len(x)), np.float32), None
+    def _fail(self, error: MapError) -> None:
+        """Raise an error of the function while the scene is being loaded, and log the first one later."""
+        if self.loads:
+            raise error
+        if not self._has_told:
+            _log.warning("the ground is level where its function fails: %s", error)
+        self._has_told = True
 
     def forget(self, first: Numbers) -> None:
-        """Drop cached blocks outside of the window that begins at `first`, but for the newest `SPARE`."""
+        """Drop cached blocks outside of the window that begins at `first`, but for the newest `SPARE`.
+
+        Those that have failed are dropped in any case: once the viewer comes back, the function is asked again.
+        """
         low, high = (np.floor_divide(first, BLOCK) + more for more in (0, self.cells // BLOCK))
         with self.lock:
             outside = [at for at in self.known if not all(a <= n < b for n, a, b in zip(at, low, high, strict=True))]
-            for at in outside[: max(len(outside) - SPARE, 0)]:
+            for at in {*outside[: max(len(outside) - SPARE, 0)], *self.failed.intersection(outside)}:
                 del self.known[at]
+                if at in self.failed:
+                    self.failed.remove(at)
+                    self.tiles.pop(at, None)
 
     def square(self, square: Numbers, /) -> tuple[Floats, Mask]:
         """Return copies of a square's present heights and holes."""

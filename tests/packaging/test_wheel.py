@@ -113,6 +113,9 @@ def test_d6_the_type_checker_passes_on_the_examples_and_the_tutorial_against_the
     )
     told = run(sys.executable, "-m", "mypy", *options, *copies, cwd=tmp_path)
     assert f"no issues found in {len(copies)} source files" in told
+    for what, name in (("game", "my-walk"), ("wind", "my-gale")):
+        run(sys.executable, "-m", "tallgrass", "new", what, name, cwd=tmp_path)
+        assert "no issues found" in run(sys.executable, "-m", "mypy", *options, name, cwd=tmp_path)
 
 
 OBEYING = """

@@ -99,11 +99,13 @@ def test_a_function_is_asked_for_each_block_once() -> None:
     assert len(asked) == len({*asked}) == 64 + 8
 
 
-def test_where_a_function_fails_loading_tells_it_and_later_the_ground_is_level(
+def test_where_a_function_fails_loading_tells_it_and_later_the_ground_is_level_until_one_comes_back(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
+    reach = 2000.0
+
     def near(x: Any, z: Any) -> Any:
-        if np.abs(x).max() > 2000.0:
+        if np.abs(x).max() > reach:
             raise ZeroDivisionError("too far")
         return dunes(x, z)
 
@@ -116,5 +118,10 @@ def test_where_a_function_fails_loading_tells_it_and_later_the_ground_is_level(
     assert (terrain.heights == 0.0).all()
     (record,) = caplog.records
     assert "level where its function fails: " in record.getMessage()
+    there = np.array([[9000.0, 0.0]], np.float32)
     go(terrain, 0.0, 0.0)
-    np.testing.assert_allclose(height_at(terrain, np.zeros((1, 2), np.float32)), [0.0], atol=1e-6)
+    assert height_at(terrain, there) == 0.0
+    reach = 16384.0
+    go(terrain, 5000.0, 0.0)
+    go(terrain, 9000.0, 0.0)
+    np.testing.assert_allclose(height_at(terrain, there), dunes(9000.0, 0.0), atol=0.01)

@@ -370,3 +370,22 @@ def test_f4_time_that_goes_on_after_a_state_is_the_same_to_the_microsecond(world
     assert again.time == made.time == 0.123457
     for each in (made, again):
         each.release()
+
+
+def test_n5_whoever_wears_a_path_goes_on_with_it_where_a_state_left_it(world: World) -> None:
+    del world
+    made, again = Prairie.load(SCENE), Prairie.load(SCENE)
+    walker = esper.create_entity(Presser(radius=0.4, wear=0.2))
+    for step in range(40):
+        esper.add_component(walker, Pose(0.0, 0.1 * step))
+        made.bent_at(PLACES[:1])
+        if step == 13:  # a quarter of a step after the third that is worn as a whole
+            again.restore(made.state(), {walker: walker})
+        elif step > 13:
+            again.bent_at(PLACES[:1])
+    way = np.stack([np.zeros(50), np.linspace(0.0, 4.0, 50)], axis=1)
+    worn, too = (each.grass_at(way).density for each in (made, again))
+    assert (worn.min(), worn.max()) == pytest.approx((0.4, 0.5), abs=0.01)
+    np.testing.assert_array_equal(worn, too)
+    for each in (made, again):
+        each.release()
