@@ -62,6 +62,11 @@ March march_along(Way way) {
     return march;
 }
 
+// Part of the light that comes straight on through a cloud or is scattered hardly aside, by its transmittance: 0 where that counts as 0.
+float scattered_on(float transmitted) {
+    return (pow(max(transmitted, CLOUD_OPAQUE), CLOUD_SILVER_DEPTH) - CLOUD_SILVER_LEAST) / (1.0 - CLOUD_SILVER_LEAST);
+}
+
 void main() {
     vec3 toward = normalize(ray);
     pixel = vec4(0.0);
@@ -72,7 +77,7 @@ void main() {
         return;
     float transmitted = max(march.transmitted - CLOUD_OPAQUE, 0.0) / (1.0 - CLOUD_OPAQUE), opacity = 1.0 - transmitted;
     vec3 seen = opacity * vec3(1.0, vec2(CLOUD_SUNLIT * march.sunlit, march.scattered) / (1.0 - march.transmitted));
-    seen.y += CLOUD_SILVER * pow(max(0.5 + 0.5 * dot(toward, sun), 0.0), SILVER_POWER) * pow(transmitted, CLOUD_SILVER_DEPTH) * opacity;
+    seen.y += CLOUD_SILVER * pow(max(0.5 + 0.5 * dot(toward, sun), 0.0), SILVER_POWER) * scattered_on(march.transmitted) * opacity;
     float gaps = clamp(1.0 + cloud_edge / CLOUD_OVERCAST, 0.0, 1.0);  // 0 for an overcast, which the air does not veil
     pixel = smoothstep(CLOUD_FADE.x, CLOUD_FADE.y, toward.y) * vec4((1.0 - CLOUD_AIR_VEIL * gaps) * seen, opacity);
 }

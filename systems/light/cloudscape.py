@@ -13,7 +13,7 @@ from ...engine.gl.stream import release_all
 from ...engine.gl.texture import interpolated
 from ..frame.block import FrameBlock, joined
 from .billows import billows_texture
-from .clouds import DEPTH, DOME, FADE
+from .clouds import DEPTH, DOME, FADE, SILVER_DEPTH
 from .heaps import heaps_texture
 
 MOST_ROWS = 364
@@ -46,7 +46,7 @@ optical depth of 1, the dome above it has the same. Seen with their sides, cloud
 BASE_DEPTH, BASE_DEPTH_RISE = 0.2, 4.0
 """Factor on the optical depth at a base, and its increase over the whole height, up to 1: it makes bases soft."""
 
-OPAQUE = 0.04
+OPAQUE = 0.03
 """Transmittance that counts as 0."""
 
 GLSL = {
@@ -58,6 +58,7 @@ GLSL = {
     "CLOUD_BASE_DEPTH": BASE_DEPTH,
     "CLOUD_BASE_DEPTH_RISE": BASE_DEPTH_RISE,
     "CLOUD_OPAQUE": OPAQUE,
+    "CLOUD_SILVER_LEAST": OPAQUE**SILVER_DEPTH,
 }
 
 

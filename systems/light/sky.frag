@@ -3,7 +3,7 @@
 in vec4 ray;
 in vec3 light;
 in vec2 uv;
-in float mean_opacity;
+in vec2 opacity;
 out vec4 pixel;
 
 const vec2 LIMB = vec2(0.00443, 0.00483);  // sines of the radii of the disc's soft edge; its diameter is 0.53 degrees
@@ -24,7 +24,7 @@ void main() {
     if (cloud_edge <= 1.0) {
         vec4 cloud = textureLod(clouds, uv, 0.0);
         seen = clouds_before(seen, cloud);
-        sunny = cloud.y + sunny * max(1.0 - cloud.w - mean_opacity, 0.0);  // a low sun is dimmed by the clouds' mean opacity
+        sunny = cloud.y + sunny * max(1.0 - cloud.w * opacity.y - opacity.x, 0.0);
     }
     seen += sunlight * sunny;
     float grit = fract(GRIT.z * fract(dot(gl_FragCoord.xy, GRIT.xy))) - 0.5;

@@ -12,7 +12,7 @@ from ...engine.declared.light import Light
 from .air import FORWARD, HEIGHTS, multiple_scattering, sky_radiance
 from .clouds import FADE, Clouds, clouds_of, from_below, in_shade, sent_down
 from .color import luminance, shown_as, srgb
-from .sun import sun_at
+from .sun import sun_at, transmitted_from_zenith
 
 COLUMNS, ROWS = 33, 32
 """Size of the sky map: columns from the sun's azimuth to the opposite one, rows from the horizon to the zenith."""
@@ -48,7 +48,11 @@ PEAK = (1.0 + FORWARD**2) / (2.0 * FORWARD)
 GLSL = {"PEAK": PEAK}
 
 NIGHT = np.array([0.0030, 0.0052, 0.0120])
-"""Radiance of the night sky: faint stars, and a moon that is not drawn. Bright stars are drawn one by one."""
+"""Mean radiance of the night sky: faint stars, and a moon that is not drawn. Bright stars are drawn one by one."""
+
+NIGHT_FALLS = 6.0, 12.0
+"""Depressions of the sun between which the night sky becomes darker overhead than at the horizon [degrees]: the ends of
+civil and nautical twilight."""
 
 _SINE = (np.arange(ROWS) / (ROWS - 1.0)) ** 2
 _AZIMUTH = np.linspace(0.0, pi, COLUMNS)
@@ -93,7 +97,7 @@ def sky_of(light: Light, clear: Doubles, sun: Doubles, /) -> Sky:
 
     `sun` is the radiance of a white leaf in full sun; it lights the clouds.
     """
-    map_ = _with_own_colours(clear * (SUN * SKY_BRIGHTENED * min(light.strength, 1.0)) + NIGHT, light)
+    map_ = _with_own_colours(clear * (SUN * SKY_BRIGHTENED * min(light.strength, 1.0)) + _night(light), light)
     clouds = clouds_of(light.clouds)
     up, clear_down = radians(sun_at(light)[1]), _irradiance(map_)
     shaded = in_shade(sun, sin(up), clear_down, clouds)
@@ -105,6 +109,19 @@ def sky_of(light: Light, clear: Doubles, sun: Doubles, /) -> Sky:
     horizon = _horizon(map_[0], basis)
     map_ = map_ * (1.0 - _LOW) + basis @ horizon * _LOW
     return Sky(map_, horizon, gaps + grey, shaded, ground)
+
+
+def _night(light: Light, /) -> Doubles:
+    """Return the radiance of the night sky, laid out as `Sky.map`; by day it is the same everywhere.
+
+    The lower, the thicker is the layer that glows, and the air before it (Garstang, Night-Sky Brightness at
+    Observatories and Sites, 1989). Its irradiance is that of `NIGHT` all over the sky.
+    """
+    part = np.interp(-sun_at(light)[1], NIGHT_FALLS, (0.0, 1.0))
+    thicker = 1.0 / np.sqrt(1.0 - 0.96 * (1.0 - _SINE**2))[:, None, None]
+    glow = (0.4 + 0.6 * thicker) * transmitted_from_zenith(light.turbidity) ** (thicker - 1.0)
+    glow = np.broadcast_to(glow, (ROWS, COLUMNS, 3))
+    return np.asarray(NIGHT * (1.0 + part * (glow / (glow * _WEIGHTS).sum(axis=(0, 1)) - 1.0)))
 
 
 def scattered(cosine: Doubles, /) -> Doubles:

@@ -5,8 +5,11 @@ out vec4 ray;  // line of sight: two parts across the direction to the sun, one 
 out vec3 light;
 out vec2 uv;  // from 0 to 1 across and up the picture
 
-// Mean opacity of clouds before a low sun, in the haze where none is seen.
-out float mean_opacity;
+// Opacity of clouds before the sun: their mean one, for a low sun in the haze where none is seen, and a factor on that in their picture,
+// where they stand out from the haze.
+out vec2 opacity;
+
+const float STANDS_OUT = 0.5;  // how far a cloud stands out from the haze where it hides the sun wholly
 
 void main() {
     vec2 cell = vec2(float(gl_VertexID / 2), float(gl_InstanceID + (gl_VertexID & 1)));
@@ -17,6 +20,7 @@ void main() {
     ray = vec4(across, dot(sight, sun), sight.y);
     light = sky_toward(toward);
     uv = 0.5 * corner + 0.5;
-    mean_opacity = (1.0 - clamp(cloud_edge, 0.0, 1.0)) * (1.0 - out_of_haze(toward.y));
+    float clear = out_of_haze(toward.y);
+    opacity = vec2((1.0 - clamp(cloud_edge, 0.0, 1.0)) * max(1.0 - clear / STANDS_OUT, 0.0), 1.0 / max(clear, STANDS_OUT));
     gl_Position = vec4(corner, depth_ends.y, 1.0);
 }

@@ -18,7 +18,7 @@ from ..frame.block import FrameBlock, joined
 from .color import luminance
 from .daylight import Daylight
 from .sky import NIGHT
-from .sun import transmitted
+from .sun import transmitted_from_zenith
 
 FAINTEST = 6.0
 """Magnitude of the faintest stars, as a naked eye sees them."""
@@ -102,12 +102,6 @@ def starlight(shown: Daylight, /) -> float:
     return float(OF_NIGHT * dark * luminance(NIGHT) * shown.exposure)
 
 
-@lru_cache(maxsize=16)
-def zenith_depth(turbidity: float, /) -> float:
-    """Return the optical depth of the air for a star overhead."""
-    return -log(float(luminance(transmitted(90.0, turbidity))))
-
-
 class Stars:
     """The stars' buffer and program."""
 
@@ -127,7 +121,7 @@ class Stars:
         """Take over a light that is shown, and write that of stars into the frame block."""
         record[0]["starlight"] = starlight(shown)
         self._program["turn"] = turn_of(light, shown.direction).T.reshape(9).tolist()
-        self._program["zenith_depth"] = zenith_depth(light.turbidity)
+        self._program["zenith_depth"] = -log(luminance(transmitted_from_zenith(light.turbidity)))
 
     def draw(self) -> int:
         """Add the stars to the sky, behind all that is opaque; return the number of draw calls."""

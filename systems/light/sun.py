@@ -1,5 +1,6 @@
 """The sun: its azimuth and elevation, and the transmittance of the air for its light."""
 
+from functools import lru_cache
 from math import asin, atan2, cos, degrees, radians, sin
 
 import numpy as np
@@ -37,3 +38,9 @@ def transmitted(elevation: float, turbidity: float, /) -> Doubles:
     """Return the transmittance of the air for a sun at an elevation [degrees], red, green and blue, shape (3,)."""
     left = sunlight(np.array([EYE]), np.array([sin(radians(elevation))]), turbidity)
     return np.asarray(left[0])
+
+
+@lru_cache(maxsize=16)
+def transmitted_from_zenith(turbidity: float, /) -> Doubles:
+    """Return the transmittance of the air for light from overhead, (3,). The array is cached: do not write to it."""
+    return transmitted(90.0, turbidity)

@@ -257,7 +257,7 @@ def grown(mask: NDArray[np.bool_], pixels: int) -> NDArray[np.bool_]:
     return mask
 
 
-@pytest.mark.parametrize(("pitch", "most"), [(UP, 0.035), (0.3, 0.06)])
+@pytest.mark.parametrize(("pitch", "most"), [(UP, 0.042), (0.3, 0.06)])
 def test_f5_hardly_any_puffs_float_beside_clouds(room: Stage, load: Load, pitch: float, most: float) -> None:
     """What is narrower than 7 pixels, and farther than 3 from what is broader, is a puff or a scrap of cloud.
 
@@ -329,6 +329,28 @@ def test_f10_the_sun_is_hidden_where_a_cloud_casts_its_shadow(ctx: moderngl.Cont
     assert disc.min() < 0.35
     assert disc.max() > 0.9
     assert np.corrcoef(disc, lit)[0, 1] > 0.85  # the sides of clouds hide it a little before their bases do
+
+
+def test_f5_a_low_sun_is_hidden_by_the_clouds_that_are_seen_before_it(ctx: moderngl.Context, load: Load) -> None:
+    """It once shone through all of them, half as bright as without, as they fade into the haze."""
+    stage, light = Stage(ctx, (24, 24)), "azimuth: 90, elevation: 5, exposure: -3"
+    clear, cloudy = (load(f"{SCENE}light: {{ {light}, clouds: {part} }}\n") for part in (0.0, 0.5))
+    places = np.arange(24) * CLOUDS_SIDE / 24.0
+    suns = [Camera((0.0, 1.0, z), np.pi / 2.0, np.radians(5.0), np.radians(0.3)) for z in places]
+    seen = [stage.shot(cloudy, sun).mean() / stage.shot(clear, sun).mean() for sun in suns]
+    assert np.median(seen) < 0.4
+    assert max(seen) > 0.9
+
+
+def test_f5_bright_edges_of_clouds_before_the_sun_fade_without_a_line(room: Stage, load: Load) -> None:
+    """Neighbouring pixels inside of clouds are alike; such a line once followed all of their outline."""
+    prairie, steps = load(f"{SCENE}light: {{ azimuth: 0, elevation: 45, clouds: 0.4 }}"), []
+    for x in np.arange(4) * CLOUDS_SIDE / 4.0:
+        sky = room.shot(prairie, Camera((float(x), 2.0, 0.0), 0.0, 0.9, np.radians(40.0)))
+        inside = np.ptp(sky, axis=2) < 8.0
+        step = np.abs(np.diff(bright(sky), axis=1))[inside[:, 1:] & inside[:, :-1]]
+        steps.append(np.quantile(step, 0.99))
+    assert np.mean(steps) < 12.0  # of 255; 15.9 with the line
 
 
 def test_a_night_is_dark_and_not_black(room: Stage, load: Load) -> None:

@@ -172,6 +172,17 @@ def test_nights_and_dusks_can_be_seen() -> None:
     assert display(night.sky.map[-1, 0]).max() > 0.12
 
 
+def test_a_night_sky_is_darker_overhead_and_sends_as_much_light_in_all() -> None:
+    """With the sun far below the horizon; by day that of the night is the same all over."""
+    night, day = (Light(hour=hour, day=355) for hour in (0.0, 12.0))
+    sky = the_sky(night)
+    assert (sky.map[-1, 0] < 0.95 * NIGHT).all()
+    assert luminance(sky.map[2, 0]) > 1.4 * luminance(sky.map[-1, 0])
+    assert luminance(sky.down) == pytest.approx(luminance(NIGHT), rel=0.03)
+    dark = day.model_copy(update={"strength": 0.0})
+    np.testing.assert_allclose(the_sky(dark).map, np.broadcast_to(NIGHT, (ROWS, COLUMNS, 3)), rtol=1e-6)
+
+
 def test_clouds_are_of_heaps_and_as_many_as_a_scene_says() -> None:
     dense = cloud_map(seed=3).astype(np.float64)
     assert np.bincount(dense.astype(int).ravel(), minlength=256).tolist() == [SIDE * SIDE // 256] * 256
