@@ -62,7 +62,9 @@ def darkened(depth: NDArray[np.float32]) -> Array:
     return np.asarray(shaded.reshape(8, -1).mean(axis=1))
 
 
-@pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
+@pytest.mark.parametrize(
+    "lod", ["blades", *(pytest.param(lod, marks=pytest.mark.slow) for lod in ("strips", "carpet"))]
+)
 def test_n12_grass_darkens_a_wall_as_much_as_every_blade_does(
     ctx: moderngl.Context, stage: Stage, prairies: dict[str, Prairie], lod: str
 ) -> None:

@@ -37,7 +37,7 @@ quality:
 BLUE, RED = BED.replace('eye: "#d02020"', 'eye: "#2020d0"'), BED
 
 
-@pytest.mark.parametrize("petals", [20, 5])
+@pytest.mark.parametrize("petals", [20, pytest.param(5, marks=pytest.mark.slow)])
 def test_a_head_near_by_has_an_eye_of_the_colour_that_is_declared_and_petals_about_it(
     stage: Stage, load: Load, camera: Aim, petals: int
 ) -> None:
@@ -55,8 +55,8 @@ def bluer(of_blue: Doubles, of_red: Doubles) -> float:
     return float(more.mean() / all_red.mean())
 
 
-@pytest.mark.parametrize("petals", [20, 5])
-@pytest.mark.parametrize(("pitch", "high"), [(-8, 1.6), (-25, 4.0), (-50, 8.0)])
+@pytest.mark.parametrize("petals", [20, pytest.param(5, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(("pitch", "high"), [(-8, 1.6), pytest.param(-25, 4.0, marks=pytest.mark.slow), (-50, 8.0)])
 def test_as_much_of_an_eye_is_seen_in_every_representation(
     ctx: moderngl.Context, load: Load, petals: int, pitch: int, high: float
 ) -> None:
@@ -89,7 +89,9 @@ def test_heads_without_an_eye_are_the_same_picture_to_the_byte_where_others_have
     np.testing.assert_array_equal(stage.shot(load(plain, lod=lod), aim), alone)
 
 
-@pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
+@pytest.mark.parametrize(
+    "lod", ["blades", *(pytest.param(lod, marks=pytest.mark.slow) for lod in ("strips", "carpet"))]
+)
 def test_heads_come_to_have_an_eye_and_another(stage: Stage, load: Load, camera: Aim, lod: str) -> None:
     """During the change, heads without an eye stay so, and new heads have no eye of the other colour."""
     aim, plain = camera(0.0, 1.6, 20.0, pitch=-20), BED.replace('eye: "#d02020", ', "")

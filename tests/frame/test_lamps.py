@@ -111,7 +111,9 @@ def test_a_spot_light_shines_within_its_cone_as_others_do_and_not_beyond(
     assert spot[beyond].mean() < 0.02 * all_ways[middle].mean()
 
 
-@pytest.mark.parametrize("lod", ["blades", "strips", "carpet"])
+@pytest.mark.parametrize(
+    "lod", ["blades", *(pytest.param(lod, marks=pytest.mark.slow) for lod in ("strips", "carpet"))]
+)
 def test_f10_a_lamp_shines_as_brightly_where_the_sun_is_hidden(
     stage: Stage, prairies: dict[str, Prairie], lod: str
 ) -> None:

@@ -293,7 +293,7 @@ def test_f5_by_night_no_side_of_a_cloud_is_as_if_the_sun_lit_it(room: Stage, loa
     assert cloudy.min() > 0.8 * overcast.min()
 
 
-@pytest.mark.parametrize(("cover", "off"), [(0.2, 0.02), (0.5, 0.045)])
+@pytest.mark.parametrize(("cover", "off"), [pytest.param(0.2, 0.02, marks=pytest.mark.slow), (0.5, 0.045)])
 def test_f5_clouds_hide_as_much_of_the_sky_as_a_scene_says(room: Stage, load: Load, cover: float, off: float) -> None:
     """Over all of their square: half of the blue is gone where they hide half of what is behind.
 

@@ -156,7 +156,7 @@ def test_grass_over_a_games_own_ground_is_neither_cut_by_it_nor_hidden(
         assert abs(np.mean(exact[both] - other[both])) < (0.02 if lod == "carpet" else 0.15), (cell, higher)
 
 
-@pytest.mark.parametrize("preset", ["medium", "high"])
+@pytest.mark.parametrize("preset", ["medium", pytest.param("high", marks=pytest.mark.slow)])
 def test_where_strips_give_way_to_the_carpet_no_line_of_a_games_own_ground_shows(
     ctx: moderngl.Context, load: Load, camera: Aim, mesh: Mesh, preset: str
 ) -> None:

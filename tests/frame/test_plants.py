@@ -249,7 +249,7 @@ DANDELIONS = (
     [
         pytest.param(HEATH, (0.0, 0.5, 3.0), -15.0, 15.0, id="florets and leaves of twigs"),
         pytest.param(REEDS, (0.0, 0.8, 4.0), -10.0, 15.0, id="spikelets of plumes"),
-        pytest.param(DANDELIONS, (0.0, 1.0, 50.0), -35.0, 12.0, id="petals of dandelions"),
+        pytest.param(DANDELIONS, (0.0, 1.0, 50.0), -35.0, 12.0, id="petals of dandelions", marks=pytest.mark.slow),
     ],
 )
 def test_f3_what_an_organ_is_made_of_stands_out_near_by_and_leaves_the_colour_of_all_as_it_is(

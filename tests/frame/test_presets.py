@@ -98,7 +98,7 @@ def counted(prairie: Prairie) -> dict[str, int]:
     ("scene", "before", "presets"),
     [
         pytest.param("meadow", "## What it takes here", ("low", "medium", "high"), marks=pytest.mark.slow),
-        ("wide plain", "## The paper's instances", tuple(PAPER)),
+        pytest.param("wide plain", "## The paper's instances", tuple(PAPER), marks=pytest.mark.slow),
         ("plain", "on the bundled 100 m", tuple(PAPER)),
     ],
     ids=["meadow", "wide plain", "plain"],

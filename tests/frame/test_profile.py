@@ -109,7 +109,7 @@ def test_the_two_faces_of_a_fold_are_lit_apart_with_an_edge_between_them(room: S
     assert steps[1] > 1.1 * steps[0]
 
 
-@pytest.mark.parametrize("profile", ["rush", "fold"])
+@pytest.mark.parametrize("profile", ["rush", pytest.param("fold", marks=pytest.mark.slow)])
 def test_blades_just_before_the_eye_hide_and_shine_as_those_of_the_reference(
     ctx: moderngl.Context, load: Load, profile: str
 ) -> None:
