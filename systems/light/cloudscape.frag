@@ -53,11 +53,20 @@ float step_length(float excess) {
 
 March march_along(Way way) {
     March march = March(1.0, 0.0, 0.0);
-    CloudPoint point = cloud_at(way, 0.0);
-    for (int turn = 0; turn < CLOUD_MOST_STEPS && point.along < 1.0 && march.transmitted > CLOUD_OPAQUE; turn++) {
-        float before = point.excess, step = step_length(before);
-        point = cloud_at(way, point.along + step);
-        accumulate(point, before, step * way.length_ratio, march);
+    float along = 0.0, excess = cloud_at(way, 0.0).excess, step = step_length(excess);
+    bool at_surface = false;
+    for (int turn = 0; turn < CLOUD_MOST_STEPS && along < 1.0 && march.transmitted > CLOUD_OPAQUE; turn++) {
+        CloudPoint point = cloud_at(way, along + step);
+        if (!at_surface && excess < 0.0 && point.excess > 0.0) {  // into a cloud: not as deep at once, by the secant
+            step = max(step * excess / (excess - point.excess), CLOUD_STEP_LENGTHS.x);
+            at_surface = true;
+            continue;
+        }
+        at_surface = false;
+        accumulate(point, excess, step * way.length_ratio, march);
+        along = point.along;
+        excess = point.excess;
+        step = step_length(excess);
     }
     return march;
 }

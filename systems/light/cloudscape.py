@@ -33,7 +33,7 @@ LEAST_RISE = 1e-6
 MOST_STEPS = 32
 """Largest number of steps along a line of sight."""
 
-STEP_LENGTHS, STEP_OUTSIDE, STEP_INSIDE = (0.015, 0.165, 0.02), 0.35, 0.2
+STEP_LENGTHS, STEP_OUTSIDE, STEP_INSIDE = (0.015, 0.22, 0.025), 0.37, 0.2
 """Shortest step, and what may be added to it at most outside clouds and inside, relative to the way from the bases to
 the highest tops. Outside, a step grows by `STEP_OUTSIDE` per unit of missing density, as the map hardly rises faster;
 inside, by `STEP_INSIDE` per unit of excess density. So step lengths change gradually, and no edges show. The shortest
@@ -46,7 +46,7 @@ optical depth of 1, the dome above it has the same. Seen with their sides, cloud
 BASE_DEPTH, BASE_DEPTH_RISE = 0.2, 4.0
 """Factor on the optical depth at a base, and its increase over the whole height, up to 1: it makes bases soft."""
 
-OPAQUE = 0.03
+OPAQUE = 0.04
 """Transmittance that counts as 0."""
 
 GLSL = {
