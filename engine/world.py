@@ -155,11 +155,6 @@ class World:
             self._mine.marks.pop(entity, None)
             esper.delete_entity(entity, immediate=True)
 
-    def get(self, entity: int, kind: type[Component]) -> Component:
-        """Return an entity's component of exactly this type; KeyError if it has none."""
-        self._must_be_current()
-        return esper.component_for_entity(entity, kind)
-
     def find(self, entity: int, kind: type[Component]) -> Component | None:
         """Return an entity's component of exactly this type, None if it has none."""
         self._must_be_current()
@@ -202,17 +197,9 @@ class World:
 
     def both(self, kind: type[Component], other: type[Other]) -> list[tuple[int, Component, Other]]:
         """Return every entity with components of exactly these two types, of the same owners and order as `all`."""
-        self._must_be_current()
-        rows = esper.get_component(kind)
-        if not rows:
-            return []
-        mine, component_of, found = self._mine, esper.try_component, list[tuple[int, Component, Other]]()
-        exists = esper.entity_exists
-        for entity, one in rows:
-            two, mark = component_of(entity, other), component_of(entity, Resident)
-            if two is not None and (mark is None or mark.owner is mine) and exists(entity):
-                found.append((entity, one, two))
-        return sorted(found, key=itemgetter(0))
+        rows = self.all(kind)
+        found = zip(rows, self.beside(rows, other), strict=True)
+        return [(entity, one, two) for (entity, one), two in found if two is not None]
 
     def stands(self, entity: int, pose: Pose | None, what: str) -> bool:
         """Return whether an entity has a usable pose; if not, log once that its `what` is left out."""

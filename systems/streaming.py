@@ -92,5 +92,5 @@ class Streaming:
 
 def _made(blocks: Blocks, first: Numbers) -> Terrain:
     made = window_of(blocks, first)
-    made.set_derived(Found.of(made))
+    made.derived = Found.of(made)
     return made

@@ -51,7 +51,7 @@ def load_density(
     rows, columns = (max([2, *(picture.shape[axis] for picture in painted.values())]) for axis in (0, 1))
     densities = np.empty((len(kinds), rows, columns), np.float32)
     for number, name in enumerate(kinds):
-        densities[number] = _stretch(painted[name], rows, columns) if name in painted else 1.0
+        densities[number] = _enlarged(painted[name], rows, columns) if name in painted else 1.0
     placed = np.array([name in painted for name in kinds])
     among = np.array([kind.plant == "flower" for kind in kinds.values()])
     placed, others = placed & ~among, ~(placed | among)
@@ -68,7 +68,7 @@ def load_holes(source: TerrainSource, folder: Path, /) -> Floats | None:
     return None if source.holes is None else _channels_in(source.holes, folder, {})[CHANNELS[0]]
 
 
-def stretched(values: Floats, rows: int, columns: int, /) -> Floats:
+def at_samples(values: Floats, rows: int, columns: int, /) -> Floats:
     """Return a map with the nearest of its values at each sample of a terrain, (rows, columns).
 
     The outermost samples stand on the map's edges.
@@ -91,7 +91,7 @@ def _channel(folder: Path, place: Place, pictures: Mapping[str | MapArray, Chann
 def _channels_in(each: str | MapArray, folder: Path, given: Mapping[str, Picture]) -> Channels:
     if isinstance(each, MapArray):
         return _channels_of(each.values)
-    return _channels(given[each]) if each in given else _read_picture(folder / each)
+    return _channels_of(given[each]) if each in given else _read_picture(folder / each)
 
 
 def _channels_of(values: NDArray[Any]) -> Channels:
@@ -126,15 +126,10 @@ def _read_picture(path: Path) -> Channels:
             if image.mode not in ("1", "L", "LA", "P", "PA", "RGB", "RGBA"):
                 raise MapError(path, f"its mode is {image.mode}; a density map is a grey, RGB or RGBA picture")
             clear = image.mode in ("LA", "PA", "RGBA") or "transparency" in image.info
-            return _channels(np.asarray(image.convert("RGBA" if clear else "RGB")))
+            return _channels_of(np.asarray(image.convert("RGBA" if clear else "RGB")))
 
 
-def _channels(picture: Picture) -> Channels:
-    values = picture.astype(np.float32) / np.float32(255.0)
-    return {name: values[..., number] for number, name in enumerate(CHANNELS[: values.shape[2]])}
-
-
-def _stretch(values: Floats, rows: int, columns: int) -> Floats:
+def _enlarged(values: Floats, rows: int, columns: int) -> Floats:
     """Return a map enlarged to (rows, columns) by bilinear interpolation, like a magnified texture."""
     for axis, count in enumerate((rows, columns)):
         own = values.shape[axis]

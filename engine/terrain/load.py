@@ -13,7 +13,7 @@ from ...components.arrays import Doubles, Floats, Mask
 from ..declared.array import HeightFunction, MapArray
 from ..declared.terrain import TerrainSource
 from .blocks import BLOCK, PARTS, Blocks
-from .density import load_holes, stretched
+from .density import at_samples, load_holes
 from .elevation import Elevation, check_finite
 from .errors import MapError
 from .noise import LANDSCAPES, landscape
@@ -125,7 +125,7 @@ def _with_holes(terrain: Terrain, source: TerrainSource, folder: Path) -> Terrai
     declared = load_holes(source, folder)
     if declared is None:
         return terrain
-    holes = stretched(declared, *terrain.heights.shape) > 0.5
+    holes = at_samples(declared, *terrain.heights.shape) > 0.5
     if terrain.holes is not None:
         holes |= terrain.holes
     return replace(terrain, holes=holes) if holes.any() else terrain

@@ -45,7 +45,7 @@ class Changes(Log):
         self.last.extend(moved)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(slots=True, eq=False)
 class Terrain:
     """An elevation map whose samples stand at cell corners; between them heights are bilinear.
 
@@ -75,19 +75,19 @@ class Terrain:
     changes: Changes = field(init=False, default_factory=Changes)
 
     derived: object = field(init=False, default=None)
-    """Result computed from the heights of this window in advance, set by `set_derived`."""
+    """Result computed from the heights of this window in advance, kept for as long as this is the same window."""
 
-    _ends: Floats = field(init=False)
+    row_ends: Floats = field(init=False)
     """Lowest and highest height of each row [m], shape (2, rows)."""
 
     def __post_init__(self) -> None:
         """Compute the range of each row."""
-        object.__setattr__(self, "_ends", np.stack([self.heights.min(axis=1), self.heights.max(axis=1)]))
+        self.row_ends = np.stack([self.heights.min(axis=1), self.heights.max(axis=1)])
 
     @property
     def span(self) -> tuple[float, float]:
         """Lowest and highest height [m]."""
-        return float(self._ends[0].min()), float(self._ends[1].max())
+        return float(self.row_ends[0].min()), float(self.row_ends[1].max())
 
     @property
     def size(self) -> tuple[float, float]:
@@ -113,17 +113,13 @@ class Terrain:
         """Distance to which ground is drawn beyond the edge [m]."""
         return MIRRORED if self.mirrored else BEYOND
 
-    def set_derived(self, derived: object, /) -> None:
-        """Keep a result computed from the heights, for as long as this is the same window."""
-        object.__setattr__(self, "derived", derived)
-
     def become(self, other: "Terrain", /, *, leaps: bool) -> None:
         """Become another window of the same ground; `leaps` says that the prairie had to wait for it."""
         assert self.first is not None
         assert other.first is not None
         down, right = (after - before for after, before in zip(other.first, self.first, strict=True))
-        for name in ("heights", "holes", "first", "derived", "_ends"):
-            object.__setattr__(self, name, getattr(other, name))
+        self.heights, self.holes, self.first = other.heights, other.holes, other.first
+        self.derived, self.row_ends = other.derived, other.row_ends
         self.changes.move(down, right, leaps=leaps)
 
     def holes_in(self, part: Rectangle, /) -> Mask:
@@ -134,15 +130,15 @@ class Terrain:
         """Replace heights [m] and holes of a part, both (rows, columns)."""
         self.heights[part.slices] = heights
         if self.holes is None and holes.any():
-            object.__setattr__(self, "holes", np.zeros(self.heights.shape, np.bool_))
+            self.holes = np.zeros(self.heights.shape, np.bool_)
         if self.holes is not None:
             self.holes[part.slices] = holes
         touched = self.heights[part.slices[0]]
-        self._ends[:, part.slices[0]] = touched.min(axis=1), touched.max(axis=1)
+        self.row_ends[:, part.slices[0]] = touched.min(axis=1), touched.max(axis=1)
         self.changes.note(part)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(slots=True, eq=False)
 class Density:
     """Density of each kind, sampled over the whole terrain."""
 
@@ -173,5 +169,5 @@ class Density:
     def __post_init__(self) -> None:
         """Find `even`, and begin with nothing sown."""
         flat = self.maps.reshape(len(self.maps), -1)
-        object.__setattr__(self, "even", flat[:, 0].copy() if (flat == flat[:, :1]).all() else None)
-        object.__setattr__(self, "sown", Plots(self.size, np.dtype(np.uint8), (len(self.maps),)))
+        self.even = flat[:, 0].copy() if (flat == flat[:, :1]).all() else None
+        self.sown = Plots(self.size, np.dtype(np.uint8), (len(self.maps),))

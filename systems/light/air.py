@@ -16,13 +16,19 @@ GROUND, TOP = 6360.0, 6460.0
 """Radii of the planet and of its atmosphere [km]."""
 
 MOLECULES = np.array([5.802, 13.558, 33.1]) * 1e-3
-"""Scattering coefficients of molecules at sea level: red, green, blue [1/km]. Their scale height is 8 km."""
+"""Scattering coefficients of molecules at sea level: red, green, blue [1/km]."""
 
 HAZE_SCATTERING, HAZE_ABSORPTION = 3.996e-3, 4.40e-3
-"""Scattering and absorption coefficients of haze at sea level [1/km]. Its scale height is 1.2 km."""
+"""Scattering and absorption coefficients of haze at sea level [1/km]."""
+
+MOLECULES_SCALE, HAZE_SCALE = 8.0, 1.2
+"""Scale heights of molecules and of haze [km]."""
 
 OZONE = np.array([0.650, 1.881, 0.085]) * 1e-3
-"""Absorption coefficients of ozone at a height of 25 km [1/km]; they fall to 0 at 15 km above and below."""
+"""Absorption coefficients of ozone in the middle of its layer [1/km]."""
+
+OZONE_MIDDLE, OZONE_HALF = 25.0, 15.0
+"""Height of the ozone's middle [km], and distance above and below at which there is none any more [km]."""
 
 FORWARD = 0.8
 """Asymmetry of the haze's phase function: -1 is all backward, 1 all forward."""
@@ -71,11 +77,11 @@ def sunlight(radius: Doubles, cosine: Doubles, turbidity: float, /) -> Doubles:
     height += (radius * radius).reshape(-1)
     height = np.maximum(np.sqrt(height, out=height) - GROUND, 0.0, out=height)
     columns = np.empty((len(distance), 3))
-    for column, scale in enumerate((8.0, 1.2)):
+    for column, scale in enumerate((MOLECULES_SCALE, HAZE_SCALE)):
         columns[:, column] = _SUN_LENGTHS @ np.exp(np.divide(height, -scale, out=along), out=along)
-    height -= 25.0
+    height -= OZONE_MIDDLE
     ozone = np.abs(height, out=height)
-    ozone /= -15.0
+    ozone /= -OZONE_HALF
     ozone += 1.0
     columns[:, 2] = _SUN_LENGTHS @ np.maximum(ozone, 0.0, out=ozone)
     extinction = np.stack(
@@ -162,9 +168,9 @@ def _ray(eye: Doubles, sine: Doubles, turbidity: float) -> _Ray:
     along, length = 0.5 * (edge[1:] + edge[:-1]) * distance[:, None], (np.diff(edge) * distance[:, None])[..., None]
     radius = np.sqrt((eye**2)[:, None] + along * (along + (2.0 * eye * sine)[:, None]))
     height = np.maximum(radius - GROUND, 0.0)[..., None]
-    molecules = np.exp(height / -8.0) * MOLECULES
-    haze = np.exp(height / -1.2) * (HAZE_SCATTERING * _haze_density(turbidity))
-    ozone = np.maximum(1.0 - np.abs(height - 25.0) / 15.0, 0.0) * OZONE
+    molecules = np.exp(height / -MOLECULES_SCALE) * MOLECULES
+    haze = np.exp(height / -HAZE_SCALE) * (HAZE_SCATTERING * _haze_density(turbidity))
+    ozone = np.maximum(1.0 - np.abs(height - OZONE_MIDDLE) / OZONE_HALF, 0.0) * OZONE
     extinction = molecules + haze * (1.0 + HAZE_ABSORPTION / HAZE_SCATTERING) + ozone
     depth = extinction * length
     transmittance = np.exp(depth - np.cumsum(depth, axis=1))

@@ -150,10 +150,9 @@ def clear_air(elevation: float, turbidity: float, /) -> Doubles:
 
     `elevation` is the sun's [degrees]. The array is cached: do not write to it.
     """
-    for result in clear_air_in_pieces(elevation, turbidity):
-        if result is not None:
-            return result
-    raise AssertionError("a sky has a last piece")
+    *_, last = clear_air_in_pieces(elevation, turbidity)
+    assert last is not None
+    return last
 
 
 def clear_air_in_pieces(elevation: float, turbidity: float, /) -> Iterator[Doubles | None]:

@@ -1,5 +1,6 @@
 """Every system can be made from its inputs alone, and tested by one step in a private world (D3, D6)."""
 
+import esper
 import numpy as np
 
 from tallgrass.components.patch import Lod, Patch
@@ -37,7 +38,7 @@ def test_tile_lays_patches_around_the_viewer_and_makes_them_entities(world: Worl
     Tile([outlook], entities, SITE.ground, seed=5, models=2).run()
     assert tuple(outlook.viewer.centre) == (2, -2)
     assert outlook.patches.distance.max() == 12
-    near = [world.get(entity, Patch).cell for entity, lod in world.all(Lod) if lod.distance <= 1]
+    near = [esper.component_for_entity(entity, Patch).cell for entity, lod in world.all(Lod) if lod.distance <= 1]
     assert sorted(near) == [(i, j) for i in (1, 2, 3) for j in (-3, -2, -1)]
 
 

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import cast
 
+import esper
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -118,7 +119,7 @@ def test_d2_the_carpets_receivers_are_carried_by_the_entities_of_patches(world: 
     assert sorted(entity for entity, _ in found) == sorted(outlook.patches.entity.tolist())
     assert len(found) == WIDE
     for entity, receivers in found:
-        i, j = world.get(entity, Patch).cell
+        i, j = esper.component_for_entity(entity, Patch).cell
         np.testing.assert_allclose(receivers.place, [[(i + 0.5) * 2.5, (j + 0.5) * 2.5]])
         assert (receivers.patch, receivers.viewer, receivers.message.shape) == (0, "main", (1, 2))
 
@@ -128,7 +129,7 @@ def test_d2_receivers_of_blades_and_strips_say_whose_they_are(world: World, look
     for name, kinds in (("blades", 30 * [0] + 12 * [1]), ("strips", None)):
         for entity, receivers in of(world, name):
             assert world.find(entity, Patch) is None
-            cell = np.array(world.get(receivers.patch, Patch).cell)
+            cell = np.array(esper.component_for_entity(receivers.patch, Patch).cell)
             assert np.abs(receivers.place / 2.5 - cell - 0.5).max() < 1.0
             assert receivers.viewer == "main"
             assert len(receivers.kind) == len(receivers.place) == len(receivers.message)
@@ -186,7 +187,7 @@ def test_d2_a_game_may_bend_single_receivers_itself(world: World, game: Game) ->
     bent = (picture != game.wind).any(axis=-1)
     assert bent.sum() == 1
     np.testing.assert_allclose(picture[bent], [[0.6, -0.2]], rtol=1e-6)
-    assert world.get(entity, Receivers) is receivers
+    assert esper.component_for_entity(entity, Receivers) is receivers
 
 
 @pytest.mark.parametrize("name", ["blades", "strips", "carpet"])

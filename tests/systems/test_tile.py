@@ -57,10 +57,10 @@ class Tiled:
         return int(self.patches.entity[self.row(i, j)])
 
     def patch(self, i: int, j: int) -> Patch:
-        return self.world.get(self.entity(i, j), Patch)
+        return esper.component_for_entity(self.entity(i, j), Patch)
 
     def lod(self, i: int, j: int) -> Lod:
-        return self.world.get(self.entity(i, j), Lod)
+        return esper.component_for_entity(self.entity(i, j), Lod)
 
     def grows(self, i: int, j: int) -> bool:
         """Return whether there is grass in a cell."""
@@ -122,7 +122,7 @@ def test_d2_what_is_written_to_the_table_shows_in_the_components(world: World) -
     table.visible[:] = random.random(len(table.visible)) < 0.5
     named = (*NAMES, None)  # -1 is none
     for row, entity in enumerate(table.entity.tolist()):
-        patch, lod = world.get(entity, Patch), world.get(entity, Lod)
+        patch, lod = esper.component_for_entity(entity, Patch), esper.component_for_entity(entity, Lod)
         assert patch.cell == tuple(table.cell[row].tolist())
         assert (patch.model, patch.turn, patch.grows) == (table.model[row], table.turn[row], True)
         assert (lod.distance, lod.progress, lod.visible) == (
@@ -233,7 +233,7 @@ def test_d2_after_a_leap_entities_go_a_batch_at_a_time_and_are_nowhere_to_be_see
         tiled.at(0, 0)
     patches = tiled.patches
     patches.visible[:], patches.representation[:] = True, 2
-    before = {entity: world.get(entity, Lod) for entity in patches.entity.tolist()}
+    before = {entity: esper.component_for_entity(entity, Lod) for entity in patches.entity.tolist()}
     assert all(lod.visible and lod.distance <= 16 for lod in before.values())
     tiled.at(500, 0)
     patches.visible[:], patches.representation[:] = True, 2
@@ -266,7 +266,7 @@ def test_d2_a_patch_that_is_asked_for_is_an_entity_at_once(world: World) -> None
     asked = np.array([[16, -16], [0, 0], [16, -16], [17, 0]], np.int32)
     far, here, again, beyond = tiled.entities.at(tiled.outlook, asked).tolist()
     assert far == again == tiled.entity(16, -16)
-    assert world.get(far, Patch).cell == (16, -16)
+    assert esper.component_for_entity(far, Patch).cell == (16, -16)
     assert here == tiled.entity(0, 0)
     assert beyond == 0
     for _ in range(6):
@@ -392,7 +392,7 @@ def test_d6_right_after_a_game_has_cleared_its_world_a_patch_that_is_asked_for_i
     theirs = [esper.create_entity("a game's own") for _ in range(before)]
     assert before in theirs, "a cleared world counts from 1 again"
     (asked,) = tiled.entities.at(tiled.outlook, np.array([[0, 0]], np.int32)).tolist()
-    assert tiled.world.get(asked, Patch).cell == (0, 0)
+    assert esper.component_for_entity(asked, Patch).cell == (0, 0)
     tiled.at(0, 0)
     assert tiled.entity(0, 0) == asked
     assert len(tiled.world) == SIDE * SIDE

@@ -178,7 +178,9 @@ def row_at(outlook: Outlook, away: int) -> int:
 
 
 def lod_of(world: World, outlook: Outlook, row: int) -> Lod:
-    return world.get(int(outlook.patches.entity[row]), Lod)
+    lod = world.find(int(outlook.patches.entity[row]), Lod)
+    assert lod is not None
+    return lod
 
 
 def all_round(look: Look, site: Site) -> Outlook:
