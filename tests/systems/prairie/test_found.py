@@ -3,11 +3,14 @@
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
+import numpy as np
 import pytest
 
 from tallgrass.components.footprint import Footprint
 from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.systems.prairie import Prairie
+
+PLACES = np.random.default_rng(2).uniform(-25.0, 25.0, (50, 2)).astype(np.float32)
 
 
 def test_a_site_that_another_thread_has_found_comes_with_the_scene_that_it_was_found_for(
@@ -36,9 +39,12 @@ def test_another_preset_comes_with_the_next_reload_and_what_a_game_did_stays(
     prairie.cut(Footprint(radius=5.0), 0.1)
     prairie.advance(1.5)
     sparse = prairie.statistics.blades_field
+    felt, dense = prairie.wind_at(PLACES), prairie.grass_at(PLACES).density
     prairie.preset = "low"
     prairie.reload(site=prairie.finding()())
     assert prairie.statistics.blades_field == 2 * sparse
+    np.testing.assert_array_equal(prairie.wind_at(PLACES), felt)
+    np.testing.assert_array_equal(prairie.grass_at(PLACES).density, dense)
     assert (prairie.time, prairie.grass_at([(0.0, 0.0)]).height[0] <= 0.1) == (1.5, True)
     with pytest.raises(ValueError, match="unknown preset 'lowest'; there are minimal, low"):
         prairie.preset = "lowest"
