@@ -16,7 +16,7 @@ PLACES = np.random.default_rng(2).uniform(-25.0, 25.0, (50, 2)).astype(np.float3
 def test_a_site_that_another_thread_has_found_comes_with_the_scene_that_it_was_found_for(
     load: Callable[..., Prairie],
 ) -> None:
-    prairie = load()
+    prairie, other = load(), load()
     assert prairie.path is not None
     text = prairie.path.read_text("utf-8")
     prairie.path.write_text(text.replace("height: [0.3, 0.5]", "height: [0.2, 0.3]"), "utf-8")
@@ -25,6 +25,8 @@ def test_a_site_that_another_thread_has_found_comes_with_the_scene_that_it_was_f
     with ThreadPoolExecutor(1) as hand:
         site = hand.submit(find).result()
     assert prairie.scene.grass["green"].height == [0.3, 0.5]
+    with pytest.raises(TypeError, match=r"^site is what finding\(\.\.\.\)\(\) of this prairie returned, and"):
+        other.reload(site=site)
     prairie.reload(site=site)
     assert prairie.site is site
     assert prairie.scene.grass["green"].height == [0.2, 0.3]
