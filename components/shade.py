@@ -1,9 +1,11 @@
 """Shades: things that cast a shadow on the grass."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from math import hypot, isfinite
 from reprlib import repr as shortened
 from sys import float_info
+from typing import TYPE_CHECKING
 
 from .footprint import is_between
 
@@ -42,16 +44,38 @@ class Shade:
     yaw: float = 0.0
     """Heading of a box, as of a `Pose`: 0 is -z, positive turns right [rad]."""
 
+    if TYPE_CHECKING:  # the three may be lists, vectors and arrays
+
+        def __init__(
+            self, place: Iterable[float], radius: float | None = None, height: float | None = None,
+            up: Iterable[float] = (0.0, 1.0, 0.0), capsule: bool = False, size: Iterable[float] | None = None,  # noqa: FBT001, FBT002
+            yaw: float = 0.0,
+        ) -> None:  # fmt: skip
+            """Take what `__post_init__` makes of it."""
+
     def __post_init__(self) -> None:
-        """Raise ValueError for an impossible shade."""
-        if not _is_place(self.place):
-            raise ValueError(f"a shade's place is three finite numbers (x, y, z), not {shortened(self.place)}")
-        if not _is_place(self.up) or hypot(*self.up) < 1e-6:
-            raise ValueError(f"a shade's up is a direction (x, y, z), not {shortened(self.up)}")
+        """Convert place, direction and size to tuples; raise ValueError for an impossible shade."""
+        self._set_three("place", "a shade's place is three finite numbers (x, y, z)")
+        self._set_three("up", "a shade's up is a direction (x, y, z)")
+        if hypot(*self.up) < 1e-6:
+            raise ValueError(f"a shade's up is a direction (x, y, z), not {self.up}")
         if self.size is None:
             self._must_be_round()
         else:
             self._must_be_a_box()
+
+    def _set_three(self, name: str, due: str) -> None:
+        """Convert a field to a tuple of three numbers; raise ValueError for anything else, and say what is `due`."""
+        given = getattr(self, name)
+        if type(given) is tuple and [*map(type, given)] == [float] * 3 and all(map(isfinite, given)):
+            return  # a short cut for the usual type: bodies make shades in every frame
+        try:
+            x, y, z = given
+        except (TypeError, ValueError):
+            raise ValueError(f"{due}, not {shortened(given)}") from None
+        if not all(is_between(-_LARGEST, number, _LARGEST) for number in (x, y, z)):
+            raise ValueError(f"{due}, not {shortened(given)}")
+        object.__setattr__(self, name, (float(x), float(y), float(z)))
 
     def _must_be_round(self) -> None:
         if self.radius is None:
@@ -64,22 +88,13 @@ class Shade:
             raise ValueError(f"a capsule's height is at least twice its radius, {self.radius!r}, not {self.height!r}")
 
     def _must_be_a_box(self) -> None:
-        if not _is_place(self.size) or not all(map(_is_length, self.size)):  # type: ignore[arg-type]
-            raise ValueError(f"a shade's size is three lengths above 0 m, not {shortened(self.size)}")
+        self._set_three("size", due := "a shade's size is three lengths above 0 m")
+        if not all(map(_is_length, self.size)):  # type: ignore[arg-type]
+            raise ValueError(f"{due}, not {self.size}")
         if self.radius is not None or self.height is not None or self.capsule:
             raise ValueError("a shade with a size is a box: it has no radius, no height, and is no capsule")
         if not is_between(-_LARGEST, self.yaw, _LARGEST):
             raise ValueError(f"a shade's yaw is finite, not {shortened(self.yaw)}")
-
-
-def _is_place(thing: object) -> bool:
-    if type(thing) is tuple and len(thing) == 3 and {float}.issuperset(map(type, thing)):
-        return all(map(isfinite, thing))  # a short cut for the usual type: bodies make shades in every frame
-    try:
-        numbers: tuple[object, ...] = tuple(thing)  # type: ignore[arg-type]
-    except TypeError:
-        return False
-    return len(numbers) == 3 and all(is_between(-_LARGEST, number, _LARGEST) for number in numbers)
 
 
 def _is_length(thing: object) -> bool:

@@ -299,11 +299,10 @@ class Prairie(Tending):
         """
         self._must_be_there("read it again")
         self.systems.must_be_idle("read it again")
-        if site is not None:
-            must_be_a(Site, site, "site is what finding(...)() returned")
+        if site is not None and site not in self._readings:
+            raise TypeError("site is what finding(...)() of this prairie returned, and nothing else")
         self.winds.sources()
-        loaded = self._readings.get(site) if scene is None and site is not None else None
-        loaded = read_again(self.loaded, scene) if loaded is None else loaded
+        loaded = self._readings[site] if scene is None and site is not None else read_again(self.loaded, scene)
         self._replace_site(self.finding(loaded)() if site is None else site)
         self.loaded = loaded
         self._seasons.begin(loaded.scene)

@@ -27,8 +27,8 @@ MODERNGLS = ("BLEND", "CULL_FACE", "DEPTH_TEST", "PROGRAM_POINT_SIZE", "RASTERIZ
 """Capabilities of `glEnable` that moderngl knows by the same names; a guest sets them itself."""
 
 SWITCHED_OFF = (
-    "COLOR_LOGIC_OP", "DEPTH_CLAMP", "POLYGON_OFFSET_FILL", "SAMPLE_ALPHA_TO_COVERAGE", "SAMPLE_COVERAGE",
-    "CLIP_DISTANCE0", "CLIP_DISTANCE1", "PRIMITIVE_RESTART", "TEXTURE_CUBE_MAP_SEAMLESS",
+    "COLOR_LOGIC_OP", "DEPTH_CLAMP", "POLYGON_OFFSET_FILL", "POLYGON_SMOOTH", "SAMPLE_ALPHA_TO_COVERAGE",
+    "SAMPLE_COVERAGE", "CLIP_DISTANCE0", "CLIP_DISTANCE1", "PRIMITIVE_RESTART", "TEXTURE_CUBE_MAP_SEAMLESS",
 )  # fmt: skip
 """Capabilities that moderngl does not set and that would change a guest's picture: they are off while it draws.
 

@@ -61,6 +61,16 @@ def test_what_a_game_puts_between_sun_and_grass_casts_a_shadow_there_and_nowhere
     np.testing.assert_array_equal(bright(room.shot(prairie, CAMERA)), before)
 
 
+def test_a_shade_of_arrays_is_one_of_tuples_also_where_it_replaces_another(room: Stage, load: Load) -> None:
+    prairie, three = load(SCENE + NOON), np.array([0.0, 3.0, 0.0])
+    made = [Shade(three, size=iter((2, 2, 2)), up=np.array([0, 1, 0], np.float32)) for _ in range(2)]
+    assert made[0] == made[1] == Shade((0.0, 3.0, 0.0), size=(2.0, 2.0, 2.0))
+    handle = prairie.world.create(made[0])
+    for each in made:
+        prairie.world.add(handle, each)
+        room.shot(prairie, CAMERA)
+
+
 @pytest.mark.parametrize("wrong", [(0.0, 1.0), (0.0, float("nan"), 0.0), None, "abc"])
 def test_a_shade_that_is_nowhere_is_refused(wrong: object) -> None:
     with pytest.raises(ValueError, match="a shade's place is three finite numbers"):

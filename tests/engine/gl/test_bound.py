@@ -1,4 +1,4 @@
-"""A guest in framebuffers of a host that makes, resizes and deletes them (D6)."""
+"""A guest in framebuffers of a host that makes, resizes and deletes them, and with whatever it has enabled (D6)."""
 
 import gc
 import tracemalloc
@@ -13,6 +13,7 @@ import pytest
 from tallgrass.engine.gl.current import own_context
 from tallgrass.engine.gl.functions import ENUMS, functions_of
 from tallgrass.engine.gl.guest import aside, guest
+from tallgrass.engine.gl.host import SWITCHED_OFF
 
 Size = tuple[int, int]
 SMALL, LARGE = (16, 12), (40, 30)
@@ -97,3 +98,16 @@ def test_d6_a_framebuffer_that_was_given_other_textures_is_drawn_as_it_is_now(
     assert (lit[: was[1], : was[0]] == 255).all()
     assert lit.any(axis=2).sum() == was[0] * was[1], "it stays in the host's box, of the size that was"
     assert mask[:] == [0, 1, 0, 1], "a second output that has no attachment is left as it is"
+
+
+@pytest.mark.parametrize("switch", sorted({*SWITCHED_OFF, "POLYGON_SMOOTH"}))  # cards smooth edges into seams
+def test_d6_what_would_change_a_guests_picture_is_off_meanwhile_and_then_as_the_host_left_it(
+    ctx: moderngl.Context, switch: str
+) -> None:
+    gl, number = functions_of(ctx), ENUMS[switch]
+    with framebuffer(ctx, SMALL):
+        for turn, is_on in ((gl.glEnable, True), (gl.glDisable, False)):
+            turn(number)
+            with guest(ctx):
+                assert not gl.glIsEnabled(number)
+            assert bool(gl.glIsEnabled(number)) == is_on

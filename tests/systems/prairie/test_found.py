@@ -3,17 +3,20 @@
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
+import numpy as np
 import pytest
 
 from tallgrass.components.footprint import Footprint
 from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.systems.prairie import Prairie
 
+PLACES = np.random.default_rng(2).uniform(-25.0, 25.0, (50, 2)).astype(np.float32)
+
 
 def test_a_site_that_another_thread_has_found_comes_with_the_scene_that_it_was_found_for(
     load: Callable[..., Prairie],
 ) -> None:
-    prairie = load()
+    prairie, other = load(), load()
     assert prairie.path is not None
     text = prairie.path.read_text("utf-8")
     prairie.path.write_text(text.replace("height: [0.3, 0.5]", "height: [0.2, 0.3]"), "utf-8")
@@ -22,6 +25,8 @@ def test_a_site_that_another_thread_has_found_comes_with_the_scene_that_it_was_f
     with ThreadPoolExecutor(1) as hand:
         site = hand.submit(find).result()
     assert prairie.scene.grass["green"].height == [0.3, 0.5]
+    with pytest.raises(TypeError, match=r"^site is what finding\(\.\.\.\)\(\) of this prairie returned, and"):
+        other.reload(site=site)
     prairie.reload(site=site)
     assert prairie.site is site
     assert prairie.scene.grass["green"].height == [0.2, 0.3]
@@ -36,9 +41,12 @@ def test_another_preset_comes_with_the_next_reload_and_what_a_game_did_stays(
     prairie.cut(Footprint(radius=5.0), 0.1)
     prairie.advance(1.5)
     sparse = prairie.statistics.blades_field
+    felt, dense = prairie.wind_at(PLACES), prairie.grass_at(PLACES).density
     prairie.preset = "low"
     prairie.reload(site=prairie.finding()())
     assert prairie.statistics.blades_field == 2 * sparse
+    np.testing.assert_array_equal(prairie.wind_at(PLACES), felt)
+    np.testing.assert_array_equal(prairie.grass_at(PLACES).density, dense)
     assert (prairie.time, prairie.grass_at([(0.0, 0.0)]).height[0] <= 0.1) == (1.5, True)
     with pytest.raises(ValueError, match="unknown preset 'lowest'; there are minimal, low"):
         prairie.preset = "lowest"

@@ -90,7 +90,7 @@ def test_an_option_of_another_type_is_refused_in_a_sentence(load: Load, option: 
 
 
 def test_a_reload_with_what_is_no_site_is_refused_in_a_sentence(load: Load) -> None:
-    with pytest.raises(TypeError, match=r"^site is what finding\(\.\.\.\)\(\) returned, unlike 3$"):
+    with pytest.raises(TypeError, match=r"^site is what finding\(\.\.\.\)\(\) of this prairie returned, and"):
         load().reload(site=3)  # type: ignore[arg-type]
 
 
