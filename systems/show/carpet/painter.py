@@ -57,7 +57,7 @@ class CarpetPainter(RepresentationPainter):
 
     def __init__(self, canvas: Canvas, stock: CarpetStock, ground: Ground, side: int, *, coarse: bool = False) -> None:
         self._ground, self._spacing = ground, finest_spacing(ground.terrain, ground.patch)
-        self._units, self._block = canvas.units, canvas.block
+        self._units, self._block, self._reach = canvas.units, canvas.block, canvas.reach[-2]
         self._around, self._seen = Remembered[Tiles](), Remembered[ByLayer]()
         self._piece_edges = Remembered[PieceEdges]()
         self._edges, self._tallest = Edges(), 0.0
@@ -206,7 +206,7 @@ class CarpetPainter(RepresentationPainter):
             tiles, seen = tiles[meets], seen[meets]
         bare = on_terrain(tiles, self._ground.terrain)
         if carpeted is not None:
-            bare &= bare_within(tiles, carpeted, viewer.centre, patch=self._ground.patch)
+            bare &= bare_within(tiles, carpeted, viewer.centre, patch=self._ground.patch, reach=self._reach)
         return by_layer(tiles, ~bare, self._find_edges(around, viewer, mown).take(seen), viewer.eye)
 
     def _find_edges(self, around: Tiles, viewer: Viewer, mown: Mown | None) -> PieceEdges:

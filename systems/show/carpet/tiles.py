@@ -147,23 +147,23 @@ def finest_spacing(terrain: Terrain, patch: float, /) -> float:
 
 
 def bare_within(
-    tiles: NDArray[np.void], carpeted: Mask, centre: NDArray[np.int32], /, *, patch: float
+    tiles: NDArray[np.void], carpeted: Mask, centre: NDArray[np.int32], /, *, patch: float, reach: int
 ) -> NDArray[np.bool_]:
-    """Return which tiles (n,) lie wholly in the window around the viewer's cell, on patches without carpet, (n,).
+    """Return which tiles (n,) lie wholly within the discrete distance `reach`, on patches without carpet, shape (n,).
 
-    `carpeted` (side, side) tells of each patch of the window whether it has any, as rows of the patch table have it.
+    `carpeted` (side, side) tells of each patch around the viewer's cell whether it has any, by the rows of its table.
+    Within a negative reach no tile lies.
     """
-    side = len(carpeted)
-    lowest = centre - side // 2
-    along, across = ((lowest[:, None] + np.arange(side)) % side)[::-1]
+    lowest, side = centre - reach, max(2 * reach + 1, 0)
+    along, across = ((lowest[:, None] + np.arange(side)) % len(carpeted))[::-1]
     sums = np.zeros((side + 1, side + 1), np.int32)  # numbers of carpeted patches before each corner of a patch
-    sums[1:, 1:] = carpeted[np.ix_(along, across)].cumsum(axis=0).cumsum(axis=1)
+    np.cumsum(carpeted[along[:, None], across].cumsum(axis=0, dtype=np.int32), axis=1, out=sums[1:, 1:])
     first, last = (
         (step(ends / patch + off) - lowest).astype(np.intp)
         for step, ends, off in zip((np.floor, np.ceil), _corners(tiles), (WITHIN_PATCH, -WITHIN_PATCH), strict=True)
     )
     inside = ((first >= 0) & (last <= side)).all(axis=1)
-    (x0, z0), (x1, z1) = (each.clip(0, side).T for each in (first, last))
+    (x0, z0), (x1, z1) = (np.minimum(np.maximum(each, 0), side).T for each in (first, last))
     return np.asarray(inside & (sums[z1, x1] - sums[z0, x1] - sums[z1, x0] + sums[z0, x0] == 0))
 
 

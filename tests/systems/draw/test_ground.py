@@ -122,8 +122,9 @@ def test_the_number_of_tiles_hardly_grows_with_the_terrain() -> None:
 
 @pytest.mark.parametrize("side", [2.5, 5.0, 0.625])
 @pytest.mark.parametrize("patch", [2.5, 5.0])
-def test_tiles_are_bare_where_none_of_their_patches_has_carpet(patch: float, side: float) -> None:
-    window, centre = 9, np.array([2, -3], np.int32)
+@pytest.mark.parametrize("reach", [4, -1])
+def test_tiles_are_bare_where_none_of_their_patches_has_carpet(patch: float, side: float, reach: int) -> None:
+    window, centre = 15, np.array([2, -3], np.int32)
     carpeted = np.zeros((window, window), np.bool_)
     cells = {(0, -3), (2, -6), (6, 1)}
     for x, z in cells:
@@ -132,11 +133,11 @@ def test_tiles_are_bare_where_none_of_their_patches_has_carpet(patch: float, sid
     tiles = np.zeros(len(line) ** 2, TILE)
     tiles["tile"][:, :2] = np.stack(np.meshgrid(line, line), -1).reshape(-1, 2)
     tiles["tile"][:, 2] = side / GRID
-    bare = bare_within(tiles, carpeted, centre, patch=patch)
+    bare = bare_within(tiles, carpeted, centre, patch=patch, reach=reach)
     for (x, z), is_bare in zip(tiles["tile"][:, :2].tolist(), bare.tolist(), strict=True):
         lies_on = [range(int(low // patch), int(-(-(low + side) // patch))) for low in (x, z)]
         patches = {(i, j) for i in lies_on[0] for j in lies_on[1]}
-        inside = all(abs(i - 2) <= window // 2 and abs(j + 3) <= window // 2 for i, j in patches)
+        inside = all(abs(i - 2) <= reach and abs(j + 3) <= reach for i, j in patches)
         assert is_bare == (inside and not patches & cells)
 
 
