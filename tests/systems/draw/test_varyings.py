@@ -107,9 +107,9 @@ def test_pixels_take_no_more_numbers_than_are_sure_to_come_through(
 def test_of_several_samples_a_pixel_none_asks_beyond_a_tiles_edge_where_numbers_have_any_value(name: str) -> None:
     folder = Path(shaders.__file__).parents[2] / "systems/show/carpet"
     text = (folder / f"{name}.frag").read_text("utf-8")
-    shared = '#define PASSED in\n#include "systems/show/carpet/coarse.glsl"'
-    if name == "coarse":  # its varyings are declared for both stages at once
-        text = text.replace(shared, (folder / "coarse.glsl").read_text("utf-8").replace("PASSED", "in"))
+    shared = f'#define PASSED in\n#include "systems/show/carpet/{name}.glsl"'
+    if shared in text:  # its varyings are declared for both stages at once
+        text = text.replace(shared, (folder / f"{name}.glsl").read_text("utf-8").replace("PASSED", "in"))
     wild = re.findall(r"^in \w+ (\w+);", text, re.MULTILINE)
     assert {*wild} <= {"place", "mesh_place"}, "of these, only differences count, to the next pixel"
     assert not re.search(r"^#define \w+ in$", text, re.MULTILINE)
