@@ -20,7 +20,7 @@ from ..studio.timing import card_timer, spread, timed
 from .machine import head, yardstick_ms
 from .processor import on_processor
 from .rivals import Rivals
-from .still import FRAMES, Still
+from .still import FRAMES, Still, still_frames
 from .viewers import side_by_side
 
 EVERY = 12
@@ -200,7 +200,7 @@ def _against_every_blade(samples: Samples) -> dict[str, float]:
 
 def _on_processor(take: Take) -> dict[str, object]:
     """Return the cost of frames on the CPU alone; figures are None where it cannot be measured."""
-    measured = on_processor(take)
+    measured = on_processor(still_frames, take)
     if measured is None:
         return {"cpu_ms": None, "cpu_by_system_ms": None, "cpu_over_yardstick": None}
     return {

@@ -1,35 +1,33 @@
-"""The cost of frames on the CPU alone, measured in a child process whose driver draws nothing."""
+"""The cost of frames on the CPU alone: measured in a process whose driver draws nothing, as Mesa's can."""
 
-import json
-import os
-import subprocess
-import sys
-from typing import Any
+from collections.abc import Callable
 
-from ..studio.take import Take, words_of
+from ..studio.errors import MachineError
+from ..studio.offscreen import standalone_context
+from ..studio.take import Take
+from .apart import apart
+from .sent import Result
 
 NOOP = {"GALLIUM_NOOP": "1"}
 """Environment by which Mesa accepts every command and draws nothing; other drivers ignore it."""
 
-LONGEST = 900.0
-"""Timeout of the child process [s]."""
 
-
-def on_processor(take: Take, /, *, walk: bool = False) -> dict[str, Any] | None:
-    """Return the figures of the module `noop` for a take, or None where the driver always draws or the child fails."""
-    command = [sys.executable, "-m", f"{__package__}.noop", *["--walk"] * walk, *words_of(take)]
+def on_processor(measure: Callable[[Take], Result], take: Take, /) -> Result | None:
+    """Return what a module's function measures of a take, or None where the driver always draws or that fails."""
     try:
-        done = subprocess.run(  # noqa: S603 - it is our own module
-            command,
-            env=os.environ | NOOP,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            text=True,
-            timeout=LONGEST,
-            check=False,
-        )
-    except (OSError, subprocess.TimeoutExpired):
+        return apart(_unless_drawn, measure, take, environment=NOOP)
+    except MachineError:
         return None
-    lines = done.stdout.splitlines()
-    result: dict[str, Any] | None = json.loads(lines[-1]) if done.returncode == 0 and lines else None
-    return result
+
+
+def _unless_drawn(measure: Callable[[Take], Result], take: Take) -> Result | None:
+    return measure(take) if draws_nothing() else None
+
+
+def draws_nothing() -> bool:
+    """Return whether the driver only accepts commands."""
+    ctx = standalone_context()
+    try:
+        return str(ctx.info["GL_RENDERER"]).startswith("NOOP")
+    finally:
+        ctx.release()

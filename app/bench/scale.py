@@ -1,23 +1,19 @@
 """`tallgrass bench scale`: what a larger terrain costs, up to 10 km."""
 
-import subprocess
-import sys
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from functools import partial
-from json import loads
-from multiprocessing import get_context
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 
 from ...engine.scene import LoadedScene, read_scene
-from ..studio.errors import InputError, MachineError
+from ..studio.errors import InputError
 from ..studio.progress import counted
 from ..studio.studio import Studio
-from ..studio.take import Take, words_of
+from ..studio.take import Take
 from ..studio.walker import MARGIN
+from .apart import apart
 from .machine import head, resident_mb
 from .many import Survey
 from .sent import Job
@@ -25,9 +21,6 @@ from .stroll import RATE, SECONDS, legs
 from .walk import paced
 
 Row = dict[str, float | None]
-
-BAD_INPUT = 2
-"""Exit status of a command with bad input."""
 
 SIDES = (100.0, 1000.0, 10000.0)
 """Sides of the terrains [m]."""
@@ -42,15 +35,9 @@ def scale_measured(take: Take, _output: str | None = None, /) -> dict[str, Any]:
         raise InputError(f"{take.scene}: its terrain comes from a file; only one from noise can be stretched")
     with Studio(take) as studio:  # this grows and caches the grass, so that no row includes it
         common = head(studio.ctx, studio.prairie, take)
-    rows = list(
-        counted(map(partial(_in_new_process, take), SIDES), total=len(SIDES), doing="larger and larger terrains")
-    )
+    measured = map(partial(apart, _measured, take), SIDES)
+    rows = list(counted(measured, total=len(SIDES), doing="larger and larger terrains"))
     return {**common, "frames": round(SECONDS * RATE), "rows": rows}
-
-
-def _in_new_process(take: Take, side: float) -> Row:
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
-        return pool.submit(_measured, take, side).result()
 
 
 def _measured(take: Take, side: float) -> Row:
@@ -67,21 +54,6 @@ def _measured(take: Take, side: float) -> Row:
     }
 
 
-def measured_apart(take: Take, _output: str | None = None, /) -> dict[str, Any]:
-    """Return the result of `scale_measured` from a new process: a worker's process may not start others.
-
-    Raises InputError and MachineError with that process's message.
-    """
-    command = [sys.executable, "-m", "tallgrass", "bench", "scale", "--json", *words_of(take)]
-    done = subprocess.run(  # noqa: S603 - it is our own command
-        command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    if done.returncode:
-        raise (InputError if done.returncode == BAD_INPUT else MachineError)(done.stderr.strip())
-    result: dict[str, Any] = loads(done.stdout)
-    return result
-
-
 def _cells(result: dict[str, Any]) -> dict[str, object]:
     """Return the table's cells for a scene: frame times by terrain side, memory and first frame of the largest."""
     frames = {f"ms_{row['terrain_m']:.0f}_m": row["frame_ms"] for row in result["rows"]}
@@ -89,7 +61,7 @@ def _cells(result: dict[str, Any]) -> dict[str, object]:
 
 
 SURVEY = Survey(
-    scale_measured, "larger and larger terrains", _cells, kept=("rows",), job=Job(measured_apart, timed=True)
+    scale_measured, "larger and larger terrains", _cells, kept=("rows",), job=Job(scale_measured, timed=True)
 )
 """The benchmark for many scenes."""
 

@@ -7,7 +7,9 @@ import moderngl
 
 from ...engine.camera import view_of
 from ..studio.studio import Studio
-from ..studio.timing import timed
+from ..studio.take import Take
+from ..studio.timing import spread, timed
+from .machine import yardstick_ms
 
 FRAMES = 60
 """Number of frames measured."""
@@ -50,3 +52,20 @@ class Still:
                 self.draw()
 
         return timed(self.studio.ctx, frame)
+
+
+def still_frames(take: Take, /) -> dict[str, object]:
+    """Return the times of a take's frames, of their systems, and of the yardstick [ms]."""
+    times: list[float] = []
+    systems: dict[str, list[float]] = {}
+    with Studio(take) as studio:
+        still = Still(studio)
+        for _ in range(FRAMES):
+            times.append(still.step())
+            for name, milliseconds in studio.prairie.statistics.systems_ms.items():
+                systems.setdefault(name, []).append(milliseconds)
+    return {
+        "cpu_ms": spread(times, 50, 95),
+        "cpu_by_system_ms": {name: spread(each, 50)["p50"] for name, each in systems.items()},
+        "yardstick_ms": yardstick_ms(),
+    }

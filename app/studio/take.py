@@ -36,12 +36,6 @@ class Take:
     """Layers drawn over the picture that show how it works."""
 
 
-def words_of(take: Take, /) -> list[str]:
-    """Return the scene, size and preset of a take as words of a command line."""
-    preset = ["--preset", take.preset] if take.preset else []
-    return ["--size", f"{take.size[0]}x{take.size[1]}", *preset, "--", take.scene]
-
-
 def parse_size(text: str, /) -> tuple[int, int]:
     """Return width and height [pixels] written as `WxH`; raises ValueError with a sentence that says what is wrong."""
     match = re.fullmatch(r"([0-9]{1,9})x([0-9]{1,9})", text.strip(), re.IGNORECASE)

@@ -19,7 +19,7 @@ from tallgrass.app.bench.flip import MOMENT
 from tallgrass.app.bench.rivals import Rivals
 from tallgrass.app.bench.scale import stretched
 from tallgrass.app.bench.still import Still
-from tallgrass.app.bench.walk import sublevel_changed
+from tallgrass.app.bench.walk import walked_frames
 from tallgrass.app.cli import run
 from tallgrass.app.studio import timing
 from tallgrass.app.studio.studio import Studio
@@ -58,7 +58,7 @@ def ratio(of_told: float) -> Any:
 
 
 def _draws_nothing() -> bool:
-    program = "from tallgrass.app.bench.noop import draws_nothing; print(draws_nothing())"
+    program = "from tallgrass.app.bench.processor import draws_nothing; print(draws_nothing())"
     child = subprocess.run(
         [sys.executable, "-c", program], env=os.environ | processor.NOOP, capture_output=True, text=True, check=False
     )
@@ -123,7 +123,7 @@ def test_where_the_driver_always_draws_none_is_told_of_the_cpu_alone_and_without
 
 
 def test_a_child_that_fails_tells_nothing(scene: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    assert processor.on_processor(Take(str(scene), (96, 54), "none such"), walk=True) is None
+    assert processor.on_processor(walked_frames, Take(str(scene), (96, 54), "none such")) is None
     capfd.readouterr()
 
 
@@ -202,13 +202,6 @@ def test_the_yardstick_is_the_least_of_its_timings(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(machine, "TIMINGS", 3)
     monkeypatch.setattr(machine, "perf_counter", lambda: next(clock))
     assert machine.yardstick_ms() == 1000.0
-
-
-def test_only_a_patch_that_keeps_its_representation_changes_its_sub_level() -> None:
-    representation = np.array([0, 0, 1, 1, -1], np.int8)
-    before = np.array([[0, 0, 3, 3, 0], [2, 2, -1, 4, 2]], np.int8)
-    now = np.array([[1, 0, 4, 4, 1], [3, 2, 4, 5, 3]], np.int8)
-    assert sublevel_changed(representation, before, now).tolist() == [True, False, False, True, False]
 
 
 @pytest.mark.slow
@@ -291,15 +284,13 @@ def test_r2_n6_the_walk_benchmark_tells_every_key_of_the_contract(
     assert run(["bench", "walk", str(scene), "--size", "96x54", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told.keys() == COMMON | {
-        "frame_ms", "p99_over_p50", "busy_over_p50", "transitions", "sublevel_changes", "rss_mb", "cpu_ms",
-        "yardstick_ms",
+        "frame_ms", "p99_over_p50", "transitions", "rss_mb", "cpu_ms", "yardstick_ms",
     }  # fmt: skip
     assert told["frames"] % 14 == 0
     times = told["frame_ms"]
     assert 0.0 < times["p50"] <= times["p95"] <= times["p99"] <= times["max"]
     assert told["p99_over_p50"] == ratio(times["p99"] / times["p50"])
     assert told["transitions"] > 10
-    assert told["sublevel_changes"] > 0
     assert told["cpu_ms"] is None
     assert told["rss_mb"]["end"] > 50.0
 

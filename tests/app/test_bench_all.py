@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from PIL import Image
 
-from tallgrass.app.bench import frame, noop, pop, scale, still, stroll, whole
+from tallgrass.app.bench import frame, pop, scale, still, stroll, whole
 from tallgrass.app.bench import page as whole_page
 from tallgrass.app.bench.page import figures, page
 from tallgrass.app.bench.plots import PLOTS
@@ -26,10 +26,10 @@ def short(monkeypatch: pytest.MonkeyPatch) -> None:
     """Make every benchmark draw a few frames only."""
     for module, name, value in (
         (stroll, "RATE", 10), (stroll, "SECONDS", 0.5), (frame, "FRAMES", 4), (frame, "EVERY", 2), (frame, "TURN", 2),
-        (still, "WARM_UP", 2), (scale, "SIDES", (100.0,)), (noop, "FRAMES", 2),
+        (still, "WARM_UP", 2), (scale, "SIDES", (100.0,)),
     ):  # fmt: skip
         monkeypatch.setattr(module, name, value)
-    monkeypatch.setattr(scale, "_in_new_process", scale._measured)  # noqa: SLF001 - another process would draw many frames
+    monkeypatch.setattr(scale, "apart", lambda work, *given: work(*given))  # another process would draw many frames
     monkeypatch.setattr(pop, "MOST_PROCESSES", 1)
     monkeypatch.setattr(pop, "legs", lambda prairie: stroll.legs(prairie)[:1])
 
