@@ -47,5 +47,5 @@ class Brought:
         self._entities, self._generation = now, self._world.check()
 
     def _there(self) -> set[int]:
-        every = (entity for kind in (*THINGS.values(), WindSource) for entity, _ in self._world.all(kind))
+        every = (entity for kind in (*THINGS, WindSource) for entity, _ in self._world.all(kind))
         return {entity for entity in every if entity not in self._world}

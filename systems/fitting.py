@@ -5,8 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..components.arrays import Floats, Mask
+from ..engine.stored import refuse, unfit
 from ..engine.terrain.change import as_loaded
-from .saved import Saved, SavedScene, State, refuse, unfit
+from .saved import SavedScene, State
 from .site import Site
 from .space.ground import Ground
 
@@ -41,16 +42,14 @@ def lie_of(ground: Ground, /) -> Floats:
     return np.concatenate(found)
 
 
-def must_fit(saved: Saved, site: Site, lie: Floats, /) -> None:
+def must_fit(state: State, site: Site, lie: Floats, /) -> None:
     """Raise ValueError if a state does not fit a site; `lie` are the samples of the site's ground."""
-    state, scene = saved.state, site.scene
-    if isinstance(state.scene, SavedScene):
-        _must_be_alike(state.scene, scene_of(site), cleared=len(saved.arrays.get("cleared", ())))
-        saved_lie = saved.arrays.get("lie", np.zeros(0))
-        if saved_lie.dtype != lie.dtype or saved_lie.shape != lie.shape:
-            refuse("the samples of its ground have a wrong type or shape")
-        if not np.allclose(saved_lie, lie, rtol=0.0, atol=SAME, equal_nan=True):
-            unfit("its ground has other heights or holes")
+    scene = site.scene
+    _must_be_alike(state.scene, scene_of(site), cleared=len(state.cleared))
+    if state.lie.shape != lie.shape:
+        refuse("it has too few samples of its ground, or too many")
+    if not np.allclose(state.lie, lie, rtol=0.0, atol=SAME, equal_nan=True):
+        unfit("its ground has other heights or holes")
     if len(state.declared) != len(scene.wind):
         unfit(f"its scene declares {len(state.declared)} winds, and this one {len(scene.wind)}")
     if len(state.treading.declared) != len(scene.pressers):
@@ -76,11 +75,10 @@ def kinds_of(state: State, names: Sequence[str], /) -> list[str]:
 
     `names` are those of the scene; raises ValueError if any are missing there.
     """
-    then = state.scene.grass if isinstance(state.scene, SavedScene) else list(names)
-    gone = [name for name in then if name not in names]
+    gone = [name for name in state.scene.grass if name not in names]
     if gone:
         unfit(f"ground is sown or cleared in it with {_listed(gone, 'grass')}, which this scene does not have")
-    return then
+    return state.scene.grass
 
 
 def _open(heights: Floats, holes: Mask) -> Floats:

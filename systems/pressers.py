@@ -1,29 +1,33 @@
 """The pressers of a prairie: their entities, their walks, and what grass feels of them."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import compress
 from math import ceil, floor, pi
+from typing import Annotated
 
 import moderngl
 import numpy as np
+from pydantic import Field
 
 from ..components.arrays import Doubles, Floats
+from ..components.declaration import Declaration, Number
 from ..components.pose import Pose
 from ..components.presser import Presser
 from ..engine.declared.presser import PresserOnPath
 from ..engine.declared.way import Waypoint
 from ..engine.handed import as_places_of, is_somewhere
+from ..engine.stored import AS_FIELDS, Stored, Time
 from .around.outlook import Outlook
 from .frame.block import FrameBlock
 from .frame.feature import Feature, Start
 from .press.card import PressPart
 from .press.lie import combined_message, pressed, recoveries, touches
 from .press.marks import UNTRODDEN, Memory, Trodden
-from .press.trail import FIRST_OF_SCENE, Stretches, Trail
+from .press.trail import COLUMNS, FIRST_OF_SCENE, Stretches, Trail
 from .press.walk import EntityPresser, Walk, WalkState, staying
 from .space.grown import Grown
-from .wearing import Place, Wearing
+from .wearing import Wearing
 from .wind.blow import ReceiverArrays
 
 REMEMBERED = 2.0
@@ -36,29 +40,28 @@ EVERY = 60.0
 """Interval at which the scene's pressers begin new stretches [s]: a replay starts there, and skips forgotten ones."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Treading:
+class Treading(Declaration):
     """State of all pressers and their marks, to continue from."""
 
     walks: tuple[WalkState, WalkState]
     """Walk of the scene's pressers, whose entities are -1, -2 and so on in its order; and walk of a game's own."""
 
-    kept: Stretches
+    kept: Annotated[Stretches, Stored(np.float64, None, COLUMNS)]
     """Marks that have settled."""
 
-    since: float
+    since: Annotated[float, Field(ge=-1.0, le=1e9)]
     """Time at which marks settled last [s]."""
 
-    trodden: float | None
+    trodden: Time | None
     """Time of the marks trodden last [s]; None if there are none."""
 
     anew: bool
     """Whether the whole way of the scene's pressers is still to be replayed."""
 
-    declared: list[Presser | None]
+    declared: list[Annotated[Presser, AS_FIELDS] | None]
     """Component of each of the scene's pressers; None for one that a game has deleted."""
 
-    worn: Mapping[int, Place]
+    worn: dict[int, tuple[Number, Number]]
     """Place (x, z) [m] up to which the way of each of a game's pressers is worn, by its entity."""
 
 
@@ -150,11 +153,12 @@ class Pressers(Feature):
         """Return the present state, for `resume`."""
         numbers = {entity: -1 - number for number, entity in enumerate(self._declared)}
         scenes, games = self._scene_walk.state(), self._game_walk.state()
-        scenes = replace(scenes, pressers=[(numbers[entity], presser) for entity, presser in scenes.pressers])
+        numbered = [(numbers[entity], presser) for entity, presser in scenes.pressers]
         there = dict(self._world.all(Presser))
         return Treading(
-            (scenes, games), self._memory.kept, self._memory.since, self.trodden.time if self.trodden else None,
-            self._is_anew, [there.get(entity) for entity in self._declared], self._wearing.worn,
+            walks=(scenes.model_copy(update={"pressers": numbered}), games), kept=self._memory.kept,
+            since=self._memory.since, trodden=self.trodden.time if self.trodden else None, anew=self._is_anew,
+            declared=[there.get(entity) for entity in self._declared], worn=self._wearing.worn,
         )  # fmt: skip
 
     def resume(self, treading: Treading, entities: Mapping[int, int]) -> None:

@@ -5,7 +5,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 
 from ..engine.declared.grass import GrassKind
-from .seasons import Batch, Recalled, Seasons
+from .seasons import Batch, Kinds, Seasons
 from .site import Site, must_grow, ripened
 
 Stage = Callable[[Site, Site], bool]
@@ -38,19 +38,19 @@ class Ripening:
         """Drop the pending site."""
         self._pending = None
 
-    def resume(self, site: Site, recalled: Recalled, /) -> Site:
+    def resume(self, site: Site, kinds: Kinds, /) -> Site:
         """Return the site with its kinds as they were when they were saved."""
         known = self._known
         self._pending = None
-        self._seasons.resume(recalled)
-        coming = {} if recalled.batch is None else recalled.batch.kinds
-        return ripened(site, known, recalled.standing, coming)
+        self._seasons.kinds = kinds
+        coming = {} if kinds.batch is None else kinds.batch.kinds
+        return ripened(site, known, kinds.standing, coming)
 
     @property
     def _known(self) -> tuple[Mapping[str, GrassKind], Mapping[str, GrassKind]]:
         """Kinds that have grown, and those that they are changing to."""
-        batch = self._seasons.batch
-        return self._seasons.standing, {} if batch is None else batch.kinds
+        batch = self._seasons.kinds.batch
+        return self._seasons.kinds.standing, {} if batch is None else batch.kinds
 
     def step(self, site: Site, time: float, stage: Stage, /) -> Site:
         """Return the site at `time` [s]; a prairie that is not live waits for what has to grow."""
@@ -62,12 +62,12 @@ class Ripening:
             if moved is site or not waits:
                 break
             site = moved
-        came = () if self._seasons.batch is None else self._seasons.batch.came(moved.scene.grass, time)
+        came = () if self._seasons.kinds.batch is None else self._seasons.kinds.batch.came(moved.scene.grass, time)
         return moved if came == moved.came else moved.come(came)
 
     def _next(self, site: Site, time: float, *, waits: bool) -> _Pending | None:
         """Return the next site that is due, if there is one."""
-        batch = self._seasons.batch
+        batch = self._seasons.kinds.batch
         if batch is not None:
             if min(batch.came(batch.kinds, time)) < 1.0:
                 return None
@@ -76,16 +76,16 @@ class Ripening:
         due = self._seasons.to_grow
         if not due:
             return None
-        over = self._seasons.over
+        over = self._seasons.kinds.over
         grows = {name: kind for name, kind in due.items() if over.get(name, 0.0) > 0.0 and must_grow(site, name, kind)}
         at_once = {name: kind for name, kind in due.items() if name not in grows}
-        since = max(self._batch_end, *(self._seasons.asked.get(name, 0.0) for name in due))
+        since = max(self._batch_end, *(self._seasons.kinds.asked.get(name, 0.0) for name in due))
         begun = Batch(grows, since, {name: over[name] for name in grows}) if grows else None
         return self._made(site, at_once, begun, waits=waits)
 
     def _made(self, site: Site, changed: Mapping[str, GrassKind], batch: Batch | None, *, waits: bool) -> _Pending:
         """Return the site on which the `changed` kinds have grown and those of `batch` are changing, or its future."""
-        stands = self._seasons.standing | dict(changed)
+        stands = self._seasons.kinds.standing | dict(changed)
         wanted = site, self._known, stands, {} if batch is None else batch.kinds
         if waits:
             return _Pending(ripened(*wanted), stands, batch)
@@ -103,9 +103,9 @@ class Ripening:
             made = made.result()
         if not waits and not stage(made, site):
             return site
-        self._seasons.standing, self._seasons.batch = dict(pending.stands), pending.batch
+        self._seasons.kinds.standing, self._seasons.kinds.batch = dict(pending.stands), pending.batch
         if pending.batch is not None and not waits:
-            self._seasons.batch = replace(pending.batch, since=time)
+            self._seasons.kinds.batch = replace(pending.batch, since=time)
         self._pending = None
         return made
 

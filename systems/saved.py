@@ -1,30 +1,30 @@
-"""The format of a prairie's saved state: records and arrays, packed as bytes."""
+"""The format of a prairie's saved state: a record with arrays, packed as bytes."""
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
 from hashlib import blake2b
 from io import BytesIO
-from numbers import Real
-from types import NoneType
-from typing import Annotated, Any, Literal, NoReturn
+from typing import Annotated, Any
 from zlib import compress, decompressobj
 
 import numpy as np
-from numpy.typing import NDArray
-from pydantic import Field, ValidationError
+from pydantic import ValidationError
 
-from ..components.declaration import Declaration, Number
+from ..components.arrays import Bytes, Floats, Ints, Mask, Place
+from ..components.course import Course
+from ..components.declaration import Declaration
 from ..components.lamp import Lamp
+from ..components.pose import Pose
 from ..components.presser import Presser
 from ..components.shade import Shade
 from ..components.tree import Tree
 from ..engine.declared.light import Light
+from ..engine.stored import AS_FIELDS, Stored, Time, refuse
+from ..engine.terrain.plots import CELLS
 from .light.shining import Way
+from .pressers import Treading
+from .seasons import SavedSeason
 
-FORMAT, OLDEST = 4, 3
-"""Version of the format, and the oldest version that is read.
-
-Version 3 has no `SavedScene`, but a hash of the scene's whole text, defaults too."""
+FORMAT = 5
+"""Version of the format."""
 
 MAGIC = b"tallgrass state\n"
 """First bytes of a state."""
@@ -35,29 +35,12 @@ _DIGEST = 20
 _MOST = 2**28
 """Maximum size of a state when it is unpacked [bytes]."""
 
-Arrays = Mapping[str, NDArray[Any]]
-"""Arrays of a state, by name."""
-
-Standing = Annotated[list[Number], Field(min_length=3, max_length=4)]
-"""A `Pose`: x, z [m], yaw [rad], and the height [m] if it has one."""
-
-Kind = Literal["presser", "lamp", "shade", "tree"]
 Thing = Presser | Lamp | Shade | Tree
+THINGS: tuple[type[Thing], ...] = Presser, Lamp, Shade, Tree
+"""Classes of a game's components that are saved, besides winds."""
 
-THINGS: Mapping[Kind, type[Thing]] = {"presser": Presser, "lamp": Lamp, "shade": Shade, "tree": Tree}
-"""Classes of saved components, by their names in a state."""
-
-
-class SavedCourse(Declaration):
-    """The course of the phases of a wind whose rates a game has changed."""
-
-    times: list[float]
-    rates: list[list[float]]
-    offsets: list[list[float]]
-    """Fields of `Course`."""
-
-    first: dict[str, Any]
-    """Values of the wind before the first change."""
+SavedPose = Annotated[Pose, AS_FIELDS] | None
+"""Pose of an entity; None without a `Pose`."""
 
 
 class SavedWind(Declaration):
@@ -69,98 +52,24 @@ class SavedWind(Declaration):
     kind: str
     name: str
     values: dict[str, Any]
-    pose: Standing | None
-    """Pose of its entity; None without a `Pose`."""
+    pose: SavedPose
+    course: Course | None
+    """Course of its phases, if a game has changed their rates."""
 
-    course: SavedCourse | None
+    first: dict[str, Any] | None
+    """Values of the wind before the first of these changes."""
 
 
 class SavedThing(Declaration):
     """One component of a game's entity; an entity with several components has several records."""
 
     entity: int
-    kind: Kind
-    fields: dict[str, Any]
-    """Fields of the component."""
-
-    pose: Standing | None
-    """Pose of the entity; None without a `Pose`."""
-
-
-class SavedWalk(Declaration):
-    """The walk of some pressers; their trail and their poses are arrays."""
-
-    time: float = Field(ge=0.0, le=1e9)
-    """Time that they have reached [s]."""
-
-    begun: int = Field(ge=-(2**40), le=2**40)
-    """Number of the way that begins next."""
-
-    who: list[tuple[int, dict[str, Any]]]
-    """Entity and `Presser` fields of each; entity -1 - n is the presser with number n in the scene."""
-
-
-class SavedTreading(Declaration):
-    """The state of all pressers, as `Treading` has it; the marks are arrays."""
-
-    walks: list[SavedWalk] = Field(min_length=2, max_length=2)
-    """Walk of the scene's pressers, and that of the game's."""
-
-    since: float = Field(ge=-1.0, le=1e9)
-    """Time at which marks settled last [s]."""
-
-    trodden: float | None = Field(ge=0.0, le=1e9)
-    """Time of the marks trodden last [s]; None if there are none."""
-
-    anew: bool
-    """Whether the whole way of the scene's pressers is still to be replayed."""
-
-    declared: list[dict[str, Any] | None]
-    """Fields of each of the scene's pressers; None for one that a game has deleted."""
-
-    worn: list[tuple[int, Number, Number]] = Field(default=[])
-    """Entity of each presser that wears grass off, and the place (x, z) up to which its way is worn [m]."""
-
-
-class SavedEase(Declaration):
-    """One value of a kind of grass that is being interpolated, as `Ease` has it."""
-
-    key: str
-    before: str | float
-    after: str | float
-    since: float = Field(ge=0.0, le=1e9)
-    over: float = Field(ge=0.0, le=1e9)
-    """Beginning and duration [s]."""
-
-
-class SavedSeason(Declaration):
-    """A kind of grass that a game has changed."""
-
-    name: str
-    due: dict[str, Any]
-    """Its keys as they will be in the end, without `place`."""
-
-    stands: dict[str, Any]
-    """Its keys as it has grown, without `place`."""
-
-    over: float | None = Field(ge=0.0, le=1e9)
-    """Duration in which new plants come in [s]; None if nothing must be grown."""
-
-    asked: float = Field(ge=0.0, le=1e9)
-    """Time at which they were asked for [s]."""
-
-    comes: dict[str, Any] | None
-    """Keys that it is changing to now, if it is."""
-
-    since: float = Field(ge=0.0, le=1e9)
-    lasts: float = Field(ge=0.0, le=1e9)
-    """Beginning and duration of this change [s]."""
-
-    eases: list[SavedEase]
+    component: Annotated[Thing, AS_FIELDS]
+    pose: SavedPose
 
 
 class SavedScene(Declaration):
-    """Values that a scene must share with the one of the state; heights of its ground are an array."""
+    """Values that a scene must share with the one of the state."""
 
     seed: int
     size: tuple[float, float]
@@ -180,18 +89,21 @@ class SavedScene(Declaration):
 
 
 class State(Declaration):
-    """Everything in a state but its arrays."""
+    """Everything in a state."""
 
-    scene: SavedScene | str
-    """The scene on which it was made; in format 3 the hash."""
+    scene: SavedScene
+    """The scene on which it was made."""
 
-    time: float = Field(ge=0.0, le=1e9)
+    lie: Annotated[Floats, Stored(np.float32, None)]
+    """Samples of its ground's heights as it was loaded [m]; NaN in holes."""
+
+    time: Time
     light: Light
-    light_since: float = Field(ge=0.0, le=1e9)
+    light_since: Time
     """Time at which the light had its hour [s]."""
 
-    light_way: Way | None = Field(default=None)
-    """Progress of the light towards `light`; None in older states, in which it has arrived."""
+    light_way: Way
+    """Progress of the light towards `light`."""
 
     declared: list[SavedWind | None]
     """The scene's winds; None for one that a game has deleted."""
@@ -205,40 +117,45 @@ class State(Declaration):
     things: list[SavedThing]
     """Other components of a game's own entities."""
 
-    brought: dict[str, list[int]] = Field(default={})
+    brought: dict[str, list[int]]
     """Entities that packages made while they added their systems, by the systems' names, in the order of making."""
 
-    treading: SavedTreading
-    felled: list[int] = Field(default=[])
+    treading: Treading
+    felled: list[int]
     """Numbers of the scene's trees that are gone, or have become others among `things`."""
 
-    wild_felled: list[tuple[int, int, int]] = Field(default=[])
+    wild_felled: list[tuple[int, int, int]]
     """Gone trees of a forest too large to number them all: each tree's square, and its number in that."""
 
-    stood: list[tuple[float, float]] | None = Field(default=None)
-    """Places (x, z) [m] of the trees of `felled` and then of `wild_felled`; None in format 3."""
+    stood: list[Place]
+    """Places (x, z) [m] of the trees of `felled` and then of `wild_felled`."""
 
-    seasons: list[SavedSeason] = Field(default=[])
+    seasons: list[SavedSeason]
+    cleared: Annotated[Ints, Stored(np.int32, None, 2)]
+    """Cells of cleared patches."""
+
+    mown: Annotated[Ints, Stored(np.int32, None, 3)]
+    mown_heights: Annotated[Floats, Stored(np.float32, None, CELLS, CELLS)]
+    sown: Annotated[Ints, Stored(np.int32, None, 3)]
+    sown_densities: Annotated[Bytes, Stored(np.uint8, None, CELLS, CELLS, None)]
+    """Plots that are cut and sown, and their pages: what `Plots.saved` returned."""
+
+    ground: Annotated[Ints, Stored(np.int32, None, 2)]
+    ground_heights: Annotated[Floats, Stored(np.float32, None)]
+    ground_holes: Annotated[Mask, Stored(np.bool_, None)]
+    """Changed squares of the ground: what `changed_squares` returned."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Saved:
-    """A state, unpacked."""
-
-    state: State
-    arrays: Arrays
-
-
-def packed(saved: Saved, /) -> bytes:
+def packed(state: State, /) -> bytes:
     """Return a state as bytes: magic bytes, a checksum, the version, and the compressed rest."""
-    head = np.frombuffer(saved.state.model_dump_json().encode(), np.uint8)
-    file = BytesIO()
-    np.savez(file, allow_pickle=False, head=head, **saved.arrays)
+    arrays, file = list[np.ndarray[Any, Any]](), BytesIO()
+    head = np.frombuffer(state.model_dump_json(context=arrays).encode(), np.uint8)
+    np.savez(file, *arrays, allow_pickle=False, head=head)
     body = FORMAT.to_bytes(2) + compress(file.getvalue(), 6)
     return MAGIC + blake2b(body, digest_size=_DIGEST).digest() + body
 
 
-def unpacked(state: object, /) -> Saved:
+def unpacked(state: object, /) -> State:
     """Return the state in some bytes. Raises TypeError for anything but bytes, ValueError for no or a damaged state."""
     if not isinstance(state, bytes | bytearray | memoryview):
         raise TypeError(f"a state is the bytes that state() returned, not {type(state).__name__}")
@@ -249,59 +166,17 @@ def unpacked(state: object, /) -> Saved:
     if blake2b(body, digest_size=_DIGEST).digest() != digest:
         raise ValueError("this state has been altered or truncated")
     version = int.from_bytes(body[:2])
-    if not OLDEST <= version <= FORMAT:
-        due = f"formats {OLDEST} to {FORMAT}"
-        raise ValueError(f"this state is of format {version}, and this release reads {due}")
+    if version != FORMAT:
+        raise ValueError(f"this state is of format {version}, and this release reads format {FORMAT}")
     try:
         unpacking = decompressobj()
         plain = unpacking.decompress(body[2:], _MOST)
         if unpacking.unconsumed_tail or not unpacking.eof:
             refuse("its compressed data do not end where they should")
         with np.load(BytesIO(plain), allow_pickle=False) as file:
-            arrays = {name: file[name] for name in file.files}
-        return Saved(State.model_validate_json(arrays.pop("head").tobytes()), arrays)
+            arrays = [file[f"arr_{number}"] for number in range(len(file.files) - 1)]
+            return State.model_validate_json(file["head"].tobytes(), context=arrays)
     except ValidationError as error:
         refuse(str(error.errors(include_url=False)[0]["msg"]))
     except Exception as error:  # noqa: BLE001 - zlib, zipfile and numpy raise anything on a forged file
         refuse(str(error))
-
-
-def refuse(why: str, /) -> NoReturn:
-    """Raise ValueError for an invalid state, whose checksum matches nevertheless."""
-    raise ValueError(f"this state is invalid: {' '.join(why.split())[:200]}")
-
-
-def unfit(why: str, /) -> NoReturn:
-    """Raise ValueError for a state that does not fit a scene."""
-    raise ValueError(f"this state does not fit this scene: {why}")
-
-
-def planes(heights: NDArray[np.float32], /) -> NDArray[np.uint8]:
-    """Return float32 numbers as four planes of bytes, (4, n), which compress far better."""
-    return np.ascontiguousarray(heights.reshape(-1).view(np.uint8).reshape(-1, 4).T)
-
-
-def from_planes(bytes_: NDArray[np.uint8], shape: tuple[int, ...], /) -> NDArray[np.float32]:
-    """Return the numbers whose bytes `planes` returned, in a `shape`."""
-    return np.ascontiguousarray(bytes_.T).view(np.float32).reshape(shape)
-
-
-def fields_of(thing: Thing, /) -> dict[str, Any]:
-    """Return the fields of a component as JSON values."""
-    return {name: _plain(value) for name, value in asdict(thing).items()}
-
-
-def _plain(value: object) -> object:
-    if isinstance(value, bool | str | NoneType):
-        return value
-    return float(value) if isinstance(value, Real) else [_plain(each) for each in value]  # type: ignore[attr-defined]
-
-
-def component_of(kind: Kind, fields: Mapping[str, Any], /) -> Thing:
-    """Return the component with these fields; raises ValueError for fields that do not fit."""
-    make: Any = THINGS[kind]
-    try:
-        made: Thing = make(**{name: tuple(each) if isinstance(each, list) else each for name, each in fields.items()})
-    except TypeError as error:
-        raise ValueError(f"a {kind} of this state cannot be made: {error}") from error
-    return made

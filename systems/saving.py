@@ -9,9 +9,8 @@ import numpy as np
 from pydantic import ValidationError
 
 from ..components.arrays import Bytes, Floats, Ints
-from ..components.course import Course
-from ..components.patch import Cell
 from ..components.pose import Pose
+from ..components.presser import Presser
 from ..components.tree import Tree
 from ..components.wind import WindPrimitive, WindSource, with_course
 from ..components.words import errors_in_words
@@ -19,33 +18,18 @@ from ..engine.declared.scene import Reading
 from ..engine.handed import is_somewhere, must_be_a, to_microseconds
 from ..engine.plugins import wind_kinds
 from ..engine.scene import LoadedScene
+from ..engine.stored import refuse, unfit
 from ..engine.terrain.change import Squares, changed_squares, restore_squares
 from ..engine.world import World
 from .around.clearing import Clearings
 from .brought import Brought
-from .examine import cells_of, ground_of, mown_of, sown_of, treading_of, treading_saved
+from .examine import ground_of, mown_of, must_be_trodden, sown_of
 from .fitting import lie_of, must_fit, scene_of
 from .light.shining import Shining
 from .mow.mown import Mown
-from .pressers import Pressers, Treading
-from .saved import (
-    THINGS,
-    Arrays,
-    Saved,
-    SavedCourse,
-    SavedThing,
-    SavedWind,
-    State,
-    Thing,
-    component_of,
-    fields_of,
-    packed,
-    planes,
-    refuse,
-    unfit,
-    unpacked,
-)  # fmt: skip
-from .seasons import Recalled, Seasons
+from .pressers import Pressers
+from .saved import THINGS, SavedThing, SavedWind, State, packed, unpacked
+from .seasons import Kinds, Seasons
 from .site import Site
 from .space.ground import Ground
 from .trees.feature import Trees
@@ -74,40 +58,43 @@ class Saving:
     def state(self, site: Site, /, *, time: float) -> bytes:
         """Return a game's changes until `time` [s]. Raises ValueError for a wind whose class is not registered."""
         self.winds.sources()
-        treading, marks = treading_saved(self.pressers.treading())
         light, since = self.shining.asked
         own = {*self.winds.declared, *self.winds.added}
         felled, wild_felled, stood = self.trees.felled()
-        state = State(
-            scene=scene_of(site),
-            time=time,
-            light=light,
-            light_since=since,
-            light_way=self.shining.way,
-            declared=self._winds(self.winds.declared),
-            added=[*filter(None, self._winds(self.winds.added))],
-            winds=[*filter(None, self._winds([each for each, _ in self.world.all(WindSource) if each not in own]))],
-            things=[*self._things()],
-            brought=self.brought.entities(),
-            treading=treading,
-            felled=felled,
-            wild_felled=wild_felled,
-            stood=stood,
-            seasons=self.seasons.saved(),
+        (mown, mown_heights), (sown, sown_densities) = self.mown.plots.saved(), site.ground.density.sown.saved()
+        ground, ground_heights, ground_holes = changed_squares(site.ground.terrain)
+        return packed(
+            State(
+                scene=scene_of(site),
+                lie=self._samples_of(site.ground),
+                time=time,
+                light=light,
+                light_since=since,
+                light_way=self.shining.way,
+                declared=self._winds(self.winds.declared),
+                added=[*filter(None, self._winds(self.winds.added))],
+                winds=[*filter(None, self._winds([each for each, _ in self.world.all(WindSource) if each not in own]))],
+                things=[*self._things()],
+                brought=self.brought.entities(),
+                treading=self.pressers.treading(),
+                felled=felled,
+                wild_felled=wild_felled,
+                stood=stood,
+                seasons=self.seasons.saved(),
+                cleared=np.array(sorted(self.clearings.cells), np.int32).reshape(-1, 2),
+                mown=mown,
+                mown_heights=mown_heights,
+                sown=sown,
+                sown_densities=sown_densities,
+                ground=ground,
+                ground_heights=ground_heights,
+                ground_holes=ground_holes,
+            )
         )
-        cleared = np.array(sorted(self.clearings.cells), np.int32).reshape(-1, 2)
-        (mown, left), (sown, dense) = self.mown.plots.saved(), site.ground.density.sown.saved()
-        squares, heights, holes = changed_squares(site.ground.terrain)
-        ground: Arrays = {"ground_squares": squares, "ground_heights": planes(heights)}
-        if holes.any():
-            ground = {**ground, "ground_holes": holes}
-        plots: Arrays = {"mown": mown, "mown_heights": planes(left), "sown": sown, "sown_densities": dense}
-        lie: Arrays = {"lie": self._samples_of(site.ground)}
-        return packed(Saved(state, {**lie, "cleared": cleared, **plots, **ground, **marks}))
 
     def restore(
         self, data: object, site: Site, loaded: LoadedScene, there: Mapping[int, int] | None, /
-    ) -> tuple[float, dict[int, int], Recalled]:
+    ) -> tuple[float, dict[int, int], Kinds]:
         """Restore a state except for its kinds of grass; return its time [s], a mapping of entities, and these kinds.
 
         The mapping gives the present entity of each of the game's entities in the state; `there` are those that exist
@@ -116,23 +103,19 @@ class Saving:
         """
         existing = {} if there is None else there
         must_be_a(Mapping, existing, "entities are a mapping, of those in the state to yours")
-        saved = unpacked(data)
-        state = saved.state
-        must_fit(saved, site, self._samples_of(site.ground))
-        felled = self._felled(state)
+        state = unpacked(data)
+        must_fit(state, site, self._samples_of(site.ground))
+        must_be_trodden(state.treading)
         reading = Reading(wind=wind_kinds().find, folder=loaded.folder)
         winds = [*filter(None, state.declared), *state.added, *state.winds]
         made = _Made(
             {wind.entity: WindSource(_wind_of(wind.kind, wind.values, reading), wind.name) for wind in winds},
-            {wind.entity: _wind_on_course(wind, wind.course, reading) for wind in winds if wind.course is not None},
-            [component_of(each.kind, each.fields) for each in state.things],
-            treading_of(state.treading, saved.arrays),
-            mown_of(saved.arrays, self.mown.plots),
-            sown_of(saved, site.ground.density, loaded),
-            cells_of(saved.arrays),
-            ground_of(saved.arrays, site.ground.terrain),
+            {wind.entity: _wind_on_course(wind, reading) for wind in winds if wind.course is not None},
+            mown_of(state, self.mown.plots),
+            sown_of(state, site.ground.density, loaded),
+            ground_of(state, site.ground.terrain),
             self.seasons.read(state.seasons),
-            felled,
+            self._felled(state),
         )
         self.winds.sources()  # raises where another esper world is current
         restore_squares(site.ground.terrain, made.ground)
@@ -148,24 +131,19 @@ class Saving:
     def _things(self) -> Iterator[SavedThing]:
         """Yield the other components of a game's entities, except those at a pose that is not finite."""
         own, planted = {entity for entity, _, _ in self.pressers.games()}, self.trees.planted()
-        for kind, component_class in THINGS.items():
+        for component_class in THINGS:
             for entity, component in self.world.all(component_class):
                 pose = self.world.find(entity, Pose)
-                if (
-                    (kind != "presser" or entity in own)
-                    and entity not in planted
-                    and (pose is None or is_somewhere(pose))
-                ):
-                    standing = None if pose is None else _numbers(pose)
-                    yield SavedThing(entity=entity, kind=kind, fields=fields_of(component), pose=standing)
+                is_own = entity not in planted and (component_class is not Presser or entity in own)
+                if is_own and (pose is None or is_somewhere(pose)):
+                    yield SavedThing(entity=entity, component=component, pose=pose)
 
     def _felled(self, state: State) -> tuple[list[int], Gone]:
         """Return the numbers of the scene's felled trees and those of a large forest; ValueError if they do not fit."""
-        felled, wild, stood = state.felled, state.wild_felled, state.stood
-        if stood is not None and len(stood) != len(felled) + len(wild):
+        if len(state.stood) != len(state.felled) + len(state.wild_felled):
             refuse("it does not have a place for each felled tree")
         try:
-            return self.trees.found_again(felled, wild, stood)
+            return self.trees.found_again(state.felled, state.wild_felled, state.stood)
         except ValueError as error:
             unfit(str(error))
 
@@ -183,33 +161,32 @@ class Saving:
         time = to_microseconds(state.time)
         self.winds.set_clock(time)
         entities = self._restore_winds(state, made, became)
-        trees = {each.entity for each in state.things if each.kind == "tree"}
+        trees = {each.entity for each in state.things if isinstance(each.component, Tree)}
         self.trees.fell(*made.felled, trees)
-        self._restore_things(state.things, made.things, entities, became)
-        self.pressers.resume(made.treading, entities)
-        self.clearings.resume(made.cleared)
+        self._restore_things(state.things, entities, became)
+        self.pressers.resume(state.treading, entities)
+        self.clearings.resume([(i, j) for i, j in state.cleared.tolist()])
         self.shining.resume(state.light, since=state.light_since, time=time, way=state.light_way)
         return entities
 
     def _restore_things(
-        self, saved: Sequence[SavedThing], things: Sequence[Thing], entities: dict[int, int],
-        became: Mapping[int, int],
+        self, saved: Sequence[SavedThing], entities: dict[int, int], became: Mapping[int, int]
     ) -> None:  # fmt: skip
         """Restore the components of a game's entities, and add these to `entities`; remove trees planted since."""
-        there = {(each.entity, each.kind) for each in self._things()}
-        for each, component in zip(saved, things, strict=True):
+        there = {(each.entity, type(each.component)) for each in self._things()}
+        for each in saved:
             known = became.get(each.entity, each.entity)
-            entity = entities.get(each.entity, known if (known, each.kind) in there else None)
-            parts = component, *([] if each.pose is None else [Pose(*each.pose)])
+            entity = entities.get(each.entity, known if (known, type(each.component)) in there else None)
+            parts = each.component, *([] if each.pose is None else [each.pose])
             if entity is None:
                 entity = self.world.give(*parts)
             else:
                 for part in parts:
                     self.world.add(entity, part)
             entities[each.entity] = entity
-        stay, kinds = {entities[each.entity] for each in saved if each.kind == "tree"}, self.trees.kinds
+        stay, kinds = {entities[each.entity] for each in saved if isinstance(each.component, Tree)}, self.trees.kinds
         for each in [*self._things()]:
-            if each.kind == "tree" and each.entity not in stay and each.fields["kind"] in kinds:
+            if isinstance(each.component, Tree) and each.entity not in stay and each.component.kind in kinds:
                 self.world.uproot(each.entity, Tree)
 
     def _restore_winds(self, state: State, made: "_Made", became: Mapping[int, int]) -> dict[int, int]:
@@ -248,7 +225,7 @@ class Saving:
         if wind.pose is None:
             self.world.drop(entity, Pose)
         else:
-            self.world.add(entity, Pose(*wind.pose))
+            self.world.add(entity, wind.pose)
         return entity
 
     def _winds(self, entities: Sequence[int]) -> list[SavedWind | None]:
@@ -270,15 +247,10 @@ class _Made:
     runs: Mapping[int, WindPrimitive]
     """Winds with a course of their phases, by their entities in the state."""
 
-    things: Sequence[Thing]
-    """Components of a game's entities, in the state's order."""
-
-    treading: Treading
     mown: tuple[Ints, Floats]
     sown: tuple[Ints, Bytes]
-    cleared: list[Cell]
     ground: Squares
-    kinds: Recalled
+    kinds: Kinds
     felled: tuple[list[int], Gone]
 
 
@@ -292,18 +264,11 @@ def _saved_wind(entity: int, source: WindSource, pose: Pose | None, run: WindPri
         raise ValueError(f"the wind '{source.name}' cannot be saved: {error}") from error
     if known is not type(wind):
         raise ValueError(f"the wind '{source.name}' cannot be saved: another class is registered as '{wind.kind}'")
-    numbers = None if pose is None else _numbers(pose)
-    course = None if run is None else _course(run)
-    return SavedWind(entity=entity, kind=wind.kind, name=source.name, values=values, pose=numbers, course=course)
-
-
-def _course(wind: WindPrimitive) -> SavedCourse | None:
-    course = wind.course
-    if course is None:
-        return None
-    rates, offsets = ([list(each) for each in part] for part in (course.rates, course.offsets))
-    first = json.loads(wind.first.model_dump_json())
-    return SavedCourse(times=list(course.times), rates=rates, offsets=offsets, first=first)
+    course, first = (None, None) if run is None else (run.course, run.first)
+    return SavedWind(
+        entity=entity, kind=wind.kind, name=source.name, values=values, pose=pose, course=course,
+        first=None if first is None else json.loads(first.model_dump_json()),
+    )  # fmt: skip
 
 
 def _wind_of(kind: str, values: dict[str, Any], reading: Reading) -> WindPrimitive:
@@ -323,16 +288,11 @@ def _count_rates(wind: WindPrimitive) -> int:
         raise ValueError(f"a wind of this state, a {wind.kind}, cannot tell its rates: {error}") from error
 
 
-def _wind_on_course(wind: SavedWind, saved: SavedCourse, reading: Reading) -> WindPrimitive:
+def _wind_on_course(wind: SavedWind, reading: Reading) -> WindPrimitive:
     """Return a wind with the course of its phases; raises ValueError for an impossible course."""
-    made = _wind_of(wind.kind, wind.values, reading)
-    due = _count_rates(made)
-    rates, offsets = (tuple(map(tuple, part)) for part in (saved.rates, saved.offsets))
-    widths = {len(each) for each in (*rates, *offsets)}
-    if not len(rates) == len(offsets) == len(saved.times) + 1 or widths != {due}:
+    made, course = _wind_of(wind.kind, wind.values, reading), wind.course
+    assert course is not None
+    widths = {len(each) for each in (*course.rates, *course.offsets)}
+    if not len(course.rates) == len(course.offsets) == len(course.times) + 1 or widths != {_count_rates(made)}:
         refuse("the phases of a wind have a wrong number of rates or offsets")
-    return with_course(made, Course(tuple(saved.times), rates, offsets), _wind_of(wind.kind, saved.first, reading))
-
-
-def _numbers(pose: Pose) -> list[float]:
-    return [float(number) for number in (pose.x, pose.z, pose.yaw, pose.y) if number is not None]
+    return with_course(made, course, _wind_of(wind.kind, wind.first or {}, reading))

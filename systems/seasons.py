@@ -1,18 +1,20 @@
 """Seasons: the changes that a game makes to kinds of grass while they are shown."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from math import inf
 from reprlib import repr as shortened
+from typing import Any
 
 import numpy as np
 from pydantic import ValidationError
 
+from ..components.declaration import Declaration
 from ..engine.declared.grass import GrassKind
 from ..engine.declared.scene import Scene
 from ..engine.handed import NUMBER_TYPES
 from ..engine.scene.validate import changed_kind
-from .saved import SavedEase, SavedSeason, refuse
+from ..engine.stored import Time, refuse
 
 EASED = "root", "tip", "variety", "translucency", "gloss", "understorey"
 """Keys of a kind that only shaders read: their values are interpolated, and nothing is grown."""
@@ -34,10 +36,10 @@ class Ease:
 
     before: Value
     after: Value
-    since: float
+    since: Time
     """Time at which it begins [s]."""
 
-    over: float
+    over: Time
     """Duration [s]."""
 
     def at(self, time: float, /) -> Value:
@@ -79,16 +81,59 @@ class Batch:
         return tuple(progress_at(time, self.since, self.over[name]) if name in self.kinds else 0.0 for name in names)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Recalled:
-    """The state of `Seasons` when it was saved."""
+class SavedSeason(Declaration):
+    """A kind of grass that a game has changed, as a state has it."""
+
+    name: str
+    due: dict[str, Any]
+    """Its keys as it will be in the end, without `place`."""
+
+    stands: dict[str, Any]
+    """Its keys as it has grown, without `place`."""
+
+    over: Time | None
+    """Duration in which new plants come in [s]; None if nothing must be grown."""
+
+    asked: Time
+    """Time at which they were asked for [s]."""
+
+    comes: dict[str, Any] | None
+    """Keys that it is changing to now, if it is."""
+
+    since: Time
+    lasts: Time
+    """Beginning and duration of this change [s]."""
+
+    eases: dict[str, Ease]
+    """Interpolations that have begun, by key."""
+
+
+@dataclass(slots=True, eq=False)
+class Kinds:
+    """The kinds of a scene as they are now, and as they will be."""
 
     due: dict[str, GrassKind]
+    """Each kind as it will be in the end."""
+
     standing: dict[str, GrassKind]
-    over: dict[str, float]
-    asked: dict[str, float]
-    eases: dict[str, dict[str, Ease]]
-    batch: Batch | None
+    """Each kind as it has grown."""
+
+    over: dict[str, float] = field(default_factory=dict)
+    """Duration in which the new plants of each kind come in [s]."""
+
+    asked: dict[str, float] = field(default_factory=dict)
+    """Time at which they were asked for [s]."""
+
+    eases: dict[str, dict[str, Ease]] = field(default_factory=dict)
+    """Interpolations that have begun, by kind and key."""
+
+    batch: Batch | None = None
+    """Kinds that are changing now."""
+
+    @classmethod
+    def of(cls, scene: Scene, /) -> "Kinds":
+        """Return the kinds that a scene declares."""
+        return cls(dict(scene.grass), dict(scene.grass))
 
 
 class Seasons:
@@ -99,19 +144,7 @@ class Seasons:
 
     def begin(self, scene: Scene) -> None:
         """Start again with the kinds that a scene declares."""
-        self.declared = scene
-        self.due: dict[str, GrassKind] = dict(scene.grass)
-        """Each kind as it will be in the end."""
-        self.standing: dict[str, GrassKind] = dict(scene.grass)
-        """Each kind as it has grown."""
-        self.over: dict[str, float] = {}
-        """Duration in which the new plants of each kind come in [s]."""
-        self.asked: dict[str, float] = {}
-        """Time at which they were asked for [s]."""
-        self.eases: dict[str, dict[str, Ease]] = {}
-        """Interpolations that have begun, by kind and key."""
-        self.batch: Batch | None = None
-        """Kinds that are changing now."""
+        self.declared, self.kinds = scene, Kinds.of(scene)
 
     def change(self, name: str, keys: Mapping[str, object], /, *, over: float, time: float) -> None:
         """Change keys of a kind over `over` seconds from `time` [s] on; raises ValueError for what cannot change."""
@@ -120,77 +153,70 @@ class Seasons:
         for key, why in ELSEWHERE.items():
             if key in keys:
                 raise ValueError(f"grass.{name}.{key}: {why}")
-        scene = self.declared.model_copy(update={"grass": self.due})
+        scene = self.declared.model_copy(update={"grass": self.kinds.due})
         kind, before = changed_kind(scene, name, keys), self.kind_at(name, time)
         for key in EASED:
             now = getattr(before, key)
-            if getattr(kind, key) != getattr(self.due[name], key):
-                self.eases.setdefault(name, {})[key] = Ease(now, getattr(kind, key), time, float(over))
-        if _grown(kind) != _grown(self.due[name]):
-            self.over[name], self.asked[name] = float(over), time
-        self.due[name] = kind
+            if getattr(kind, key) != getattr(self.kinds.due[name], key):
+                self.kinds.eases.setdefault(name, {})[key] = Ease(now, getattr(kind, key), time, float(over))
+        if _grown(kind) != _grown(self.kinds.due[name]):
+            self.kinds.over[name], self.kinds.asked[name] = float(over), time
+        self.kinds.due[name] = kind
 
     @property
     def to_grow(self) -> dict[str, GrassKind]:
         """Kinds that have not grown yet as they are to be, by name."""
-        return {name: self.due[name] for name in self.over if _grown(self.due[name]) != _grown(self.standing[name])}
+        kinds = self.kinds
+        return {name: kinds.due[name] for name in kinds.over if _grown(kinds.due[name]) != _grown(kinds.standing[name])}
 
     def kind_at(self, name: str, time: float, /) -> GrassKind:
         """Return a kind as it is at `time` [s]."""
-        eases, kind = self.eases.get(name), self.standing[name]
+        eases, kind = self.kinds.eases.get(name), self.kinds.standing[name]
         return kind.model_copy(update={key: ease.at(time) for key, ease in eases.items()}) if eases else kind
 
     def saved(self) -> list[SavedSeason]:
         """Return the kinds that a game has changed, for a state."""
-        return [self._saved(name) for name in self.due if name in self.eases or name in self.over]
+        return [self._saved(name) for name in self.kinds.due if name in self.kinds.eases or name in self.kinds.over]
 
     def _saved(self, name: str) -> SavedSeason:
-        batch = self.batch if self.batch is not None and name in self.batch.kinds else None
+        batch = self.kinds.batch if self.kinds.batch is not None and name in self.kinds.batch.kinds else None
         return SavedSeason(
             name=name,
-            due=_keys_of(self.due[name]),
-            stands=_keys_of(self.standing[name]),
-            over=self.over.get(name),
-            asked=self.asked.get(name, 0.0),
+            due=_keys_of(self.kinds.due[name]),
+            stands=_keys_of(self.kinds.standing[name]),
+            over=self.kinds.over.get(name),
+            asked=self.kinds.asked.get(name, 0.0),
             comes=None if batch is None else _keys_of(batch.kinds[name]),
             since=0.0 if batch is None else batch.since,
             lasts=0.0 if batch is None else batch.over[name],
-            eases=[
-                SavedEase(key=key, before=ease.before, after=ease.after, since=ease.since, over=ease.over)
-                for key, ease in self.eases.get(name, {}).items()
-            ],
+            eases=self.kinds.eases.get(name, {}),
         )
 
-    def read(self, saved: Sequence[SavedSeason], /) -> Recalled:
+    def read(self, saved: Sequence[SavedSeason], /) -> Kinds:
         """Return what a state says of kinds, for `resume`; raises ValueError for what cannot be."""
-        found = Recalled(dict(self.declared.grass), dict(self.declared.grass), {}, {}, {}, None)
+        found = Kinds.of(self.declared)
         coming = [each for each in saved if each.comes is not None]
         for each in saved:
-            if each.name not in found.due or any(ease.key not in EASED for ease in each.eases):
+            if each.name not in found.due or not each.eases.keys() <= {*EASED}:
                 refuse("it has changed kinds of grass or keys of them that do not exist")
             declared = self.declared.grass[each.name]
             found.due[each.name] = _kind_of(declared, each.due)
             found.standing[each.name] = _kind_of(declared, each.stands)
             if each.over is not None:
                 found.over[each.name], found.asked[each.name] = each.over, each.asked
-            for ease in each.eases:
+            for key, ease in each.eases.items():
                 for value in (ease.before, ease.after):
-                    _kind_of(declared, each.due | {ease.key: value})
-                eases = found.eases.setdefault(each.name, {})
-                eases[ease.key] = Ease(ease.before, ease.after, ease.since, ease.over)
-        if not coming:
-            return found
-        kinds = {each.name: _kind_of(self.declared.grass[each.name], each.comes or {}) for each in coming}
-        return replace(found, batch=Batch(kinds, coming[0].since, {each.name: each.lasts for each in coming}))
-
-    def resume(self, recalled: Recalled, /) -> None:
-        """Go on with what `read` returned."""
-        self.due, self.standing, self.over = recalled.due, recalled.standing, recalled.over
-        self.asked, self.eases, self.batch = recalled.asked, recalled.eases, recalled.batch
+                    _kind_of(declared, each.due | {key: value})
+            if each.eases:
+                found.eases[each.name] = each.eases
+        if coming:
+            kinds = {each.name: _kind_of(self.declared.grass[each.name], each.comes or {}) for each in coming}
+            found.batch = Batch(kinds, coming[0].since, {each.name: each.lasts for each in coming})
+        return found
 
     def scene_at(self, scene: Scene, time: float, /) -> Scene:
         """Return a scene with its kinds as they are at `time` [s]: the same object if none differs."""
-        if not self.eases and self.standing == scene.grass:
+        if not self.kinds.eases and self.kinds.standing == scene.grass:
             return scene
         kinds = {name: self.kind_at(name, time) for name in scene.grass}
         return scene if kinds == scene.grass else scene.model_copy(update={"grass": kinds})

@@ -1,9 +1,10 @@
 """Wearing: grass grows thinner each time that a presser which wears it off goes over it."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from functools import lru_cache
 from math import atan2, hypot
 
+from ..components.arrays import Place
 from ..components.footprint import Footprint
 from ..components.pose import Pose
 from ..components.presser import Presser
@@ -17,14 +18,12 @@ STEP, LEAST_STEP = 1.0, CELL
 JUMP = 5.0
 """Distance beyond which a move in one frame is a jump [m], which wears nothing off."""
 
-Place = tuple[float, float]
-
 
 class Wearing:
     """The ways of all pressers that wear grass off, as far as they are worn."""
 
-    def __init__(self, worn: Mapping[int, Place] | None = None) -> None:
-        self.worn: Mapping[int, Place] = worn or {}
+    def __init__(self, worn: dict[int, Place] | None = None) -> None:
+        self.worn: dict[int, Place] = worn or {}
         """Place (x, z) [m] up to which each entity's way is worn."""
 
     def go(self, pressers: Iterable[tuple[int, Presser, Pose]], density: Density, /) -> None:

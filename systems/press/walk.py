@@ -1,35 +1,37 @@
 """Walking: pressers that move from pose to pose together, and the trail of their footprints."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
 from ...components.arrays import Doubles
+from ...components.declaration import Declaration
 from ...components.presser import Presser
+from ...engine.stored import AS_FIELDS, Stored, Time
 from .footprint import discs_of
-from .trail import Discs, Stretches, Trail
+from .trail import COLUMNS, FIRST_OF_SCENE, Discs, Stretches, Trail
 
 EntityPresser = tuple[int, Presser]
 """An entity and its presser: with another footprint it counts as a new walker."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class WalkState:
+class WalkState(Declaration):
     """State of a walk, with its trail."""
 
-    pressers: list[EntityPresser]
-    pose: Doubles
+    pressers: list[tuple[int, Annotated[Presser, AS_FIELDS]]]
+    pose: Annotated[Doubles, Stored(np.float64, None, 3)]
     """Pose of each presser, shape (n, 3)."""
 
-    time: float
+    time: Time
     """Time of these poses [s]."""
 
-    open: Stretches
-    way: Doubles
-    closed: Stretches
-    begun: int
+    open: Annotated[Stretches, Stored(np.float64, None, COLUMNS)]
+    way: Annotated[Doubles, Stored(np.float64, None)]
+    closed: Annotated[Stretches, Stored(np.float64, None, COLUMNS)]
+    begun: Annotated[int, Field(ge=FIRST_OF_SCENE, le=-FIRST_OF_SCENE)]
     """Fields of its `Trail`, of the same names."""
 
 
@@ -61,8 +63,9 @@ class Walk:
         """Return the walk's state."""
         trail = self.trail
         return WalkState(
-            self.pressers, self._pose, self.time, trail.open.copy(), trail.way.copy(), trail.over(), trail.begun
-        )
+            pressers=self.pressers, pose=self._pose, time=self.time, open=trail.open.copy(), way=trail.way.copy(),
+            closed=trail.over(), begun=trail.begun,
+        )  # fmt: skip
 
     def resume(self, state: WalkState, pressers: list[EntityPresser]) -> None:
         """Restore a walk's state, with the pressers `pressers` in place of its own."""

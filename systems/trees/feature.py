@@ -206,7 +206,7 @@ class Trees(Feature):
         return own, wild, [*[(pose.x, pose.z) for pose in poses], *stood]
 
     def found_again(
-        self, own: Sequence[int], wild: Sequence[Felled], stood: Sequence[Place] | None, /
+        self, own: Sequence[int], wild: Sequence[Felled], stood: Sequence[Place], /
     ) -> tuple[list[int], Gone]:
         """Return the trees of this scene that `felled` returned of it, or of an earlier scene.
 
@@ -215,9 +215,8 @@ class Trees(Feature):
         if wild and self.wild is None:
             raise ValueError("it has felled trees of a larger forest")
         places = np.array([(pose.x, pose.z) for _, pose in self._seedlings]).reshape(-1, 2)
-        numbers = found_again(own, None if stood is None else stood[: len(own)], places)
-        rest = None if stood is None else stood[len(own) :]
-        return numbers, {} if self.wild is None else self.wild.found_again(wild, rest)
+        numbers = found_again(own, stood[: len(own)], places)
+        return numbers, {} if self.wild is None else self.wild.found_again(wild, stood[len(own) :])
 
     def _changed_numbers(self) -> list[int]:
         return [number for number in range(len(self.entities)) if not self._is_as_planted(number)]

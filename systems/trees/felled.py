@@ -11,15 +11,11 @@ SAME = 0.05
 two trees are so close."""
 
 
-def found_again(numbers: Sequence[int], stood: Sequence[Place] | None, places: Doubles, /) -> list[int]:
+def found_again(numbers: Sequence[int], stood: Sequence[Place], places: Doubles, /) -> list[int]:
     """Return the indices of the felled trees among `places` (n, 2) [m].
 
     `numbers` are their indices when felled, and `stood` their places. Raises ValueError where none is found.
     """
-    if stood is None:
-        if not all(0 <= number < len(places) for number in numbers):
-            raise ValueError("there are fewer trees in this scene than it has felled")
-        return list(numbers)
     return [_found(number, place, places) for number, place in zip(numbers, stood, strict=True)]
 
 

@@ -141,7 +141,7 @@ class Wild:
         felled = sorted((*square, number, *self._forest.gone[square][number]) for square, number in gone)
         return [(i, j, number) for i, j, number, _, _ in felled], [(x, z) for _, _, _, x, z in felled]
 
-    def found_again(self, felled: Sequence[Felled], stood: Sequence[Place] | None, /) -> Gone:
+    def found_again(self, felled: Sequence[Felled], stood: Sequence[Place], /) -> Gone:
         """Return the trees that a saved state has felled; raises ValueError for any that nobody planted."""
         by_square: dict[Square, list[int]] = {}
         for which, (i, j, _) in enumerate(felled):
@@ -149,13 +149,12 @@ class Wild:
         if not all(map(self._forest.reaches, by_square)):
             raise ValueError("it has felled trees off this scene's ground")
         if self._forest.streams:  # squares outside its window cannot grow
-            middle = [((i + 0.5) * SQUARE, (j + 0.5) * SQUARE) for i, j, _ in felled] if stood is None else stood
-            return {at: {felled[which][2]: middle[which] for which in indices} for at, indices in by_square.items()}
+            return {at: {felled[which][2]: stood[which] for which in indices} for at, indices in by_square.items()}
         gone: Gone = {}
         for square, rows in self._forest.on(by_square).items():
             indices, places = by_square[square], rows["root"][:, ::2].astype(np.float64)
-            places_then = None if stood is None else [stood[which] for which in indices]
-            numbers = found_again([felled[which][2] for which in indices], places_then, places)
+            then = [stood[which] for which in indices]
+            numbers = found_again([felled[which][2] for which in indices], then, places)
             gone[square] = {number: (float(places[number, 0]), float(places[number, 1])) for number in numbers}
         return gone
 

@@ -1,7 +1,6 @@
 """States restored into a changed scene: of a later release, or of a game's next version (F4)."""
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import esper
@@ -12,7 +11,6 @@ from yaml import safe_load
 from tallgrass import Footprint, Gust, Pose, Prairie, Tree
 from tallgrass.components.wind import WindSource
 from tallgrass.engine.world import World
-from tallgrass.systems.saved import SavedScene, unpacked
 from tallgrass.testing import LITTLE
 
 GREEN, DRY = {"height": [0.3, 0.5]}, {"height": [0.4, 0.6]}
@@ -27,9 +25,6 @@ SCENE: dict[str, Any] = {
     "trees": {"oak": OAK},
     "quality": safe_load(LITTLE)["quality"],
 }
-OLD = Path(__file__).with_name("format-3.prairie")
-"""State of this scene, written in format 3."""
-
 SOWN, DUG = (-10.0, 13.0), (2.5, 2.5)
 
 
@@ -90,14 +85,6 @@ OTHERWISE = {
 def test_a_state_comes_back_to_its_scene_whatever_that_says_besides(state: bytes, other: Prairie) -> None:
     other.restore(state)
     assert_played(other)
-
-
-@pytest.mark.parametrize("other", [OTHERWISE["its mixing"]], indirect=True)
-def test_a_state_of_the_format_before_still_comes_back(other: Prairie) -> None:
-    other.restore(OLD.read_bytes())
-    assert_played(other)
-    assert isinstance(unpacked(OLD.read_bytes()).state.scene, str)
-    assert isinstance(unpacked(other.state()).state.scene, SavedScene)
 
 
 @pytest.mark.parametrize("other", [{"grass": {"dry": DRY, "green": GREEN}}], indirect=True)

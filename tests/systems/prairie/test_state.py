@@ -242,7 +242,7 @@ def test_what_is_no_state_of_this_release_is_refused_in_a_sentence(played: Prair
     refused(
         played,
         signed(b"\x00\x01" + state[HEAD + 22 :]),
-        r"^this state is of format 1, and this release reads formats 3 to 4$",
+        r"^this state is of format 1, and this release reads format 5$",
     )
     with pytest.raises(TypeError, match=r"^a state is the bytes that state\(\) returned, not str$"):
         played.restore("state")  # type: ignore[arg-type]

@@ -15,10 +15,3 @@ def test_a_tree_is_the_one_that_stands_where_it_stood_whatever_its_number() -> N
         found_again([1], [(3.0, 5.0)], PLACES)
     with pytest.raises(ValueError, match="where none of this scene's stands"):
         found_again([1], [(3.0, 5.0)], PLACES[:0])
-
-
-def test_where_nobody_knows_where_it_stood_its_number_counts() -> None:
-    assert found_again([2, 0], None, PLACES) == [2, 0]
-    for number in (3, -1):
-        with pytest.raises(ValueError, match=r"^there are fewer trees in this scene than it has felled$"):
-            found_again([number], None, PLACES)
