@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from .examples import with_sources
 from .pages import write
 from .pictures import ROOT, make_pictures
 
@@ -28,6 +29,8 @@ def gather(source: Path, pictures: Path, /) -> None:
     """Gather the manual's pages in a folder, as they are in the repository but for their links, with its pictures."""
     shutil.rmtree(source, ignore_errors=True)
     shutil.copytree(DOCS, source, ignore=shutil.ignore_patterns("making", "mkdocs.yml", "__pycache__"))
+    examples = source / "examples.md"
+    examples.write_text(with_sources(examples.read_text("utf-8")), "utf-8")
     for page in source.glob("*.md"):
         page.write_text(OUTSIDE.sub(_inside, page.read_text("utf-8")), "utf-8")
     others = shutil.ignore_patterns("*.yaml", "*.json", "*.html", "*.py", "*.wav", ".made-from")

@@ -1,4 +1,4 @@
-"""The page of examples: what each is, and its source."""
+"""The page of examples: what each is; in the manual, its source too."""
 
 import ast
 from collections.abc import Iterator
@@ -8,15 +8,23 @@ ROOT = Path(__file__).parents[2]
 
 
 def example_pages() -> str:
-    """Return a list of the examples, and each with its source, as Markdown."""
+    """Return a list of the examples, and what each is, with links to its files, as Markdown."""
     rows, parts = ["| program | shows |", "|---|---|"], []
     for name, files in examples().items():
         told = ast.get_docstring(ast.parse(next(file for file in files if _is_module(file)).read_text("utf-8"))) or ""
-        told = told.partition("\n\n")[0]
-        rows.append(f"| [{name}](#{name}) | {' '.join(told.split())} |")
+        first = " ".join(told.partition("\n\n")[0].split())
+        rows.append(f"| [{name}](#{name}) | {first} |")
         parts += [f"## {name}", told]
-        parts += [f"`{file.relative_to(ROOT)}`:\n\n{fenced(file)}" for file in files]
+        parts += [f"[`{file.relative_to(ROOT)}`](../{file.relative_to(ROOT)})" for file in files]
     return "\n\n".join(["\n".join(rows), *parts]) + "\n"
+
+
+def with_sources(page: str, /) -> str:
+    """Return the page with each file's source below its link, as the manual has it."""
+    for file in (file for files in examples().values() for file in files):
+        link = f"[`{file.relative_to(ROOT)}`](../{file.relative_to(ROOT)})"
+        page = page.replace(link, f"`{file.relative_to(ROOT)}`:\n\n{fenced(file)}")
+    return page
 
 
 def examples() -> dict[str, list[Path]]:

@@ -138,7 +138,7 @@ def test_every_link_leads_to_a_heading_that_is_there() -> None:
 
 def test_every_example_is_on_the_page_of_examples() -> None:
     examples = making("examples")
-    page = examples.example_pages()
+    page = examples.with_sources((DOCS / "examples.md").read_text("utf-8"))
     for name, files in examples.examples().items():
         assert f"## {name}\n" in page
         for file in files:

@@ -264,7 +264,7 @@ def test_the_pages_that_are_generated_can_be_read_where_they_lie() -> None:
     told_by = {
         "scene.md": "| `stiffness` | a number |",
         "api.md": "### Prairie\n",
-        "examples.md": "from tallgrass import",
+        "examples.md": "(../examples/day.py)",
     }
     for page, told in told_by.items():
         text = (DOCS / page).read_text("utf-8")
