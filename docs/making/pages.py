@@ -6,7 +6,6 @@ from pathlib import Path
 
 from .api import api, testing
 from .examples import example_pages
-from .public import public_names
 from .reference import scene_reference
 
 DOCS = Path(__file__).parents[1]
@@ -17,7 +16,6 @@ GENERATED = {
     "testing": testing,
     "scene": scene_reference,
     "examples": example_pages,
-    "public": public_names,
 }
 
 

@@ -64,30 +64,6 @@ def broken(before: Public, now: Public, /) -> list[str]:
     return told + [f"{name} has to be given now" for name in asked if name.partition("(")[0] in before]
 
 
-def public_names() -> str:
-    """Return the names that have been recorded, by their kinds, as Markdown."""
-    kinds: dict[str, list[str]] = {}
-    for name in recorded():
-        kind, _, rest = name.partition(": ")
-        if "(" not in rest and " = " not in rest and not (kind == "commands" and re.search(r" (-|[A-Z])", rest)):
-            kinds.setdefault(kind, []).append(rest.replace("|", "\\|"))
-    parts = [f"### {kind[0].upper()}{kind[1:]}\n\n{_listed(names)}\n" for kind, names in kinds.items()]
-    return "\n".join(parts)
-
-
-def _listed(names: list[str]) -> str:
-    """Return names as a list: those of one owner in one line."""
-    owned: dict[str, list[str]] = {}
-    for name in names:
-        owner, dot, member = name.rpartition(".") if not name.startswith("tallgrass.") else (name, "", "")
-        owned.setdefault(owner if dot else name, []).extend([member] if dot else [])
-    lone = [f"`{owner}`" for owner, members in owned.items() if not members]
-    lines = [
-        f"- `{owner}`: {', '.join(f'`{each}`' for each in members)}" for owner, members in owned.items() if members
-    ]
-    return "\n".join([*([f"- {', '.join(lone)}"] if lone else []), *lines])
-
-
 def _face(kind: str, face: ModuleType) -> Iterator[tuple[str, str]]:
     for name in face.__all__:
         thing = getattr(face, name)
