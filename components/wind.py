@@ -2,7 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import inf
 from reprlib import repr as shortened
 from typing import ClassVar, Literal, Self, cast
@@ -90,10 +90,10 @@ class Grass:
 class TwinValues:
     """Values for a wind's twin on the graphics card at one time, in addition to the wind's fields; single precision."""
 
-    numbers: Mapping[str, float | Sequence[float]] | Sequence[float] = ()
+    numbers: Mapping[str, float | Sequence[float]] = field(default_factory=dict)
     """Fields of the twin's record by name, each one to four numbers; phases are best reduced to one turn here.
 
-    A twin may read 64 numbers at most. Without names it reads them as `value(wind, 0)` and so on.
+    A twin may read 64 numbers at most.
     """
 
     sheets: Sequence[Floats] = ()

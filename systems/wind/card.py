@@ -8,8 +8,8 @@ from math import cos, sin
 import moderngl
 import numpy as np
 
-from ...components.arrays import Indices
-from ...components.wind import Mixing, TwinValues, WindPrimitive
+from ...components.arrays import Floats, Indices
+from ...components.wind import Mixing, WindPrimitive
 from ...engine.complaint import said
 from ...engine.gl.guest import block_binding
 from ...engine.gl.shaders import Line, ShaderError, program
@@ -163,26 +163,29 @@ class CardWinds:
         self._sheets.begin()
         numbers = [self._write(number, wind, time, weighs=weighs) for number, wind in enumerate(self._winds)]
         self._untwinned = [number for number, twin in enumerate(numbers) if twin == NO_TWIN]
-        frame = flutter_values(time=time, seed=seed, yaw=yaw)
-        self._put(0, (float(weighs), *_NOTHING), TwinValues([*frame.numbers, *self._fit(numbers)], frame.sheets))
+        oscillation, table = flutter_values(time=time, seed=seed, yaw=yaw)
+        self._put(0, (float(weighs), *_NOTHING), [*oscillation, *self._fit(numbers)], [table])
         self._send()
         return [self._winds[number] for number in self._untwinned]
 
     def _write(self, number: int, wind: Blowing, time: float, *, weighs: bool) -> int:
         """Write a wind into its row, and return the number of its twin."""
         primitive = wind.primitive
-        twin, values = self._twin_of(primitive, time, wind.seed), TwinValues()
+        twin = self._twin_of(primitive, time, wind.seed)
+        numbers: Sequence[float] = ()
+        sheets: Sequence[Floats] = ()
         if twin != NO_TWIN:
             try:
-                values = self._layouts[twin].packed(primitive, primitive.twin_values(time=time, seed=wind.seed))
-                check_values(self._twins[twin], values)
+                values = primitive.twin_values(time=time, seed=wind.seed)
+                numbers, sheets = self._layouts[twin].packed(primitive, values), values.sheets
+                check_values(self._twins[twin], numbers, sheets)
             except Exception as error:  # noqa: BLE001 - a plugin may raise anything
                 self._reject(type(primitive), error)
-                twin, values = NO_TWIN, TwinValues()
+                twin, numbers, sheets = NO_TWIN, (), ()
         after = self._winds[number + 1].primitive.priority if number + 1 < len(self._winds) else None
         ends = not weighs or after != primitive.priority
         share = 0.0 if twin == NO_TWIN else wind.strength * (primitive.weight if weighs else 1.0)
-        self._put(number + 1, (*_frame_of(wind), share, primitive.swing, float(ends), float(twin)), values)
+        self._put(number + 1, (*_frame_of(wind), share, primitive.swing, float(ends), float(twin)), numbers, sheets)
         return twin
 
     def _fit(self, numbers: Sequence[int]) -> list[int]:
@@ -203,10 +206,10 @@ class CardWinds:
             self._records.release()
             self._records = self._row_texture()
 
-    def _put(self, row: int, head: tuple[float, ...], values: TwinValues) -> None:
+    def _put(self, row: int, head: tuple[float, ...], numbers: Sequence[float], sheets: Sequence[Floats]) -> None:
         """Write a row: the head, the layers of the sheets, and the numbers."""
-        layers = self._sheets.layers(values.sheets) if values.sheets else []
-        record = *head, *layers, *[0] * (4 - len(layers)), *values.numbers
+        layers = self._sheets.layers(sheets) if sheets else []
+        record = *head, *layers, *[0] * (4 - len(layers)), *numbers
         self._reserve(0, len(record))
         self._rows[row, : len(record)] = record
 

@@ -5,7 +5,6 @@ from math import cos, pi, sin
 import numpy as np
 
 from ...components.arrays import Floats
-from ...components.wind import TwinValues
 from ...engine.noise import PERIOD, noise_table, smooth_noise, wander
 
 RIPPLE = 0.45
@@ -43,9 +42,9 @@ def flutter(place: Floats, /, *, time: float, seed: int, yaw: float = 0.0) -> Fl
     return np.stack([amplitude * (beat[:, 0] + np.float32(0.5) * beat[:, 2]), amplitude * beat[:, 1]], axis=1)
 
 
-def flutter_values(*, time: float, seed: int, yaw: float) -> TwinValues:
-    """Return what the twin reads: three phases, within one turn [rad], the shift of the noise, and its table."""
-    return TwinValues([*_phases(time), *_shift(time, seed, yaw)], (noise_table(seed, 1),))
+def flutter_values(*, time: float, seed: int, yaw: float) -> tuple[list[float], Floats]:
+    """Return what the twin reads: three phases, within one turn [rad], and the shift of the noise; and its table."""
+    return [*_phases(time), *_shift(time, seed, yaw)], noise_table(seed, 1)
 
 
 def _phases(time: float) -> list[float]:

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ...components.arrays import Floats
 from ...components.wind import TwinValues, WindPrimitive
 from ...components.words import guess
 from ...engine.gl.shaders import Line
@@ -41,7 +42,7 @@ _FUNCTION = re.compile(rf"^{_TYPE}\s+(\w+)\s*[({{]")
 _CONSTANTS = re.compile(rf"^const\s+{_TYPE}\s+(.*)")
 _CONSTANT = re.compile(r"(\w+)\s*(?:\[[^\]]*\]\s*)?=(?!=)")
 _MACRO = re.compile(r"^\s*#\s*define\s+(\w+)")
-_NUMBER, _SHEET = (re.compile(rf"\b{name}\s*\(\s*[\w.]+\s*,\s*(\d+)\b") for name in ("value", "(?:sheet|smooth_noise)"))
+_SHEET = re.compile(r"\b(?:sheet|smooth_noise)\s*\(\s*[\w.]+\s*,\s*(\d+)\b")
 _ACTION = re.compile(r"\bvec2\s+action\s*\(\s*(?:in\s+)?vec2\s+\w+\s*,\s*(?:in\s+)?(\w+)\s+\w+\s*\)")
 _COMMENT = re.compile(r"//.*")
 _INCLUDE = re.compile(r"^\s*#\s*include\b")
@@ -56,7 +57,7 @@ class TwinError(Exception):
 class Twin:
     """The GLSL of a wind: `float mask(vec2 place, Gust gust)` and `vec2 action(vec2 place, Gust gust)`.
 
-    `Gust` is the type of its record, which a twin may name freely; a twin that writes `Wind` reads numbers instead.
+    `Gust` is the type of its record, which a twin may name freely.
     """
 
     file: str
@@ -65,14 +66,11 @@ class Twin:
     text: tuple[str, ...]
     """Lines of the file."""
 
-    numbers: int
-    """Number of numbers that it reads by `value`, by the literal arguments in its text."""
-
     sheets: int
     """Number of sheets that it reads, by the literal arguments in its text."""
 
-    record: str | None
-    """Name of its record's type; None if it reads numbers."""
+    record: str
+    """Name of its record's type; empty where it has no `action`."""
 
     reads: tuple[str, ...]
     """Names of the record's members that it reads, each once."""
@@ -82,16 +80,16 @@ class Twin:
         """Return the twin of a file with these lines."""
         bare = "\n".join(_COMMENT.sub("", line) for line in text)
         found = _ACTION.search(bare)
-        record = found[1] if found and found[1] != "Wind" else None
-        reads = () if record is None else _read_of(record, bare)
-        return cls(file, tuple(text), _count(_NUMBER, text), _count(_SHEET, text), record, reads)
+        record = found[1] if found else ""
+        sheets = max((int(number) + 1 for number in _SHEET.findall(bare)), default=0)
+        return cls(file, tuple(text), sheets, record, _read_of(record, bare) if record else ())
 
     @property
     def names(self) -> list[str]:
         """Names of the functions, records and constants that it defines at its top level, each once."""
         found = [match[1] for line in self.text if (match := _FUNCTION.match(line))]
         constants = (_CONSTANT.findall(match[1]) for line in self.text if (match := _CONSTANTS.match(line)))
-        return list(dict.fromkeys([*found, *chain.from_iterable(constants), *filter(None, [self.record])]))
+        return list(dict.fromkeys([*found, *chain.from_iterable(constants), self.record]))
 
 
 @lru_cache(maxsize=256)
@@ -116,14 +114,12 @@ def twin_of(primitive: type[WindPrimitive], /) -> Twin | None:
 class Layout:
     """Layout of a twin's record in the numbers of a wind: the members' names and sizes, in this order."""
 
-    record: str | None = None
-    sizes: tuple[tuple[str, int], ...] = ()
+    record: str
+    sizes: tuple[tuple[str, int], ...]
 
     @property
     def lines(self) -> list[str]:
         """GLSL that defines the record, and a function `read_` plus its name that fetches each texel once."""
-        if self.record is None:
-            return []
         members = [f"    {_VECTOR[size]} {name};" for name, size in self.sizes]
         ends = list(accumulate((size for _, size in self.sizes), initial=0))
         read = "    vec4 texel{k} = texelFetch(winds, ivec2(HEAD + {k}, wind.row), 0);"
@@ -135,28 +131,23 @@ class Layout:
             f"    return {self.record}({', '.join(['wind', *vectors])});", "}",
         ]  # fmt: skip
 
-    def packed(self, wind: WindPrimitive, values: TwinValues, /) -> TwinValues:
+    def packed(self, wind: WindPrimitive, values: TwinValues, /) -> list[float]:
         """Return the numbers of a wind's record in this layout; raises TwinError where a size has changed."""
         _must_be_values(values)
-        if self.record is None:
-            numbers = values.numbers
-            named = [_as_list(number) for number in numbers.values()] if isinstance(numbers, Mapping) else [numbers]
-            return TwinValues([*chain.from_iterable(named)], values.sheets)
         plain = self._plain(wind, values)
         if plain is not None:
-            return TwinValues(plain, values.sheets)
+            return plain
         found = [_member(name, wind, values) for name, _ in self.sizes]
         for (name, size), each in zip(self.sizes, found, strict=True):
             if len(each) != size:
                 raise TwinError(f"'{name}' has {len(each)} numbers where it had {size} before")
-        return TwinValues([*chain.from_iterable(found)], values.sheets)
+        return [*chain.from_iterable(found)]
 
     def _plain(self, wind: WindPrimitive, values: TwinValues) -> list[float] | None:
         """Return the numbers in this layout, or None unless all types and sizes are the usual ones: a fast path."""
         found: list[float] = []
-        named = values.numbers if isinstance(values.numbers, dict) else {}
         for name, size in self.sizes:
-            number: Any = named[name] if name in named else getattr(wind, name, None)
+            number: Any = values.numbers[name] if name in values.numbers else getattr(wind, name, None)
             if size == 1 and type(number) in PLAIN:
                 found.append(number)
             elif type(number) in SEVERAL and len(number) == size > 1:
@@ -173,20 +164,14 @@ def layout_of(twin: Twin, wind: WindPrimitive, values: TwinValues, /) -> Layout:
     """
     _must_be_whole(twin)
     _must_be_values(values)
-    if twin.record is None:
-        return Layout()
-    if twin.numbers:
-        raise TwinError(f"it calls value(...) and reads a {twin.record}: write a name after a point, as gust.strength")
     sizes = {name: len(_member(name, wind, values)) for name in twin.reads}
     return Layout(twin.record, tuple(sorted(sizes.items(), key=lambda row: -row[1])))
 
 
-def check_values(twin: Twin, values: TwinValues, /) -> None:
-    """Raise TwinError unless a twin can read these values, which are packed by its layout."""
-    numbers, sheets = [*values.numbers], values.sheets
-    if not twin.numbers <= len(numbers) <= MOST_NUMBERS:
-        due = f"{twin.numbers} are read" if len(numbers) < twin.numbers else f"{MOST_NUMBERS} is the most"
-        raise TwinError(f"twin_values returned {len(numbers)} numbers where {due}")
+def check_values(twin: Twin, numbers: Sequence[float], sheets: Sequence[Floats], /) -> None:
+    """Raise TwinError unless a twin can read these numbers, which are packed by its layout, and these sheets."""
+    if len(numbers) > MOST_NUMBERS:
+        raise TwinError(f"it reads {len(numbers)} numbers where {MOST_NUMBERS} is the most")
     are_numbers = PLAIN.issuperset(map(type, numbers)) or all(isinstance(n, float | int | np.number) for n in numbers)
     if not (are_numbers and all(map(LARGEST.__gt__, map(float, map(abs, numbers))))):
         raise TwinError("twin_values returned numbers that are not finite")
@@ -264,14 +249,13 @@ def _run(run: int, number: int, twins: Sequence[Twin]) -> list[str]:
 
 def _call(number: int, twin: Twin) -> list[str]:
     """Return GLSL that calls a twin for a wind and lays its message."""
-    record = "Wind" if twin.record is None else f"{twin.record}_{number}"
-    read = "query.wind" if twin.record is None else f"read_{record}(query.wind)"
+    record = f"{twin.record}_{number}"
     return [
         "        Query query = query_of(row, place, kind);",
         "        vec2 message = vec2(0.0);",
         "        float weight = 0.0;",
         "        if (query.inside) {",
-        f"            {record} record = {read};",
+        f"            {record} record = read_{record}(query.wind);",
         f"            weight = mask_{number}(query.place, record);",
         "            if (weight > 0.0) {",
         f"                message = action_{number}(query.place, record);",
@@ -284,7 +268,7 @@ def _call(number: int, twin: Twin) -> list[str]:
 def _own_names(twin: Twin) -> list[str]:
     """Return the names that a twin defines, without those of its record's members."""
     macros = [match[1] for text in twin.text if (match := _MACRO.match(text))]
-    return [*twin.names, *macros] if twin.record is None else [*twin.names, *macros, f"read_{twin.record}"]
+    return [*twin.names, *macros, f"read_{twin.record}"]
 
 
 def _texels(first: int, size: int) -> str:
@@ -300,11 +284,15 @@ def _must_be_whole(twin: Twin) -> None:
     for head in ("float mask", "vec2 action"):
         if head.partition(" ")[2] not in _own_names(twin):
             raise TwinError(f"{twin.file} has no line that begins with '{head}(vec2 place, '")
+    if twin.record == "Wind":
+        raise TwinError(f"{twin.file} calls its record Wind, which is the engine's: choose another, such as Gust")
 
 
 def _must_be_values(values: object) -> None:
     if not isinstance(values, TwinValues):
         raise TwinError(f"twin_values returned {type(values).__name__}, not TwinValues")
+    if not isinstance(values.numbers, Mapping):
+        raise TwinError("twin_values returned numbers without names: write TwinValues({'share': 0.5})")
 
 
 def _read_of(record: str, text: str) -> tuple[str, ...]:
@@ -316,8 +304,7 @@ def _read_of(record: str, text: str) -> tuple[str, ...]:
 
 def _member(name: str, wind: WindPrimitive, values: TwinValues) -> Sequence[float]:
     """Return the numbers of a member, from `twin_values` or else a field of the wind; raises TwinError for neither."""
-    named: Mapping[str, object] = values.numbers if isinstance(values.numbers, Mapping) else {}
-    fields = type(wind).model_fields
+    named, fields = values.numbers, type(wind).model_fields
     if name not in named and name not in fields:
         near = guess(name, [*named, *fields], cutoff=0.7) or f", as in TwinValues({{'{name}': 0.5}})"
         raise TwinError(f"it reads '{name}', which is no field and no name that twin_values returned{near}")
@@ -335,11 +322,6 @@ def _as_list(number: Any) -> Sequence[Any]:
 def _generated(texts: Iterable[str]) -> list[Line]:
     """Return lines that come from no twin's file."""
     return [(PLACE, 0, text) for text in texts]
-
-
-def _count(reads: re.Pattern[str], text: Sequence[str]) -> int:
-    """Return one more than the largest index that a pattern finds in a text, 0 for none."""
-    return max((int(number) + 1 for line in text for number in reads.findall(line)), default=0)
 
 
 def _beside(module: str, name: str) -> Traversable | None:

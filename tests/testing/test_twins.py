@@ -28,7 +28,7 @@ class Level(WindPrimitive):
         return np.full_like(place, [min(0.5, 0.001 * time), 0.0])
 
     def twin_values(self, *, time: float, seed: int) -> TwinValues:
-        return TwinValues((0.001 * time,))
+        return TwinValues({"bend": 0.001 * time})
 
 
 @pytest.fixture
@@ -36,8 +36,8 @@ def write(monkeypatch: pytest.MonkeyPatch) -> Write:
     """Return the function that gives `Level` a twin in memory, whose message is some GLSL."""
 
     def written(message: str) -> None:
-        body = f"vec2 action(vec2 place, Wind wind) {{ return {message}; }}"
-        twin = Twin.of("level.glsl", ["float mask(vec2 place, Wind wind) { return 1.0; }", body])
+        body = f"vec2 action(vec2 place, Air air) {{ return {message}; }}"
+        twin = Twin.of("level.glsl", ["float mask(vec2 place, Air air) { return 1.0; }", body])
         for module in ("tallgrass.systems.wind.card", "tallgrass.testing.twins"):
             monkeypatch.setattr(f"{module}.twin_of", lambda _: twin)
 
@@ -58,12 +58,12 @@ def test_a_wind_without_a_twin_has_no_problem(ctx: moderngl.Context) -> None:
 
 
 def test_a_twin_that_says_the_same_has_none_either(ctx: moderngl.Context, write: Write) -> None:
-    write("vec2(min(0.5, value(wind, 0)), 0.0)")
+    write("vec2(min(0.5, air.bend), 0.0)")
     assert twin_problems(Level, ctx) == []
 
 
 def test_a_twin_that_differs_is_told_of_where_it_does_most(ctx: moderngl.Context, write: Write) -> None:
-    write("vec2(min(0.6, value(wind, 0)), 0.0)")
+    write("vec2(min(0.6, air.bend), 0.0)")
     (problem,) = twin_problems(Level, ctx)
     assert problem.startswith("its twin differs from mask and action by 0.1 at (")
     assert problem.endswith(" s), over 0.001")
@@ -75,8 +75,9 @@ def test_a_twin_that_cannot_be_used_is_told_of(
     write("vec2(oops)")
     (problem,) = twin_problems(Level, ctx)
     assert "level.glsl:2" in problem
-    write("vec2(value(wind, 1))")
-    assert twin_problems(Level, ctx) == ["its twin cannot be used: twin_values returned 1 numbers where 2 are read"]
+    write("vec2(air.bent)")
+    (problem,) = twin_problems(Level, ctx)
+    assert problem.startswith("its twin cannot be used: it reads 'bent', which is no field")
 
     def missing(_: type[WindPrimitive]) -> Twin:
         raise TwinError("there is no file 'level.glsl'")
