@@ -1,5 +1,6 @@
 """The file cache between runs, in one folder: files are written atomically, and the program works without them."""
 
+import json
 import logging
 import os
 from collections.abc import Iterator
@@ -68,6 +69,11 @@ def _sources(path: str, entry: Traversable) -> Iterator[tuple[str, Traversable]]
             yield from _sources(f"{path}/{inner.name}", inner)
     elif entry.is_file() and path.endswith(CODE):
         yield path, entry
+
+
+def key_of(depends: object, /) -> str:
+    """Return the key of a cache, in hexadecimal: a hash of the plain values that what is cached depends on."""
+    return blake2b(json.dumps(depends, sort_keys=True).encode(), digest_size=20).hexdigest()
 
 
 def kept(key: str, suffix: str, /) -> memoryview | None:

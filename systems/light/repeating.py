@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from functools import lru_cache
-from hashlib import blake2b
 from itertools import pairwise, product
 
 import moderngl
@@ -13,7 +12,7 @@ from ...components.arrays import Doubles, Floats
 from ...components.wind import WindPrimitive
 from ...engine.gl.mipmaps import mipmapped_image
 from ...engine.gl.rasteriser import anisotropy
-from ...engine.kept import DIGEST, code_hash, keep, kept
+from ...engine.kept import code_hash, keep, kept, key_of
 from ..grow.raster import Fragments, along_ribbons, interpolate, rasterise, ribbon_triangles
 from ..wind.blow import mean_wind
 
@@ -241,7 +240,7 @@ def repeating_levels(*, seed: int) -> tuple[NDArray[np.uint8], ...]:
     Coarser levels are means of the finest one: drivers that round up at each level would make distant ground brighter.
     The finest comes from the cache where possible: making it takes half a second.
     """
-    key = blake2b(f"{code_hash(*CODE)} {seed}".encode(), digest_size=DIGEST // 2).hexdigest()
+    key = key_of({"code": code_hash(*CODE), "seed": seed})
     cached = kept(key, SUFFIX)
     if cached is None:
         texels = np.stack([cloud_map(seed=seed), *ground_maps(seed=seed)], axis=-1)

@@ -210,11 +210,6 @@ class Representation(ABC):
         return ()
 
     @staticmethod
-    def fits(pictures: tuple[Any, ...], quality: Quality, blades: int, /) -> bool:
-        """Return whether pictures read from disk have the right shapes for a quality and a number of blades."""
-        return not pictures
-
-    @staticmethod
     def layers(quality: Quality, /) -> int:
         """Return the number of texture layers that the pictures of a patch model take."""
         return 0

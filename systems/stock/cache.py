@@ -1,17 +1,15 @@
 """The cache of growths on disk, under a hash of everything that a growth depends on."""
 
-import json
 from dataclasses import asdict
-from hashlib import blake2b
 
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
-from ...engine.kept import code_hash, keep, kept
+from ...engine.kept import code_hash, keep, kept, key_of
 from ..grow.layout import layout_of
 from ..grow.record import Growth
 from ..show.registry import REPRESENTATIONS
 from .archive import pack, unpack
-from .models import blade_count, grow
+from .models import grow
 
 CODE = "systems/grow", "systems/stock", *(f"systems/show/{each.name}/grow.py" for each in REPRESENTATIONS)
 """Sources that grow grass; a representation without pictures of its own has no `grow.py`."""
@@ -29,34 +27,31 @@ def cached_growth(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
     growth is grown anew.
     """
     key = growth_key(kind, quality, seed=seed)
-    growth = _kept(kind, quality, key)
-    if growth is None:
-        growth = grow(kind, quality, seed=seed)
-        keep(key, SUFFIX, pack(growth), most=MOST)
+    data = kept(key, SUFFIX)
+    if data is not None:
+        return unpack(data)
+    growth = grow(kind, quality, seed=seed)
+    keep(key, SUFFIX, pack(growth), most=MOST)
     return growth
 
 
 def is_kept(kind: GrassKind, quality: Quality, /, *, seed: int) -> bool:
     """Return whether `cached_growth` would find a growth; if so, mark it as used."""
-    return _kept(kind, quality, growth_key(kind, quality, seed=seed)) is not None
-
-
-def _kept(kind: GrassKind, quality: Quality, key: str) -> Growth | None:
-    data = kept(key, SUFFIX)
-    return None if data is None else unpack(data, quality=quality, blades=blade_count(kind, quality))
+    return kept(growth_key(kind, quality, seed=seed), SUFFIX) is not None
 
 
 def growth_key(kind: GrassKind, quality: Quality, /, *, seed: int) -> str:
     """Return a hexadecimal hash of all that the result of `grow` depends on: not of colours or places."""
-    depends = {
-        "code": code_hash(*CODE),
-        "seed": seed,
-        "kind": _grown_by(kind),
-        "layout": asdict(layout_of(kind, quality)),
-        "quality": quality.model_dump(include={"patch", "models"}, mode="json"),
-        "pictures": {each.name: each.depends(kind, quality) for each in REPRESENTATIONS},
-    }
-    return blake2b(json.dumps(depends, sort_keys=True).encode(), digest_size=20).hexdigest()
+    return key_of(
+        {
+            "code": code_hash(*CODE),
+            "seed": seed,
+            "kind": _grown_by(kind),
+            "layout": asdict(layout_of(kind, quality)),
+            "quality": quality.model_dump(include={"patch", "models"}, mode="json"),
+            "pictures": {each.name: each.depends(kind, quality) for each in REPRESENTATIONS},
+        }
+    )
 
 
 def _grown_by(kind: GrassKind) -> dict[str, object]:

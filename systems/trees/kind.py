@@ -93,7 +93,7 @@ class GpuKind:
     def bake(self, programs: Programs) -> None:
         """Bake its twig's card, and then its models' pictures from all sides, unless they are cached."""
         key = kind_key(self.declared.habit, self._seed, self.ctx.info["GL_RENDERER"])
-        found = kept_pictures(key, [(model.model.wide, model.model.lines) for model in self.models])
+        found = kept_pictures(key)
         if found is None:
             found = [self._twig_pictures(programs)]
             self._load_card(found[0], as_drawn=True)

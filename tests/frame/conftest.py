@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from tallgrass import testing
+from tallgrass.components.arrays import Floats
 from tallgrass.engine.camera import Camera
 from tallgrass.engine.gl import homes
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.trees import kind
-from tallgrass.systems.trees.kept import Picture, sizes_of
 from tallgrass.testing import LITTLE, Stage, looking
 
 BLOWN = LITTLE + "wind: [{ kind: breeze, strength: 0.4 }]\n"
@@ -80,13 +80,24 @@ def _what_a_test_loads_is_released(request: pytest.FixtureRequest) -> Iterator[N
 
 
 @pytest.fixture
-def unpictured(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Make pictures of trees all white, for tests that do not see them: drawing them takes longer than most tests."""
+def pictured(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], None]:
+    """Return the function that gives all texels of trees' pictures one value: drawing them takes longer than tests."""
 
-    def white(_: str, sides: list[tuple[int, int]]) -> list[Picture]:
-        return [[np.full(size, 255, np.uint8) for size in each] for each in sizes_of(sides)]
+    def all_of(value: int) -> None:
+        def even(_: object, columns: int, rows: int, wide: int, tall: int, _draw: object) -> Floats:
+            return np.full((2, rows * tall, columns * wide, 4), value, np.float32)
 
-    monkeypatch.setattr(kind, "kept_pictures", white)
+        monkeypatch.setattr(kind, "pictures", even)
+        monkeypatch.setattr(kind, "kept_pictures", lambda _: None)
+        monkeypatch.setattr(kind, "keep_pictures", lambda *_: None)
+
+    return all_of
+
+
+@pytest.fixture
+def unpictured(pictured: Callable[[int], None]) -> None:
+    """Make pictures of trees all white, for tests that do not see them."""
+    pictured(255)
 
 
 @pytest.fixture(scope="session")

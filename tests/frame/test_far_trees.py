@@ -1,7 +1,7 @@
 """Pictures of whole trees: as fine as pixels where they begin, and mixed by clumps that lie in no lattice (F3, F4)."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import esper
 import moderngl
@@ -12,7 +12,7 @@ from tallgrass import Pose, Prairie, Tree
 from tallgrass.app.bench.trees import Behind, tree_figures
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.reference import draw_truth, without_trees
-from tallgrass.systems.trees import kept, kind, standing
+from tallgrass.systems.trees import standing
 from tallgrass.systems.trees.draw import TreePart
 from tallgrass.systems.trees.far import COLUMNS, LEVEL_BIAS, LINES, ROWS
 from tallgrass.systems.trees.habit import HABITS
@@ -138,12 +138,9 @@ BIRCHES = SCENE.replace(
 
 
 def test_f3_a_tree_whose_pictures_are_nowhere_opaque_is_drawn_as_they_are(
-    stage: Stage, ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch
+    stage: Stage, ctx: moderngl.Context, pictured: Callable[[int], None]
 ) -> None:
-    def faint(_: str, sides: list[tuple[int, int]]) -> list[kept.Picture]:
-        return [[np.full(size, 60, np.uint8) for size in each] for each in kept.sizes_of(sides)]
-
-    monkeypatch.setattr(kind, "kept_pictures", faint)
+    pictured(60)
     aim = looking(0.0, 1.7, 30.0, pitch=4.0, view=14.0)
     with private_world(), little_prairie(scene=BIRCHES, ctx=ctx) as made:
         shown = stage.shot(made, aim).astype(int)

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from ...grow.record import NOTHING, Growth
 from ...grow.section import SECTIONS
 from ...space.ground import Ground
 from ..representation import Canvas, Color, Representation, Seedling
-from .grow import BENDS, BENT_SLOPES, SLOPES, Carpet, grow_carpet
+from .grow import SLOPES, Carpet, grow_carpet
 from .painter import CarpetPainter
 from .pool import CarpetKept, CarpetPool
 from .stock import CarpetStock
@@ -55,15 +55,6 @@ class CarpetRepresentation(Representation):
             height=seedling.height, section=SECTIONS[seedling.kind.profile],
         )  # fmt: skip
         return (images,)
-
-    @staticmethod
-    def fits(pictures: tuple[Any, ...], quality: Quality, blades: int, /) -> bool:
-        """Return whether there is exactly one record, and its arrays have the expected shapes."""
-        side = quality.carpet
-        shapes = (len(SLOPES),), (len(SLOPES), 4, side, side, 4), (BENT_SLOPES, BENDS, 3)
-        return (
-            len(pictures) == 1 and (pictures[0].slope.shape, pictures[0].texels.shape, pictures[0].bent.shape) == shapes
-        )
 
     @staticmethod
     def layers(quality: Quality, /) -> int:

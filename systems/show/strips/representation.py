@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,19 +85,6 @@ class StripRepresentation(Representation):
             )
             for ring in quality.strip_rings
         )  # fmt: skip
-
-    @staticmethod
-    def fits(pictures: tuple[Any, ...], quality: Quality, blades: int, /) -> bool:
-        """Return whether there are strips of the right shapes for each ring."""
-        rings = quality.strip_rings
-        return len(pictures) == len(rings) and all(
-            strips.plane.shape == (ring.strips,)
-            and strips.texels.ndim == 5
-            and strips.texels.shape[:2] == (2, ring.strips)
-            and strips.texels.shape == (*strips.ranks.shape, 4)
-            and strips.slice.shape == (2, blades)
-            for strips, ring in zip(pictures, rings, strict=True)
-        )
 
     @staticmethod
     def layers(quality: Quality, /) -> int:

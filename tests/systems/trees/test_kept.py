@@ -7,18 +7,15 @@ import pytest
 
 from tallgrass.engine.kept import tell_nothing_is_kept
 from tallgrass.systems.trees import kept
-from tallgrass.systems.trees.kept import SUFFIX, Picture, keep_pictures, kept_pictures, kind_key, sizes_of
+from tallgrass.systems.trees.kept import SUFFIX, Picture, keep_pictures, kept_pictures, kind_key
 
 KEY = kind_key("oak", 3, "a card")
 
 
-SIDES = [(48, 64)]
-"""Texels of the pictures of a model, across and up."""
-
-
 def pictures() -> list[Picture]:
     draw = np.random.default_rng(3)
-    return [[np.tile(draw.integers(0, 255, 4, np.uint8), (*size[:3], 1)) for size in each] for each in sizes_of(SIDES)]
+    sides = [(4, 64), (1, 48), (1, 24)]
+    return [[draw.integers(1, 255, (n, side >> k, side >> k, 4), np.uint8) for k in range(3)] for n, side in sides]
 
 
 @pytest.fixture
@@ -30,40 +27,31 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_they_come_back_as_they_were_kept_and_for_nothing_else(folder: Path) -> None:
     made = pictures()
     keep_pictures(KEY, made)
-    found = kept_pictures(KEY, SIDES)
+    found = kept_pictures(KEY)
     assert found is not None
     for one, other in zip(found, made, strict=True):
         assert all(np.array_equal(*each) for each in zip(one, other, strict=True))
     others = kind_key("oak", 4, "a card"), kind_key("birch", 3, "a card"), kind_key("oak", 3, "another")
     assert len({KEY, *others}) == 4
-    assert all(kept_pictures(key, SIDES) is None for key in others)
-    assert kept_pictures(KEY, 2 * SIDES) is None
+    assert all(kept_pictures(key) is None for key in others)
     assert len(list(folder.iterdir())) == 1
 
 
-def test_a_file_that_is_broken_or_does_not_fit_counts_as_none(folder: Path) -> None:
+def test_a_file_that_is_broken_counts_as_none(folder: Path) -> None:
     keep_pictures(KEY, pictures())
     path = folder / (KEY + SUFFIX)
     whole = path.read_bytes()
     for broken in (whole[:-1], b"", whole[:40] + bytes([whole[40] ^ 1]) + whole[41:]):
         path.write_bytes(broken)
-        assert kept_pictures(KEY, SIDES) is None
-    keep_pictures(KEY, pictures())
-    assert kept_pictures(KEY, [(48, 80)]) is None
+        assert kept_pictures(KEY) is None
 
 
 @pytest.mark.parametrize("picture", [0, 1])
-def test_pictures_that_a_driver_has_left_empty_are_neither_kept_nor_found(
-    folder: Path, picture: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_pictures_that_a_driver_has_left_empty_are_not_kept(folder: Path, picture: int) -> None:
     made = pictures()
     made[picture][0][-2:, ..., 3] = 0
     keep_pictures(KEY, made)
     assert not list(folder.iterdir())
-    with monkeypatch.context() as before:
-        before.setattr(kept, "_are_drawn", lambda _: True)
-        keep_pictures(KEY, made)
-    assert kept_pictures(KEY, SIDES) is None
 
 
 def test_where_nothing_can_be_written_that_is_said_once(
@@ -74,7 +62,7 @@ def test_where_nothing_can_be_written_that_is_said_once(
     tell_nothing_is_kept.cache_clear()
     for _ in range(2):
         keep_pictures(KEY, pictures())
-        assert kept_pictures(KEY, SIDES) is None
+        assert kept_pictures(KEY) is None
     assert len(caplog.records) == 1
     assert "TALLGRASS_CACHE" in caplog.text
 
