@@ -15,8 +15,13 @@ from ...components.arrays import Doubles
 GROUND, TOP = 6360.0, 6460.0
 """Radii of the planet and of its atmosphere [km]."""
 
-MOLECULES = np.array([5.802, 13.558, 33.1]) * 1e-3
-"""Scattering coefficients of molecules at sea level: red, green, blue [1/km]."""
+MOLECULES = np.array([7.21, 14.09, 33.0]) * 1e-3
+"""Scattering coefficients of molecules at sea level, in the red, green and blue of sRGB [1/km].
+
+They weaken sunlight as its spectrum is weakened (ASTM G173) by five times the air overhead, where it shows most, if
+13.56 is scattered at 550 nm and the rest by the wavelength to the power of -4, and seen through the eye's response
+(Wyman, Sloan and Shirley, Simple Analytic Approximations to the CIE XYZ Color Matching Functions, 2013). At single
+wavelengths of 680, 550 and 440 nm, red would be farther out than a screen's, and low suns and clouds pink."""
 
 HAZE_SCATTERING, HAZE_ABSORPTION = 3.996e-3, 4.40e-3
 """Scattering and absorption coefficients of haze at sea level [1/km]."""
@@ -24,8 +29,9 @@ HAZE_SCATTERING, HAZE_ABSORPTION = 3.996e-3, 4.40e-3
 MOLECULES_SCALE, HAZE_SCALE = 8.0, 1.2
 """Scale heights of molecules and of haze [km]."""
 
-OZONE = np.array([0.650, 1.881, 0.085]) * 1e-3
-"""Absorption coefficients of ozone in the middle of its layer [1/km]."""
+OZONE = np.array([2.47, 1.78, 0.0]) * 1e-3
+"""Absorption coefficients of ozone in the middle of its layer, found alike [1/km]: it absorbs most about 600 nm, in
+a screen's red (Serdyuchenko et al., High Spectral Resolution Ozone Absorption Cross-Sections, 2014)."""
 
 OZONE_MIDDLE, OZONE_HALF = 25.0, 15.0
 """Height of the ozone's middle [km], and distance above and below at which there is none any more [km]."""

@@ -99,16 +99,16 @@ def sky_of(light: Light, clear: Doubles, sun: Doubles, /) -> Sky:
     """
     map_ = _with_own_colours(clear * (SUN * SKY_BRIGHTENED * min(light.strength, 1.0)) + _night(light), light)
     clouds = clouds_of(light.clouds)
-    up, clear_down = radians(sun_at(light)[1]), _irradiance(map_)
+    up, clear_down = radians(sun_at(light)[1]), _irradiance(map_)  # clouds are white: they take on the sky's own colour
     shaded = in_shade(sun, sin(up), clear_down, clouds)
-    grey, gaps = sent_down(sun, sin(up), shaded, clouds), clear_down * (1.0 - clouds.hidden)
-    ground = from_below(sun, sin(up), gaps + grey, clouds)
+    grey, gaps = sent_down(sun, sin(up), shaded, clouds), 1.0 - clouds.hidden
+    ground = from_below(sun, sin(up), clear_down * gaps + grey, clouds)
     grey = grey + ground * (clouds.hidden - clouds.scattered)
     map_ = _clouded(map_, grey, clouds)
     basis = scattered(np.cos(_AZIMUTH) * cos(up))
     horizon = _horizon(map_[0], basis)
     map_ = map_ * (1.0 - _LOW) + basis @ horizon * _LOW
-    return Sky(map_, horizon, gaps + grey, shaded, ground)
+    return Sky(map_, horizon, _desaturated(clear_down) * gaps + grey, shaded, ground)
 
 
 def _night(light: Light, /) -> Doubles:
@@ -192,6 +192,10 @@ def _clouded(sky: Doubles, grey: Doubles, clouds: Clouds, /) -> Doubles:
 
 
 def _irradiance(sky: Doubles, /) -> Doubles:
-    """Return a sky map's mean weighted by the sine of elevation, as for level ground, and desaturated, shape (3,)."""
-    sent = (sky * _WEIGHTS).sum(axis=(0, 1))
+    """Return a sky map's mean weighted by the sine of elevation, as for level ground, shape (3,)."""
+    return np.asarray((sky * _WEIGHTS).sum(axis=(0, 1)))
+
+
+def _desaturated(sent: Doubles, /) -> Doubles:
+    """Return a clear sky's irradiance on grass (3,), desaturated as far as `DESATURATION` says."""
     return np.asarray(sent + DESATURATION * (luminance(sent) - sent))

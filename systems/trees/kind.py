@@ -165,8 +165,8 @@ class GpuKind:
         young, old = (tuple(pigment(declared.bark or each).tolist()) for each in habit.bark)
         darker, (begins, ends) = DARKER if declared.leaf is not None else 1.0, habit.ripens
         return {
-            "twig_length": (twig_length,), "card": (*self.reach, 0.0), "form": (leaf.form,),
-            **_leaf_uniforms(leaf, twig_length), "finer": (1.0,), "shoots_off": (SHOOTS_OFF,),
+            "twig_length": (twig_length,), "leaf_length": (leaf.length,), "card": (*self.reach, 0.0),
+            "form": (leaf.form,), **_leaf_uniforms(leaf, twig_length), "finer": (1.0,), "shoots_off": (SHOOTS_OFF,),
             "dark": tuple((darker * pigment(dark)).tolist()), "bright": tuple(pigment(bright).tolist()),
             "young_bark": young, "bark": old, "ripens": (begins, 1.0 / (ends - begins)), "rough": (habit.rough,),
         }  # fmt: skip

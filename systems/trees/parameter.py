@@ -13,6 +13,8 @@ RECORD = np.dtype(
         # Radius from which on a stem's bark ages [m], and 1 over the further radius until it is old [1/m].
         # Height of the middle of its pictures, and half their height [m].
         ("ripens", "2f4"), ("picture_span", "2f4"),
+        ("stem_least", "4f4"), ("stem_range", "4f4"),  # as in bark.py
+        ("most_shading", "2f4"), ("twig_length", "f4"), ("leaf_length", "f4"),  # usual lengths of a twig and a leaf [m]
     ]
 )  # fmt: skip
 """Parameters of a model and its kind."""

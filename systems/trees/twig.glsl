@@ -8,7 +8,6 @@ uniform int form;           // outline of its leaves
 uniform int twigs;          // number of its model's twigs
 uniform vec4 card;          // extent: left and right, back from its foot, and along [usual length of a twig]
 uniform vec3 picture_cover; // coverage of each picture of its card, relative to the first one's
-uniform float twig_length;  // usual length of a twig [m]
 uniform vec3 leaf_shape;    // length, half the greatest width, angle from the twig [usual length of a twig; rad]
 #ifdef BAKED
 uniform mat4 baked;
@@ -55,7 +54,7 @@ vec3 card_normal(Twig twig) {
 // Share of twigs at a place of its model that are drawn leaf by leaf, by the size of leaves.
 float leaf_share(vec3 place) {
     float off = max(distance(eye, root + scale * to_world(place)), NEAREST_TWIG);
-    float pixels = scale * twig_length * leaf_shape.x * pixels_per_metre() / off;
+    float pixels = scale * leaf_length * pixels_per_metre() / off;
     return clamp((pixels - leaf_pixels.x) / (leaf_pixels.y - leaf_pixels.x), 0.0, 1.0);
 }
 

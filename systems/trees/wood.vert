@@ -16,12 +16,6 @@ in vec4 shading; // optical depth, linear in direction about 0.5 and in the mean
 in vec2 surface; // position around the stem and along it [m]
 in uvec2 on_limb; // row of its limb, among the twigs, 0 on the trunk; random number of that, 0 to STEM_SCALE: it lies in another texel
 
-uniform vec4 stem_least;    // ranges, as in bark.py
-uniform vec4 stem_range;
-uniform vec2 most_shading;
-uniform float twig_length;     // as in twig.glsl
-uniform vec3 leaf_shape;
-
 #ifdef BAKED
 uniform mat4 baked;
 #endif
@@ -75,7 +69,7 @@ void main() {
     sun_radiance = FACE_GAIN * pigment * pigment * light.sun;
     sky_radiance = pigment * pigment * light.sky;
     haze_colour = light.haze;
-    float leaf = scale * twig_length * leaf_shape.x * THINNEST / pixel_width;
+    float leaf = scale * leaf_length * THINNEST / pixel_width;
     gl_Position = just_behind(clip_position_among_leaves(seen_at, foliage * (1.0 - age), leaf, seen_at.y - root.y));
 #endif
 }

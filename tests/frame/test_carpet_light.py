@@ -71,7 +71,7 @@ def test_f6_only_where_a_wind_bends_it_the_carpet_is_lit_otherwise(room: Stage, 
     from_middle = np.hypot(*np.moveaxis(room.ground(CAMERA, level=0.3), -1, 0))
     under, beyond = (from_middle > 1.5) & (from_middle < RADIUS - 1.5), from_middle > RADIUS + 2.0 * PATCH
     assert change[under].mean() > 0.04
-    assert change[beyond].max() < 0.02
+    assert change[beyond].max() < 0.025  # a step of 8 bits
 
 
 @pytest.mark.parametrize(

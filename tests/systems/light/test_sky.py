@@ -10,7 +10,18 @@ from hypothesis import strategies as st
 from tallgrass.engine.camera import Camera, forward, projection_matrix, view_matrix, view_of
 from tallgrass.engine.declared.light import Light
 from tallgrass.systems.frame.block import rays
-from tallgrass.systems.light.air import EYE, GROUND, HEIGHTS, multiple_scattering, sky_radiance, sunlight
+from tallgrass.systems.light.air import (
+    EYE,
+    GROUND,
+    HEIGHTS,
+    MOLECULES,
+    MOLECULES_SCALE,
+    OZONE,
+    OZONE_HALF,
+    multiple_scattering,
+    sky_radiance,
+    sunlight,
+)
 from tallgrass.systems.light.billows import SIDE as BLOCK_SIDE
 from tallgrass.systems.light.billows import STEEPEST as STEEPEST_BILLOW
 from tallgrass.systems.light.billows import billow_levels
@@ -133,10 +144,26 @@ def test_a_clear_sky_is_blue_above_and_paler_below_and_brightest_about_the_sun()
 
 def test_gaps_between_many_clouds_show_blue_sky_but_where_clouds_fade_into_the_haze() -> None:
     sine = (np.arange(ROWS) / (ROWS - 1.0)) ** 2
-    clear, broken = (daylight(Light(elevation=30.0, clouds=cover)).sky.map for cover in (0.0, 0.85))
-    blue, left = (each[:, -1, 2] / each[:, -1, 0] - 1.0 for each in (clear, broken))  # away from the sun
+    skies = (daylight(Light(elevation=30.0, clouds=cover)).sky.map for cover in (0.0, 0.85, 1.0))
+    blue, left, clouds = (each[:, -1, 2] / each[:, -1, 0] - 1.0 for each in skies)  # away from the sun
     assert (left > 0.1 * blue)[sine > 2.0 * FADE[1]].all()
-    assert (left < 0.0)[sine < FADE[1]].all()
+    assert (abs(left - clouds) < 0.1)[sine < FADE[1]].all()
+
+
+@pytest.mark.parametrize(
+    ("airs", "red", "blue"), [(1.0, 1.04, 0.89), (2.0, 1.09, 0.79), (5.6, 1.30, 0.52), (10.4, 1.65, 0.286)]
+)
+def test_f5_sunlight_has_the_colour_that_its_spectrum_has_on_a_screen(airs: float, red: float, blue: float) -> None:
+    """By how much red and blue are left over green after so much air, relative to sunlight above it (ASTM G173)."""
+    columns = MOLECULES_SCALE * MOLECULES + OZONE_HALF * OZONE
+    left = np.exp(-airs * columns)
+    np.testing.assert_allclose(left[[0, 2]] / left[1], (red, blue), rtol=0.05)
+
+
+@pytest.mark.parametrize("elevation", [15.0, 30.0, 60.0])
+def test_an_overcast_is_grey_and_hardly_blue_and_never_pink(elevation: float) -> None:
+    red, green, blue = daylight(Light(elevation=elevation, clouds=1.0)).clouds
+    assert 0.9 * green < red < green < blue < 1.2 * green
 
 
 def test_a_setting_sun_colours_the_horizon_about_it() -> None:
