@@ -115,7 +115,7 @@ class Pressers(Feature):
         if not found and not self._scene_walk.pressers and not self._game_walk.pressers and not self.trodden:
             return self.trodden
         wearing = [row for row in found if row[1].wear and row[0] not in self._declared and is_somewhere(row[2])]
-        self._wearing.go(wearing, self._grown.ground.density)
+        self._wearing.go(wearing, self._grown.ground.density, elapsed=time - self._game_walk.time)
         pressers, poses = self._posed(found)
         is_declared = np.array([entity in self._declared for entity, _ in pressers], np.bool_)
         own, declared = ([*compress(pressers, which)] for which in (~is_declared, is_declared))

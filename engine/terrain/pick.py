@@ -1,5 +1,8 @@
 """Exact intersection of rays with the ground, cell by cell of the terrain, each a bilinear surface."""
 
+from collections.abc import Iterator
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,6 +16,9 @@ _SAME = 1e-12
 _MARGIN = 1.0
 """Margin above the highest and below the lowest ground in which rays are followed [m], against rounding errors."""
 
+_STRETCHES = 2**16
+"""Number of stretches of rays, one in each cell, that are computed together: 2 MB for each of their numbers."""
+
 
 def pick(terrain: Terrain, origin: Doubles, direction: Doubles, /, *, farthest: float = np.inf) -> Floats:
     """Return each ray's first intersection with the ground (x, y, z) [m], (n, 3), NaN if not within `farthest` [m].
@@ -21,88 +27,131 @@ def pick(terrain: Terrain, origin: Doubles, direction: Doubles, /, *, farthest: 
     ground meets it at its origin. Beyond the terrain, ground is at `height_at`; mirrored ground ends where drawn.
     """
     found = np.full((len(origin), 3), np.nan, np.float32)
-    lowest, highest = terrain.span[0] - _MARGIN, terrain.span[1] + _MARGIN
-    for number, (start, way) in enumerate(zip(origin, direction, strict=True)):
-        scaled = way / np.abs(way).max()  # else squares of tiny lengths were 0
-        along = scaled / np.linalg.norm(scaled)
-        along[np.abs(along) < _SAME] = 0.0
-        begin, end = _between(start[1], along[1], lowest, highest)
+    scaled = direction / np.abs(direction).max(axis=1, keepdims=True)  # else squares of tiny lengths were 0
+    along = scaled / np.sqrt((scaled * scaled).sum(axis=1, keepdims=True))
+    along[np.abs(along) < _SAME] = 0.0
+    with np.errstate(divide="ignore", invalid="ignore"):  # of rays along an axis
+        begin, end = _between(origin[:, 1], along[:, 1], terrain.span[0] - _MARGIN, terrain.span[1] + _MARGIN)
         if terrain.mirrored:
-            begin, end = _over_mirrored(terrain, start, along, begin, end)
-        away = _met(terrain, start, along, begin, min(end, farthest))
-        if away is not None:
-            found[number] = start + away * along
+            begin, end = _over_mirrored(terrain, origin, along, begin, end)
+        end = np.minimum(end, farthest)
+        rays = np.flatnonzero(end >= begin)
+        crossings = _Crossings.of(terrain, origin[rays], along[rays], begin[rays], end[rays])
+    for part in crossings.parts():
+        which = rays[part]
+        away = _met(terrain, origin[which], along[which], begin[which], end[which], crossings.of_rays(part))
+        found[which] = origin[which] + away[:, None] * along[which]
     return found
 
 
-def _between(y: float, rise: float, lowest: float, highest: float) -> tuple[float, float]:
-    """Return begin and end of the stretch of a ray [m] that may meet ground between two heights.
+def _between(y: Doubles, rise: Doubles, lowest: float, highest: float) -> tuple[Doubles, Doubles]:
+    """Return begin and end of the stretch of each ray [m] that may meet ground between two heights.
 
     A ray that starts at a height below both meets it at 0. The end is before the begin where no ground can be met.
     """
-    if rise == 0.0:
-        return 0.0, np.inf if y <= highest else -1.0
-    ends = (highest - y) / rise, (lowest - y) / rise
-    if rise > 0.0:
-        return 0.0, ends[0] if y > lowest else 0.0 if y <= highest else -1.0
-    return max(ends[0], 0.0), max(ends[1], 0.0)
+    top, bottom = (highest - y) / rise, (lowest - y) / rise
+    level, climbs = np.where(y <= highest, np.inf, -1.0), np.where(y > lowest, top, 0.0)
+    begin = np.where(rise < 0.0, np.maximum(top, 0.0), 0.0)
+    return begin, np.where(rise < 0.0, np.maximum(bottom, 0.0), np.where(rise > 0.0, climbs, level))
 
 
-def _over_mirrored(terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: float) -> tuple[float, float]:
-    """Return a ray's stretch [m] clipped to the drawn part of a mirrored terrain."""
-    for place, way, side in zip(start[::2], along[::2], terrain.size, strict=True):
+def _over_mirrored(
+    terrain: Terrain, start: Doubles, along: Doubles, begin: Doubles, end: Doubles
+) -> tuple[Doubles, Doubles]:
+    """Return the stretches of rays [m] clipped to the drawn part of a mirrored terrain."""
+    for place, way, side in zip(start[:, ::2].T, along[:, ::2].T, terrain.size, strict=True):
         reach = side / 2.0 + terrain.beyond
-        if way == 0.0:
-            end = end if abs(place) <= reach else -1.0
-        else:
-            enters, leaves = sorted(((-reach - place) / way, (reach - place) / way))
-            begin, end = max(begin, enters), min(end, leaves)
+        one, other = (-reach - place) / way, (reach - place) / way
+        still = way == 0.0
+        begin = np.where(still, begin, np.maximum(begin, np.minimum(one, other)))
+        leaves = np.where(still, np.where(np.abs(place) <= reach, np.inf, -1.0), np.maximum(one, other))
+        end = np.minimum(end, leaves)
     return begin, end
 
 
-def _met(terrain: Terrain, start: Doubles, along: Doubles, begin: float, end: float) -> float | None:
-    """Return the distance along a ray of its first intersection between `begin` and `end` [m], None without one."""
-    if end < begin:
-        return None
+def _met(
+    terrain: Terrain, start: Doubles, along: Doubles, begin: Doubles, end: Doubles, crossings: "_Crossings"
+) -> Doubles:
+    """Return the distance along each ray of its first intersection between `begin` and `end` [m], NaN without one."""
     rows, columns = terrain.heights.shape
-    at = (start[::2] - np.array(terrain.origin)) / terrain.cell
-    way = along[::2] / terrain.cell
-    counts = (np.inf, np.inf) if terrain.mirrored else (columns, rows)
-    lines = [_crossings(at[axis], way[axis], begin, end, count) for axis, count in enumerate(counts)]
-    inner = np.sort(np.concatenate(lines))
-    last = end if np.isfinite(end) else (inner[-1] if len(inner) else begin)
-    stops = np.concatenate([[begin], inner, [last]])
-    before, after = stops[:-1], stops[1:]
-    middle = at + 0.5 * (before + after)[:, None] * way
-    cell = np.floor(middle)
-    near = cell if terrain.mirrored else np.clip(cell, -1, counts)  # no integer is as large as some places are
+    ray, before = crossings.stretches(begin, end)
+    is_last = np.append(ray[1:] != ray[:-1], True)
+    after = np.where(is_last, np.where(np.isfinite(end)[ray], end[ray], before), np.append(before[1:], 0.0))
+    at, way = crossings.at[ray], crossings.way[ray]
+    cell = np.floor(at + 0.5 * (before + after)[:, None] * way)
+    near = cell if terrain.mirrored else np.clip(cell, -1, (columns, rows))  # no integer is as large as some places are
     a, b, c, d = _corners(terrain, near.astype(np.intp))
     inside = ((cell >= 0) & (cell < np.array([columns - 1, rows - 1]))) | terrain.mirrored
     u, v = (at - cell + before[:, None] * way).T * inside.T
-    du, dv = way[:, None] * inside.T
+    du, dv = way.T * inside.T
     twist = a - b - c + d
     right, down = b - a, c - a
     # Height above the ground along the ray, t from the entry into each cell: low + slope * t + bend * t * t.
-    low = start[1] + before * along[1] - (a + right * u + down * v + twist * u * v)
-    slope = along[1] - (right * du + down * dv + twist * (u * dv + v * du))
+    low = start[ray, 1] + before * along[ray, 1] - (a + right * u + down * v + twist * u * v)
+    slope = along[ray, 1] - (right * du + down * dv + twist * (u * dv + v * du))
     roots = _first_root(low, slope, -twist * du * dv, after - before)
     hit = np.flatnonzero(np.isfinite(roots))
-    return float(before[hit[0]] + roots[hit[0]]) if len(hit) else None
+    hit = hit[np.diff(ray[hit], prepend=-1) > 0]  # the first one of each ray
+    away = np.full(len(begin), np.nan)
+    away[ray[hit]] = before[hit] + roots[hit]
+    return away
 
 
-def _crossings(at: float, way: float, begin: float, end: float, count: float) -> Doubles:
-    """Return distances between `begin` and `end` [m] at which a ray crosses the lines 0 to count - 1 of an axis.
+@dataclass(frozen=True, slots=True, eq=False)
+class _Crossings:
+    """The lines between cells that rays cross."""
 
-    An infinite count means all lines, also those below 0.
-    """
-    if way == 0.0:
-        return np.zeros(0)
-    ends = sorted((at + begin * way, at + end * way))
-    first, last = np.ceil(ends[0]), np.floor(ends[1])
-    if count < np.inf:
-        first, last = max(first, 0.0), min(last, count - 1.0)
-    crossed = (np.arange(first, last + 1.0) - at) / way
-    return np.asarray(crossed[(crossed > begin) & (crossed < end)])
+    at: Doubles
+    """Where rays begin, in cells along x and z, shape (n, 2)."""
+
+    way: Doubles
+    """Way of rays along x and z [cells/m], shape (n, 2)."""
+
+    first: Doubles
+    """First line along x and along z that lies on each ray, shape (n, 2)."""
+
+    count: NDArray[np.intp]
+    """Number of these lines, shape (n, 2)."""
+
+    @classmethod
+    def of(cls, terrain: Terrain, start: Doubles, along: Doubles, begin: Doubles, end: Doubles) -> "_Crossings":
+        """Return the lines that rays cross between `begin` and `end` [m]: of mirrored terrain also those beyond it."""
+        at, way = (start[:, ::2] - np.array(terrain.origin)) / terrain.cell, along[:, ::2] / terrain.cell
+        ends = np.sort([at + begin[:, None] * way, at + end[:, None] * way], axis=0)
+        first, last = np.ceil(ends[0]), np.floor(ends[1])
+        if not terrain.mirrored:
+            rows, columns = terrain.heights.shape
+            first, last = np.maximum(first, 0.0), np.minimum(last, np.array([columns, rows]) - 1.0)
+        count = np.where(way == 0.0, 0.0, np.maximum(last - first + 1.0, 0.0))
+        return cls(at, way, first, count.astype(np.intp))
+
+    def parts(self) -> Iterator[slice]:
+        """Yield slices of the rays whose stretches are computed together: at least one ray."""
+        done = np.cumsum(self.count.sum(axis=1) + 1)
+        begin = 0
+        while begin < len(done):
+            seen = done[begin - 1] if begin else 0
+            end = max(int(np.searchsorted(done, seen + _STRETCHES, side="right")), begin + 1)
+            yield slice(begin, end)
+            begin = end
+
+    def of_rays(self, part: slice) -> "_Crossings":
+        """Return those of some rays."""
+        return _Crossings(self.at[part], self.way[part], self.first[part], self.count[part])
+
+    def stretches(self, begin: Doubles, end: Doubles) -> tuple[NDArray[np.intp], Doubles]:
+        """Return the ray of each stretch within a cell, and the distance at which it begins [m], in their order."""
+        rays, away = [np.arange(len(begin))], [begin]
+        for axis in (0, 1):
+            count = self.count[:, axis]
+            ray = np.repeat(rays[0], count)
+            number = np.arange(len(ray)) - np.repeat(np.cumsum(count) - count, count)
+            crossed = (self.first[ray, axis] + number - self.at[ray, axis]) / self.way[ray, axis]
+            rays.append(ray)
+            away.append(np.clip(crossed, begin[ray], end[ray]))  # against rounding errors
+        ray, before = np.concatenate(rays), np.concatenate(away)
+        order = np.lexsort((before, ray))
+        return ray[order], before[order]
 
 
 def _corners(terrain: Terrain, cell: NDArray[np.intp]) -> Doubles:

@@ -45,11 +45,6 @@ def clear(density: Density, area: Area, pose: Pose, /, *, soft: float) -> None:
     _stroke(density, area, pose, np.zeros_like, soft, np.zeros((1, 1, len(density.maps)), np.uint8))
 
 
-def wear(density: Density, area: Area, pose: Pose, fraction: float, /) -> None:
-    """Lower all densities in an area by a fraction of themselves, at least by 1/255."""
-    _stroke(density, area, pose, partial(_with_wear, fraction=np.float32(fraction)), 0.0, None)
-
-
 def carry_over(before: Density, after: Density, old_kinds: Sequence[int | None], /) -> None:
     """Carry over what was sown and cleared to other painted densities, kinds or terrain.
 
@@ -73,13 +68,19 @@ def carried(
     olds = [old for old in old_kinds if old is not None]
     for number, (row, column, page) in enumerate(where.tolist()):
         plot = Rectangle(row * CELLS, column * CELLS, CELLS, CELLS)
-        as_painted = (pages[page] == _painted_densities(before, plot)).all(axis=2, keepdims=True)
-        values = np.where(as_painted, _painted_densities(after, plot), np.uint8(0))
+        as_painted = (pages[page] == painted_densities(before, plot)).all(axis=2, keepdims=True)
+        values = np.where(as_painted, painted_densities(after, plot), np.uint8(0))
         values[..., known] = np.where(as_painted, values[..., known], pages[page][..., olds])
         where[number, 2] = page_numbers.setdefault(values.tobytes(), len(new_pages))
         if where[number, 2] == len(new_pages):
             new_pages.append(values)
     return where, np.stack(new_pages)
+
+
+def painted_densities(density: Density, part: Rectangle, /) -> Values:
+    """Return the painted densities of some cells as bytes, shape (rows, columns, kinds)."""
+    painted = painted_at(density, middles(part).reshape(-1, 2)).T
+    return np.asarray(np.rint(painted * 255.0), np.uint8).reshape(part.rows, part.columns, -1)
 
 
 def _stroke(
@@ -98,7 +99,7 @@ def _stroke(
         target += densities
         return np.moveaxis(np.rint(target, out=target).astype(np.uint8), 0, -1)
 
-    untouched = partial(_painted_densities, density)
+    untouched = partial(painted_densities, density)
     stroke(density.sown, area, pose, blended, untouched, beyond=0.5 * (soft + verge), alike=alike)
 
 
@@ -111,17 +112,6 @@ def _with_sown(before: Floats, *, kind: int, dense: float, displaced: Mask) -> F
         densities[others] *= np.minimum(room / np.maximum(before[others].sum(axis=0), np.float32(1e-6)), 1.0)
     densities[kind] = 255.0 * dense
     return densities
-
-
-def _with_wear(before: Floats, *, fraction: np.float32) -> Floats:
-    """Return densities [1/255] lowered by a fraction of themselves, at least by 1."""
-    return np.asarray(np.maximum(np.minimum(before - before * fraction, before - 1.0), 0.0), np.float32)
-
-
-def _painted_densities(density: Density, part: Rectangle) -> Values:
-    """Return the painted densities of some cells as bytes, shape (rows, columns, kinds)."""
-    painted = painted_at(density, middles(part).reshape(-1, 2)).T
-    return np.asarray(np.rint(painted * 255.0), np.uint8).reshape(part.rows, part.columns, -1)
 
 
 def _must_be_number(thing: object, rule: str, highest: float, unit: str = "") -> None:

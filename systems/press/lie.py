@@ -1,11 +1,12 @@
 """Pressed grass, which lies down and stands up again; `press.glsl` is the twin."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Floats
+from ...components.arrays import Floats, Ints
 from ...components.wind import Grass
 from ...engine.declared.scene import Scene
 from .marks import Marks, Trodden, square_of
@@ -21,6 +22,12 @@ SAME_TOUCH = 1e-3
 """Longest gap between touches that count as one [s]."""
 
 _LONG_AGO = -1e6
+
+_LEAST = np.float32(1e-6)
+"""Length below which a way counts as none [m]."""
+
+_TOGETHER = 2**17
+"""Number of pairs of a receiver and a mark whose distances are computed together: 6 MB of marks."""
 
 GLSL = {
     "TREAD_FRACTION": TREAD_FRACTION,
@@ -54,6 +61,34 @@ class Lying:
     """End of the last touch [s]."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Touches:
+    """Marks that reach receivers, one a row; arrays of shape (m,) or (m, 2)."""
+
+    rows: NDArray[np.intp]
+    """Index of each one's receiver."""
+
+    mark: Floats
+    """Marks, shape (m, COLUMNS)."""
+
+    offset: Floats
+    """Offset of the receiver from the mark's way [m]."""
+
+    distance: Floats
+    """Length of the offset [m]."""
+
+    begun: Floats
+    ended: Floats
+    """Begin and end of the touch [s]."""
+
+    def at(self, which: NDArray[np.intp], /) -> "Touches":
+        """Return some of them."""
+        return Touches(
+            self.rows[which], self.mark[which], self.offset[which], self.distance[which],
+            self.begun[which], self.ended[which],
+        )  # fmt: skip
+
+
 def pressed(trodden: Trodden, place: Floats, grass: Grass, recovery: Floats, /) -> Floats:
     """Return the bending of pressed grass at ground positions (n, 2) [m]: vectors (n, 2), as long as the posture index.
 
@@ -64,9 +99,13 @@ def pressed(trodden: Trodden, place: Floats, grass: Grass, recovery: Floats, /) 
     square = square_of(place)
     for marks in (trodden.settled, trodden.fresh):
         first, count = marks.first[square], marks.count[square]
-        for k in range(int(count.max(initial=0))):
-            rows = np.flatnonzero(count > k)
-            _apply_mark(lying, rows, marks.marks[marks.listed[first[rows] + k]], place[rows], grass.at(rows), recovery)
+        most = int(count.max(initial=0))
+        together = max(_TOGETHER // max(len(place), 1), 1)
+        for k in range(0, most, together):
+            rows, after = np.nonzero(count[:, None] > np.arange(k, min(k + together, most)))
+            touching = _touching(marks.marks, marks.listed[first[rows] + k + after], place, rows)
+            for each in _by_rank(touching):
+                _apply_marks(lying, each, grass, recovery)
     now = np.float32(trodden.time - trodden.since)
     index, _, towards = _state_at(lying, np.full(len(place), now), grass, recovery)
     return np.asarray(index[:, None] * towards, np.float32)
@@ -96,16 +135,28 @@ def _untouched(count: int) -> Lying:
     return Lying(index, trodden, direction, depth, push, np.full(count, _LONG_AGO, np.float32))
 
 
-def _apply_mark(
-    lying: Lying, rows: NDArray[np.intp], mark: Floats, place: Floats, grass: Grass, recovery: Floats
-) -> None:
-    """Apply one mark (n, COLUMNS) to each of these rows that it reaches."""
-    offset, distance, begun, ended = _contact(mark, place)
-    near = distance < mark[:, REACH]
-    if not near.any():
-        return
-    rows, mark, offset = rows[near], mark[near], offset[near]
-    distance, begun, ended = distance[near], begun[near], ended[near]
+def _touching(marks: Floats, which: Ints, place: Floats, rows: NDArray[np.intp]) -> Touches:
+    """Return those pairs of marks, of indices `which` (m,), and places, of indices `rows` (m,), that touch."""
+    mark = marks[which]
+    offset, distance = _offset(mark, place[rows])
+    near = np.flatnonzero(distance < mark[:, REACH])
+    rows, mark = rows[near], mark[near]
+    return Touches(rows, mark, offset[near], distance[near], *_touch_times(mark, place[rows]))
+
+
+def _by_rank(touches: Touches) -> Iterator[Touches]:
+    """Yield the first touch of each row, then the second of each, and so on; rows ascend."""
+    rank = np.arange(len(touches.rows)) - np.searchsorted(touches.rows, touches.rows)
+    order = np.argsort(rank, kind="stable")
+    begin = 0
+    for count in np.bincount(rank).tolist():
+        yield touches.at(order[begin : begin + count])
+        begin += count
+
+
+def _apply_marks(lying: Lying, touches: Touches, grass: Grass, recovery: Floats) -> None:
+    """Apply touches of one mark each to different rows."""
+    rows, mark, begun = touches.rows, touches.mark, touches.begun
     separate = np.flatnonzero(begun > lying.until[rows] + np.float32(SAME_TOUCH))
     if len(separate):
         touched = rows[separate]
@@ -113,40 +164,48 @@ def _apply_mark(
             lying.index[touched], lying.trodden[touched], lying.direction[touched],
             lying.depth[touched], lying.push[touched], lying.until[touched],
         )  # fmt: skip
-        touched_grass = grass.at(np.flatnonzero(near)[separate])
-        index, trodden, towards = _state_at(old, begun[separate], touched_grass, recovery)
+        index, trodden, towards = _state_at(old, begun[separate], grass.at(touched), recovery)
         lying.index[touched], lying.trodden[touched] = np.maximum(index, np.float32(0.0)), trodden
         lying.direction[touched] = towards
         lying.depth[touched], lying.until[touched] = 0.0, _LONG_AGO
-    fraction = distance / mark[:, REACH]
+    fraction = touches.distance / mark[:, REACH]
     depth = mark[:, STRENGTH] * (np.float32(1.0) - fraction * fraction * fraction * fraction)
     deeper = np.flatnonzero(depth > lying.depth[rows])
     lying.depth[rows[deeper]] = depth[deeper]
-    lying.push[rows[deeper]] = _push_direction(offset[deeper], fraction[deeper], mark[deeper])
-    lying.until[rows] = np.maximum(lying.until[rows], ended)
+    lying.push[rows[deeper]] = _push_direction(touches.offset[deeper], fraction[deeper], mark[deeper])
+    lying.until[rows] = np.maximum(lying.until[rows], touches.ended)
 
 
-def _contact(mark: Floats, place: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return the offsets (n, 2) [m] of places from a mark, their lengths, and begin and end of the touch.
+def _offset(mark: Floats, place: Floats) -> tuple[Floats, Floats]:
+    """Return the offsets (n, 2) [m] of places from the ways of marks, and their lengths."""
+    from_first, along, length, ahead = _ahead(mark, place)
+    offset = from_first - np.clip(ahead, np.float32(0.0), length)[:, None] * along
+    return offset, np.sqrt(offset[:, 0] * offset[:, 0] + offset[:, 1] * offset[:, 1])
 
-    The touch lasts from the arrival of the disc's edge until it leaves [s], shape (n,).
+
+def _ahead(mark: Floats, place: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """Return the offsets (n, 2) [m] of places from where marks begin, and their parts along the marks' ways.
+
+    Between the two are the directions (n, 2) and the lengths of these ways.
     """
     from_first, way = place - mark[:, FIRST], mark[:, LAST] - mark[:, FIRST]
     length = np.sqrt(way[:, 0] * way[:, 0] + way[:, 1] * way[:, 1])
-    safe_length = np.maximum(length, np.float32(1e-6))
-    along = way / safe_length[:, None]
-    ahead = from_first[:, 0] * along[:, 0] + from_first[:, 1] * along[:, 1]
+    along = way / np.maximum(length, _LEAST)[:, None]
+    return from_first, along, length, from_first[:, 0] * along[:, 0] + from_first[:, 1] * along[:, 1]
+
+
+def _touch_times(mark: Floats, place: Floats) -> tuple[Floats, Floats]:
+    """Return begin and end of each touch: from the arrival of the disc's edge at a place (n, 2) until it leaves [s]."""
+    from_first, along, length, ahead = _ahead(mark, place)
     lateral = from_first[:, 0] * along[:, 1] - from_first[:, 1] * along[:, 0]
-    offset = from_first - np.clip(ahead, np.float32(0.0), length)[:, None] * along
-    distance = np.sqrt(offset[:, 0] * offset[:, 0] + offset[:, 1] * offset[:, 1])
-    is_still = length < np.float32(1e-6)
+    is_still, safe_length = length < _LEAST, np.maximum(length, _LEAST)
     half = np.sqrt(np.maximum(mark[:, REACH] * mark[:, REACH] - lateral * lateral, np.float32(0.0)))
     enters, leaves = (ahead - half) / safe_length, (ahead + half) / safe_length
     duration = mark[:, CAME] - mark[:, BEGUN]
     entered = np.clip(enters, np.float32(0.0), np.float32(1.0))
     begun = mark[:, BEGUN] + np.where(is_still, np.float32(0.0), entered * duration)
     ended = np.where(is_still | (leaves >= np.float32(1.0)), mark[:, LEFT], mark[:, BEGUN] + leaves * duration)
-    return offset, distance, begun, ended
+    return begun, ended
 
 
 def _push_direction(offset: Floats, fraction: Floats, mark: Floats) -> Floats:

@@ -1,12 +1,12 @@
 """Growing a kind of grass: postures, response, and patch models with all their pictures (paper, sections 2.2, 3.2)."""
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 
 from ...components.arrays import Floats
+from ...engine.apart import Apart
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
 from ..grow.bend import spine
@@ -102,7 +102,7 @@ def _postures(mechanics: _Mechanics, seed: int, /) -> Postures:
 def _models(seedlings: list[Seedling], /) -> tuple[PatchModel, ...]:
     """Return patch models, drawn on several threads: numpy releases Python's lock while it computes large arrays."""
     drawn = [each for each in REPRESENTATIONS if each.record is not None]
-    threads = ThreadPoolExecutor(_THREADS)
+    threads = Apart(_THREADS)
     try:
         pieces = {
             (number, each.name): threads.submit(each.grow, seedling)
@@ -114,7 +114,7 @@ def _models(seedlings: list[Seedling], /) -> tuple[PatchModel, ...]:
             for number, seedling in enumerate(seedlings)
         )
     finally:
-        threads.shutdown(cancel_futures=True)  # an interrupt waits for the pictures being drawn, not for all
+        threads.release()  # after an interrupt nothing more is drawn
 
 
 def _extent(patches: list[Blades], postures: Postures, patch: float, /) -> tuple[float, float]:

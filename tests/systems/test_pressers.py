@@ -144,26 +144,6 @@ def test_f4_a_hundred_pressers_cost_less_than_a_millisecond(prairie: Prairie) ->
     assert np.median(spent) < 1e-3
 
 
-TYRE = [(-0.02, -0.3), (0.02, -0.3), (0.02, 0.3), (-0.02, 0.3)]
-
-
-@pytest.mark.parametrize(
-    "presser",
-    [Presser(radius=0.02, wear=0.2), Presser(radius=0.1, wear=0.2), Presser(corners=TYRE, wear=0.2)],
-    ids=["least", "narrow", "tyre"],
-)
-def test_f4_however_narrow_a_presser_is_it_wears_off_no_more_than_it_says(prairie: Prairie, presser: Presser) -> None:
-    way = np.stack([np.linspace(-1.0, 1.0, 41), np.full(41, 0.1)], axis=1)
-    before, walker = prairie.grass_at(way).density.sum(axis=1), esper.create_entity(presser)
-    for x in np.arange(-1.5, 1.5, 0.05):
-        esper.add_component(walker, Pose(float(x), 0.1, np.pi / 2))
-        prairie.advance(0.05)
-        prairie.bent_at([(0.0, 0.0)])
-    worn = 1.0 - prairie.grass_at(way).density.sum(axis=1) / before
-    assert worn.min() > 0.05
-    assert worn.max() < 0.22
-
-
 def test_f4_a_polygon_presses_where_its_corners_are_turned_to(prairie: Prairie) -> None:
     long = ((-0.4, -2.0), (0.4, -2.0), (0.4, 2.0), (-0.4, 2.0))
     esper.create_entity(Presser(corners=long), Pose(0.0, 0.0, np.pi / 2))
