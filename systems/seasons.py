@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import inf
 from reprlib import repr as shortened
 
 import numpy as np
@@ -10,7 +9,7 @@ from pydantic import ValidationError
 
 from ..engine.declared.grass import GrassKind
 from ..engine.declared.scene import Scene
-from ..engine.handed import NUMBER_TYPES
+from ..engine.handed import LONGEST, NUMBER_TYPES
 from ..engine.scene.validate import changed_kind
 from .saved import SavedEase, SavedSeason, refuse
 
@@ -115,8 +114,8 @@ class Seasons:
 
     def change(self, name: str, keys: Mapping[str, object], /, *, over: float, time: float) -> None:
         """Change keys of a kind over `over` seconds from `time` [s] on; raises ValueError for what cannot change."""
-        if not isinstance(over, NUMBER_TYPES) or not 0.0 <= over < inf:
-            raise ValueError(f"a kind changes over a time in seconds, 0 or more, not {shortened(over)}")
+        if not isinstance(over, NUMBER_TYPES) or not 0.0 <= over <= LONGEST:
+            raise ValueError(f"a kind changes over a time of 0 s to {LONGEST:g} s, not {shortened(over)}")
         for key, why in ELSEWHERE.items():
             if key in keys:
                 raise ValueError(f"grass.{name}.{key}: {why}")
