@@ -223,9 +223,9 @@ def test_edges_without_lamps_shades_and_people_take_no_program_that_knows_of_tho
         room.shot(prairie, aim)
         ground = carpet_of(prairie).ground
         layers = ground.edged_bare, ground.edged_under, ground.edged
-        made.append([[layer.made is not None for layer in some] for some in layers])
-    assert made[0] == [[True, False], [True, False], [True, False, False, False]]
-    assert made[1] == [[True, False], [True, False], [True, True, False, False]]
+        made.append([{name for name, layer in some.items() if layer.made is not None} for some in layers])
+    assert made[0] == [{"usual"}, {"untrodden"}, {"uncut"}]
+    assert made[1] == [{"usual"}, {"untrodden"}, {"uncut", "cut"}]
     prairie.release()
 
 

@@ -1,6 +1,6 @@
 """Drawing the ground, and on it the 2D carpet, tile by tile."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 
 import moderngl
@@ -36,6 +36,9 @@ from .tiles import PIECE, TILE, in_orders, order_toward, skirted_grid, tile_grid
 
 Defines = dict[str, str | int]
 """Preprocessor definitions of a program."""
+
+Variants = Mapping[str, Defines]
+"""Definitions of the programs of one pass, by what they draw."""
 
 RAISED = 0.66
 """Height of the carpet, as a fraction of the grass's: what it shows keeps its place in the picture."""
@@ -94,57 +97,51 @@ class GroundPainter:
         self.grids: Grids = tile, piece
         self.skirted: Grids = tile, skirted
         self.shelves = Shelves(partial(GroundShelf, ctx, side))
-        self.bare: list[Layer] = []
-        self.under: list[Layer] = []
-        self.carpet: list[Layer] = []
-        """By what their programs draw: usual scenes, uncut and cut (if coarse: usual scenes, then all that the coarse
-        program can draw); usual scenes with lamps; everything."""
-        self.edged_bare: list[Layer] = []
-        self.edged_under: list[Layer] = []
-        self.edged: list[Layer] = []
-        """Where grass ends or is cut. Ground and layer under the carpet: usual scenes, everything. Carpet: usual scenes
-        without lamps, uncut and cut; everything but treading; everything."""
-        self.casting: list[Layer] = []
-        """The carpet in shadow maps."""
         self.is_trodden = False
         """Whether grass has been trodden: only then do the carpet's pixels read that, which costs."""
         self._rehearses = False
         """Whether every program draws once, to be ready."""
         self._is_coarse = coarse and len(stock.before.crown) <= MOST_COARSE
-        self._make_layers(seed)
-
-    def _make_layers(self, seed: int) -> None:
-        """List all programs; they are compiled when first needed."""
-        ctx, stock = self._ctx, self.stock
         self._seed = seed
+        self._list_layers()
+        self.restock(stock)
+
+    def _list_layers(self) -> None:
+        """List all programs of each pass, by what they draw; they are compiled when first needed.
+
+        "uncut" and "cut" draw usual scenes without other lights than sun and sky, "usual" those with them, "untrodden"
+        everything but treading, and "all" everything. Edged ones draw where grass ends or is cut.
+        """
+        ctx, stock = self._ctx, self.stock
+        stack = stack_for(ctx, image_count(stock.growths))
         heads: Defines = {"HEADS": 1} if stock.heads else {}
         litter: Defines = {"ANISOTROPIC": 1} if anisotropy(ctx) > 1.0 else {}
-        stack = stack_for(ctx, image_count(stock.growths))
         stacked: Defines = {"STACK": stack, "REPEATED": 1} if stack > 1 else {}
-        usual: Defines = {"PLAIN": 1}
-        plain: Defines = usual | {"LAMPLESS": 1}
-        cuts: list[Defines] = [{"CUT": 0}, {"CUT": 1}]
-        trodden: Defines = {"TRODDEN": 1}
-        ends: Defines = {"EDGED": 1}
-        common = heads | stacked | litter
-        firsts = (plain | cuts[0], trodden) if self._is_coarse else tuple(plain | cut for cut in cuts)
-        wanted: list[tuple[list[Layer], str, Defines]] = [
-            *((self.bare, "ground", litter | each) for each in (*(usual | cut for cut in cuts), trodden)),
-            *((self.under, "under", heads | each) for each in (plain | cuts[0], {}, trodden)),
-            *((self.carpet, "carpet", common | each) for each in (*firsts, usual, trodden)),
-            *((self.edged_bare, "ground", litter | each | ends) for each in (usual, trodden)),
-            *((self.edged_under, "under", heads | each | ends) for each in ({}, trodden)),
-            *((self.edged, "carpet", common | each | ends) for each in (*(plain | cut for cut in cuts), {}, trodden)),
-            (self.casting, "cast", {}),
-        ]
-        for layers, name, defines in wanted:
-            simple = self._is_coarse and layers is self.carpet and len(layers) < len(firsts)
-            stem = f"systems/show/carpet/{'coarse' if simple else name}"
-            files = f"{stem}.vert", f"{stem}.frag"
-            make = partial(joined, ctx, self._block, self.units, *files, defines)
-            texts = partial(self._block.texts, *files, defines)
-            layers.append(Layer(make, texts, self.shelves, self.skirted if layers is self.edged else self.grids))
-        self.restock(stock)
+        carpet, ends = heads | stacked | litter, Defines(EDGED=1)
+        every: Variants = {"all": {"TRODDEN": 1}}
+        usual: Variants = {"usual": {"PLAIN": 1}, **every}
+        untrodden: Variants = {"untrodden": {}, **every}
+        lit: Variants = {"uncut": {"PLAIN": 1, "CUT": 0}, "cut": {"PLAIN": 1, "CUT": 1}}
+        lampless = {name: each | {"LAMPLESS": 1} for name, each in lit.items()}
+        uncut = {"uncut": lampless["uncut"]}
+        self.bare = self._pass("ground", litter, {**lit, **every})
+        self.under = self._pass("under", heads, {**uncut, **untrodden})
+        self.coarse = self._pass("coarse", carpet, {**uncut, **every} if self._is_coarse else {})
+        self.carpet = self._pass("carpet", carpet, usual if self._is_coarse else {**lampless, **usual})
+        self.edged_bare = self._pass("ground", litter | ends, usual)
+        self.edged_under = self._pass("under", heads | ends, untrodden)
+        self.edged = self._pass("carpet", carpet | ends, {**lampless, **untrodden}, self.skirted)
+        self.casting = self._pass("cast", {}, {"all": {}})
+        """The carpet in shadow maps."""
+
+    def _pass(self, name: str, common: Defines, variants: Variants, grids: Grids | None = None) -> dict[str, Layer]:
+        """Return the programs of a pass, whose shaders have this name."""
+        stem, layers = f"systems/show/carpet/{name}", dict[str, Layer]()
+        for variant, defines in variants.items():
+            given = f"{stem}.vert", f"{stem}.frag", common | defines
+            make = partial(joined, self._ctx, self._block, self.units, *given)
+            layers[variant] = Layer(make, partial(self._block.texts, *given), self.shelves, grids or self.grids)
+        return layers
 
     def texts(self) -> Iterator[Texts]:
         """Return the sources of the programs that are not made yet."""
@@ -160,9 +157,10 @@ class GroundPainter:
                 yield
 
     @property
-    def _layers(self) -> tuple[Layer, ...]:
-        even = *self.bare, *self.under, *self.carpet
-        return *even, *self.edged_bare, *self.edged_under, *self.edged, *self.casting
+    def _layers(self) -> list[Layer]:
+        even = self.bare, self.under, self.coarse, self.carpet
+        passes = *even, self.edged_bare, self.edged_under, self.edged, self.casting
+        return [layer for each in passes for layer in each.values()]
 
     def _set_uniform(self, name: str, value: object) -> None:
         for layer in self._layers:
@@ -172,6 +170,15 @@ class GroundPainter:
     def _is_cut(self) -> bool:
         """Whether any grass has been cut: pixels that need not read the cut are cheaper."""
         return bool(self._block.record["anything_cut"][0])
+
+    @property
+    def _cut(self) -> str:
+        """Name of the programs of usual scenes, by whether any grass has been cut."""
+        return "cut" if self._is_cut else "uncut"
+
+    def _used(self, layers: Mapping[str, Layer], name: str) -> Iterable[Layer]:
+        """Return the program of this name, or all where every one is to draw once."""
+        return layers.values() if self._rehearses else [layers[name]]
 
     @property
     def _is_rare(self) -> bool:
@@ -284,9 +291,9 @@ class GroundPainter:
         """Draw the bare ground, if `alone` also where carpet will lie; return the number of draw calls."""
         self.use()
         rare = self._is_rare or self.is_trodden
-        bare = self.bare[2 if rare else self._is_cut]
+        bare = self.bare["all" if rare else self._cut]
         calls = bare.draw(BARE, BARE_PIECES, pushed=0.0)
-        for layer in self.edged_bare if self._rehearses else [self.edged_bare[rare]]:
+        for layer in self._used(self.edged_bare, "all" if rare else "usual"):
             calls += layer.draw(EDGED)
         if alone:
             calls += bare.draw(EVEN, EVEN_PIECES, pushed=PUSHED)
@@ -295,9 +302,10 @@ class GroundPainter:
     def draw_under(self) -> int:
         """Draw the opaque layer under the carpet; return the number of draw calls."""
         self.use()
-        special = self._is_rare or self._is_lamplit or self._is_cut
-        calls = self.under[2 if self.is_trodden else special].draw(UNDER, UNDER_PIECES)
-        for layer in self.edged_under if self._rehearses else [self.edged_under[self.is_trodden]]:
+        full = "all" if self.is_trodden else "untrodden"
+        special = self._is_rare or self._is_lamplit or self._is_cut or self.is_trodden
+        calls = self.under[full if special else "uncut"].draw(UNDER, UNDER_PIECES)
+        for layer in self._used(self.edged_under, full):
             calls += layer.draw(EDGED_CARPET)
         return calls
 
@@ -307,19 +315,19 @@ class GroundPainter:
         rare, changes = self._is_rare or self.is_trodden, any(self._came)
         special = changes or self._is_lamplit
         if self._is_coarse and not special and not self._is_odd:
-            even = self.carpet[rare or self._is_cut]
+            even = self.coarse["all" if rare or self._is_cut else "uncut"]
         else:
-            even = self.carpet[3 if rare or changes else 2 if special or self._is_coarse else self._is_cut]
-        edged = self.edged[3 if self.is_trodden else 2 if rare or special else self._is_cut]
+            even = self.carpet["all" if rare or changes else "usual" if special or self._is_coarse else self._cut]
         calls = even.draw(OUTLINED if part == THIN else EVEN, EVEN_PIECES, part=part)
-        for layer in self.edged if self._rehearses else [edged]:
+        edged = "all" if self.is_trodden else "untrodden" if rare or special else self._cut
+        for layer in self._used(self.edged, edged):
             calls += layer.draw(EDGED_CARPET, part=part)
         return calls
 
     def cast(self, light: tuple[float, float, float], /) -> int:
         """Write the depth at which the carpet stops light from a place [m]; return the number of draw calls."""
         self.shelves.now.shares.use(self.units["shares"])
-        (layer,) = self.casting
+        layer = self.casting["all"]
         layer.set_uniforms({"light": light})
         return layer.draw(EVEN, EVEN_PIECES, EDGED_CARPET)
 
