@@ -6,6 +6,8 @@ from functools import partial
 from ..engine.camera import View
 from .around.outlook import Outlook, Outlooks
 from .frame.feature import Feature, overriding
+from .room import get_ready
+from .screen import Screen
 from .site import Site, outlook_on
 from .streaming import Streaming
 
@@ -36,6 +38,13 @@ class Looking:
             feature.look(outlook)
         outlook.look(seen, time=time, leap=LEAP * site.ground.patch)
         return outlook
+
+    def stage(self, screen: Screen, site: Site, before: Site) -> bool:
+        """Upload a piece of another site, or prepare one viewer's pools for it; return whether all of it is there."""
+        if not screen.stage(site):
+            return False
+        ready = (get_ready(each, site.representations, before.representations) for each in self._viewers.values())
+        return all(ready)  # stops at the first viewer that was not ready
 
     def release(self) -> None:
         """End the thread of streaming ground."""

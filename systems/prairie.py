@@ -78,14 +78,15 @@ class Prairie(Tending):
         self._looking = Looking(self.viewers, self.features, live=live)
         self.lod: LodName = lod
         self.statistics, self.systems = Statistics(blades_field=site.blades), Schedule(live, self.world.come_back)
-        screen = Screen(ctx, self.features, self.winds, linear=linear)
+        self._screen = Screen(ctx, self.features, self.winds, linear=linear)
         self._saving = Saving(
             self.world, self.winds, self.pressers, self._mown, self.clearings, self._shining,
             feature_of(Trees, self.features), self._seasons, brought := Brought(self.world),
         )  # fmt: skip
         self._assembly = Assembly(
-            self.viewers, self.winds, self.pressers, screen, self.governor, self._entities, self._messages_to
-        )
+            self.viewers, self._entities, self._messages_to, self._screen.current, self.governor, self.winds.acting,
+            self.pressers.note, self.winds.bent,
+        )  # fmt: skip
         self._built = self._assembly.on(self.site)
         for phase, name, system in self._built:
             self.systems.add(phase, name, system, trusted=True)
@@ -119,8 +120,8 @@ class Prairie(Tending):
         must_be_seed(seed)
         loaded = replace(self.loaded, scene=self.scene.model_copy(update={"seed": seed}))
         return Prairie(
-            loaded, ctx=self._assembly.screen.ctx, preset=self.preset, lod=self.lod,
-            transitions=self.site.transitions, live=self.winds.quarantine.live, linear=self._assembly.screen.linear,
+            loaded, ctx=self._screen.ctx, preset=self.preset, lod=self.lod,
+            transitions=self.site.transitions, live=self.winds.quarantine.live, linear=self._screen.linear,
         )  # fmt: skip
 
     @property
@@ -150,7 +151,7 @@ class Prairie(Tending):
     @property
     def painter(self) -> Painter | None:
         """The prairie's painter in the GL context that it was drawn in last; None before the first draw."""
-        return self._assembly.screen.painter
+        return self._screen.painter
 
     def draw(
         self, view: object, projection: object, *, viewer: str = "main", parts: Iterable[str] | None = None,
@@ -161,8 +162,7 @@ class Prairie(Tending):
         Draw your own opaque things before it, and 2D after it: ground, carpet and the nearest blades write depth,
         strips and other blades only test it. With a `depth` of "all" instead of "near", all grass writes depth where
         its coverage is at least half, for water, smoke or a sky that you draw later. "none" neither reads nor writes
-        your depth: say so if nothing else in the picture has depth, as a preset or `hold` with fewer pixels is then
-        cheaper.
+        your depth: say so if nothing else in the picture has depth, as fewer pixels are then drawn more cheaply.
 
         Both matrices are 4x4 numpy arrays for column vectors, or `pyglet.math.Mat4`. Give each of several viewers a
         name. `parts` are some of "sky", "ground", "grass" and "beyond", by default the scene's. Without `ground` in
@@ -176,12 +176,12 @@ class Prairie(Tending):
         must_be_known("depth", str(depth), DEPTHS)
         chosen = as_parts(self.scene.parts if parts is None else parts)
         seen = view_of(view, projection, self._origin)
-        self._advance_kinds(self._assembly.stage)
+        self._advance_kinds(lambda *sites: self._looking.stage(self._screen, *sites))
         before = self.viewers[viewer].frame if viewer in self.viewers else None
         frame, asked, goes_on = Frame(seen, self.time, self.site, chosen).after(before, depth=depth)
         if not goes_on:
             self._looking.follow(self.site, viewer, seen, time=self.time)
-        with self._assembly.screen.opened(self.site) as painter:
+        with self._screen.opened(self.site) as painter:
             if painter is None:
                 return
             outlook = self._looking.look(self.site, viewer, guest_view(seen), time=self.time, goes_on=goes_on)
@@ -212,7 +212,7 @@ class Prairie(Tending):
         outlook = self.viewers[viewer]
         if outlook.frame is None or outlook.frame.grown is not self.site:
             return
-        with self._assembly.screen.opened(self.site) as painter:
+        with self._screen.opened(self.site) as painter:
             if painter is not None:
                 painter.cast(guest_view(seen), outlook)
 
@@ -237,7 +237,7 @@ class Prairie(Tending):
         Between steps GL state is yours. Keep the same context current. Raises the errors of `draw`.
         """
         self._must_be_there("prepare it")
-        return self._assembly.screen.preparing(self.site, self._upload_rehearsal)
+        return self._screen.preparing(self.site, self._upload_rehearsal)
 
     def prepare(self, *, on_progress: Callable[[int, int], object] | None = None) -> None:
         """Upload and compile in the current context all that the scene and a game may need, so that no frame waits.
@@ -285,7 +285,7 @@ class Prairie(Tending):
         def draw() -> None:
             self.draw(*asked(), viewer=viewer, parts=chosen, depth=depth)
 
-        return self._assembly.screen.group(draw, batch, order, parent)
+        return self._screen.group(draw, batch, order, parent)
 
     def reload(self, scene: SceneLike | LoadedScene | None = None, *, site: Site | None = None) -> None:
         """Read the scene again, or another one, and continue with it at the present time; keep what did not change.
@@ -356,7 +356,7 @@ class Prairie(Tending):
         self._looking.release()
         for feature in self.features:
             feature.release()
-        self._assembly.screen.release()
+        self._screen.release()
         self.world.release()
         self.systems.close()
         self._built.clear()

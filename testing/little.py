@@ -21,7 +21,7 @@ from ..engine.world import World
 from ..systems.around.clearing import Clearings
 from ..systems.around.outlook import Outlook
 from ..systems.around.transitions import SEAMLESS, Transitions
-from ..systems.assembly import built_in
+from ..systems.assembly import Assembly
 from ..systems.blow import Hear
 from ..systems.entities import PatchEntities
 from ..systems.govern import Governor
@@ -130,10 +130,8 @@ def systems_on(site: Site, outlooks: Sequence[Outlook], world: World, /, *, hear
     """
     schedule = Schedule()
     entities = PatchEntities(world, Clearings(), site.representations)
-    parts = built_in(
-        site, outlooks, entities, now=lambda _: (), hear=hear or _calm, painter=_no_painter, governor=Governor()
-    )
-    for phase, name, system in parts:
+    assembly = Assembly(outlooks, lambda _: entities, hear or _calm, _no_painter, Governor())
+    for phase, name, system in assembly.on(site):
         schedule.add(phase, name, system, trusted=True)
     return schedule
 

@@ -264,7 +264,7 @@ def test_a_frame_is_rehearsed_with_all_that_may_come_and_no_pixel_changes(
     changed = stage.shot(prairie, aim)
     assert (changed != before).any()
     stage.begin()
-    with prairie._assembly.screen.opened(prairie.site) as painter:  # noqa: SLF001
+    with prairie._screen.opened(prairie.site) as painter:  # noqa: SLF001
         assert painter is not None
         painter.draw(View(*stage.matrices(aim)), scale=0.5)
     assert (stage.read() != empty).any()

@@ -89,7 +89,7 @@ def check_window_made_again(game: Game) -> str:
             window = pyglet.window.Window(*SIZE, config=configured())
             told[f"window {number}"] = different(picture(prairie), expected)
             window.close()
-        homes: Homes[Any] = prairie._assembly.screen._painters  # noqa: SLF001
+        homes: Homes[Any] = prairie._screen._painters  # noqa: SLF001
         told["painters"] = "" if len(homes) <= 2 else f"there are {len(homes)}"
         game.window.switch_to()
     empty = {kind: count for kind, count in objects().items() if count > before[kind]}
