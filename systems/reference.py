@@ -150,7 +150,6 @@ class EveryBlade:
         cover = None
         if reach is not None:
             patches, appears = self.outlook.patches, self.outlook.appearance
-            assert appears is not None
             cover = np.where(patches.distance > reach, appears.cover[-1], np.float32(0.0))
             cells = cells[discrete_distance(cells, self.outlook.viewer.centre) <= reach]
         cells = cells[self.prairie.clearings.spare(cells)]

@@ -32,7 +32,6 @@ def get_ready(outlook: Outlook, representations: Sequence[Representation], befor
 
 def keep_on(outlook: Outlook, representations: Sequence[Representation], before: Sequence[Representation], /) -> None:
     """Hand an outlook's pools over to other representations; grass that has not been grown anew stays planted."""
-    assert outlook.appearance is not None
     for each, other, cover in zip(representations, before, outlook.appearance.cover, strict=True):
         kept = outlook.kept[each.name]
         each.carry(other, kept, outlook.patches)

@@ -63,7 +63,7 @@ class Outlook:
     shown: dict[str, object] = field(default_factory=dict)
     """Grass that each representation shows in this frame, by its name."""
 
-    appearance: Appearance | None = None
+    appearance: Appearance = field(init=False)
     """Cover, morph and growth of all patches in this frame."""
 
     mean_index: float = 0.0

@@ -315,7 +315,6 @@ def test_n12_blades_on_their_way_to_strips_lie_in_shadow_as_those_that_stand(
         prairie.shadows([night])
         darker.append(stage.shot(prairie, aim).mean() / lit.mean())
         prairie.shadows([])
-    assert outlook.appearance is not None
     moved = outlook.appearance.morph[outlook.patches.shown & (outlook.appearance.morph > 0.0)]
     assert len(moved) > 4
     assert 0.3 < moved.min() <= moved.max() < 1.0

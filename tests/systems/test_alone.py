@@ -73,7 +73,6 @@ def test_see_shows_each_patch_in_its_representation(world: World) -> None:
     outlook = viewer_on(SITE, world)
     systems_on(SITE, [outlook], world).run(last=Phase.SEE)
     See([outlook], SITE.representations, SITE.reach, PATCH).run()
-    assert outlook.appearance is not None
     rows = outlook.shows(BladesShown).standing.rows
     assert (outlook.appearance.cover[0, rows] > 0.0).all()
     assert (outlook.patches.distance[rows] <= 2).all()

@@ -57,7 +57,6 @@ def gathered(outlook: Outlook, *, first: int = 0) -> tuple[NDArray[np.void], NDA
         feet.append(pool.places(ring.slots).reshape(-1, 2))
         receivers.append((start, len(feet[-1]) // len(ring.rows)))
         start += len(feet[-1])
-    assert outlook.appearance is not None
     shown = [ring for _, ring in strips(outlook)]
     placements = gather_strips(shown, receivers, outlook.appearance, outlook.patches, outlook.viewer.centre, fade=True)
     return placements, np.concatenate(feet)

@@ -306,7 +306,6 @@ def test_f1_where_strips_turn_back_half_way_no_blade_jumps(laid: Laid, look: Loo
     look(site, 1.25, 1.2)
     look(site, 1.25, 8.8, dt=0.0)
     outlook = look(site, 1.25, 8.8, dt=0.3 * FADE)
-    assert outlook.appearance is not None
     patches, cover = outlook.patches, outlook.appearance.cover[1]
     rows = [row for row in patches.shown.nonzero()[0].tolist() if len(painted(outlook, row)) == 2]
     there = [painted(outlook, row) for row in rows]

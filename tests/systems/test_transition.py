@@ -197,7 +197,6 @@ def alone(site: Site, world: World) -> Outlook:
 
 def showing(outlook: Outlook, row: int) -> set[str]:
     """Return the representations that draw the patch of a row; the carpet only with a cover above 0."""
-    assert outlook.appearance is not None
     strips = np.concatenate([ring.rows for ring in outlook.shows(StripsShown).rings])
     blades, carpet = outlook.shows(BladesShown).standing.rows, outlook.appearance.cover[2, row] > 0.0
     return {name for name, there in zip(NAMES, (row in blades, row in strips, carpet), strict=True) if there}

@@ -30,7 +30,6 @@ def at_home(outlook: Outlook, shown: Standing, away: Floats, /) -> NDArray[np.bo
     whole border. The nearest come first, since morphing blades are drawn behind standing ones. `away` has the
     distances of their own places from the eye [m], shape (m, blades).
     """
-    assert outlook.appearance is not None
     nearest, farthest = float(away.min(initial=np.inf)), float(away.max(initial=0.0))
     moved = outlook.appearance.morph[shown.rows][:, None] / np.float32(HOME)
     return np.asarray((away - nearest) / np.float32(max(farthest - nearest, 1e-6)) + moved <= 1.0)
@@ -65,7 +64,6 @@ def gather_morph(
     # Strips are counted from the far side, planes in the order of the model.
     backwards = is_reversed(orientation, along, turn) != lies_ahead(patches.cell[rows], outlook.viewer.centre, along)
     slices = np.where(backwards[:, None], counts[:, None] - 1 - plane, plane)
-    assert outlook.appearance is not None
     side, moved = strips.quality.patch, outlook.appearance.morph[rows][:, None]
     behind = np.arange(len(rows), 0, -1)[:, None] * (DIAGONAL * side)
     on_strips = behind + (counts[:, None] - slices) * (side / counts[:, None]) + AMONG * away

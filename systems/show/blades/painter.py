@@ -210,7 +210,6 @@ class BladesPainter(RepresentationPainter):
     def _upload(self, outlook: Outlook, first: Mapping[str, list[int]]) -> _Upload:
         """Return the data of a viewer's frame; the order is kept while nothing morphs and eye and patches stay."""
         kept, shown, viewer = outlook.keeps(BladesKept), outlook.shows(BladesShown), outlook.viewer
-        assert outlook.appearance is not None
         left, _ = handed_over(outlook.appearance.handed[shown.morphing.rows], fade=self._fade)
         slots, places = shown.standing.slots, (ring.places.tobytes() for ring in shown.rings)
         pool = kept.pool
@@ -319,7 +318,6 @@ def _set_morph(
     `first` has the number of each strip ring's first receiver.
     """
     appears, rows, places = outlook.appearance, shown.rows, shown.places
-    assert appears is not None
     ring, along = strips.ring_and_axis(outlook, rows)
     standing["morph"][places], standing["growth"][places] = appears.morph[rows], appears.growth[rows]
     standing["along"][places], standing["ring"][places] = along, ring

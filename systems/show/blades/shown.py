@@ -64,7 +64,6 @@ def show_blades(outlook: Outlook, cover: Floats, /, *, level: int, side: int, ri
     number of rings.
     """
     patches = outlook.patches
-    assert outlook.appearance is not None
     near = patches.far_to_near((patches.shown & (cover > 0.0)).nonzero()[0])
     slots = window_rows(patches.cell.take(near, axis=0), side=side)
     morphs = outlook.appearance.morph[near] > 0.0

@@ -131,7 +131,6 @@ class CarpetPainter(RepresentationPainter):
 
     def write(self, outlook: Outlook, first: Mapping[str, list[int]], /) -> int:
         """Upload the tiles of the ground and the carpet's share of each patch; return 0, as it has no blades."""
-        assert outlook.appearance is not None
         self.lay(outlook, outlook.appearance.cover[-1])
         self.ground.tread(is_trodden=bool(outlook.noted(Trodden, UNTRODDEN)))
         self._heard = outlook.viewer.centre, first["carpet"][0], outlook.keeps(CarpetKept)

@@ -192,7 +192,6 @@ class StripsPainter(RepresentationPainter):
 
     def _gather(self, outlook: Outlook, first: Mapping[str, list[int]]) -> Gathered:
         rings, appears, centre = _rings(outlook), outlook.appearance, outlook.viewer.centre
-        assert appears is not None
         shown = [ring for _, ring in rings]
         numbered = [(start, prod(pool.shape)) for start, (pool, _) in zip(first["strips"], rings, strict=True)]
         placements = gather_strips(shown, numbered, appears, outlook.patches, centre, fade=self._fade)

@@ -55,7 +55,6 @@ def show_strips(outlook: Outlook, cover: Floats, /, *, level: int, side: int, ri
     `level` is the number of the representation, `side` the number of patches along a side of each ring's pool.
     """
     patches, appears = outlook.patches, outlook.appearance
-    assert appears is not None
     reached = (appears.handed > 0.0) | (appears.morph > 0.0)
     # Beyond the room of the strips' pools, patches have no sub-level.
     seen = (patches.shown & (cover > 0.0) & reached & (patches.sublevel[level] >= 0)).nonzero()[0]

@@ -231,7 +231,6 @@ def scene(
     look(-0.05)
     outlook, painter = prairie.viewers["main"], prairie.painter
     assert painter is not None
-    assert outlook.appearance is not None
     blades, strips = painter.painters["blades"], painter.painters["strips"]
     near, representation = prairie.site.representations[:2]
     assert isinstance(blades, BladesPainter)

@@ -1,5 +1,6 @@
 """Blades that morph to their painted places, as computed by the graphics card (X3, X4)."""
 
+from copy import copy
 from dataclasses import replace
 from typing import Any
 
@@ -7,6 +8,7 @@ import numpy as np
 
 from tallgrass.components.arrays import Doubles
 from tallgrass.engine.gl.stream import Stream, release_all
+from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.features import UNITS
 from tallgrass.systems.frame.block import room_for
 from tallgrass.systems.land.part import LandPart
@@ -149,14 +151,19 @@ def test_x3_in_between_it_is_on_the_straight_way(scene: Any) -> None:
     assert np.quantile(apart, 0.95) < 1.0
 
 
+def moved(outlook: Outlook, part: float) -> Outlook:
+    """Return the outlook whose blades have all come this part of the way to their painted places."""
+    made = copy(outlook)
+    made.appearance = replace(outlook.appearance, morph=np.full_like(outlook.appearance.morph, part))
+    return made
+
+
 def test_x3_blades_that_arrive_in_their_own_places_are_in_the_order_of_those_that_stand(scene: Any) -> None:
     outlook, shown = scene.outlook, scene.morphing
     pool, left = outlook.keeps(BladesKept).pool, np.ones(len(shown.rows), np.float32)
-    arrived = replace(outlook.appearance, morph=np.zeros_like(outlook.appearance.morph))
     eye = outlook.viewer.eye[0], outlook.viewer.eye[2]
     away, nowhere = distances(pool, shown.slots, eye), np.zeros((len(left), pool.present.shape[1]), np.bool_)
-    seen = replace(outlook, appearance=arrived)
-    numbers = gather_morph(seen, pool, scene.representation, shown, away=away, left=left, home=nowhere)
+    numbers = gather_morph(moved(outlook, 0.0), pool, scene.representation, shown, away=away, left=left, home=nowhere)
     np.testing.assert_array_equal(numbers, gather_blades(pool, shown, eye=eye))
     assert len(numbers) >= 200
 
@@ -167,10 +174,8 @@ def test_x3_blades_that_come_home_take_their_turn_one_by_one_from_the_nearest_on
     eye, each = (outlook.viewer.eye[0], outlook.viewer.eye[2]), pool.present.shape[1]
     away = distances(pool, shown.slots, eye)
     stood = []
-    for moved in np.linspace(1.2 * HOME, 0.0, 7, dtype=np.float32):
-        coming = replace(
-            outlook, appearance=replace(outlook.appearance, morph=np.full_like(outlook.appearance.morph, moved))
-        )
+    for part in np.linspace(1.2 * HOME, 0.0, 7, dtype=np.float32):
+        coming = moved(outlook, part)
         home = at_home(coming, shown, away)
         going = gather_morph(coming, pool, scene.representation, shown, away=away, left=left, home=home)
         standing = gather_blades(pool, shown, eye=eye, stand=home)

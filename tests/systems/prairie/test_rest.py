@@ -58,7 +58,6 @@ def look_on(outlook: Outlook, _: object, __: object, run: Callable[[], None], **
 
 def seen(prairie: Prairie) -> list[bytes]:
     outlook = prairie.viewers["main"]
-    assert outlook.appearance is not None
     return [outlook.patches.changing.tobytes(), outlook.appearance.cover.tobytes(), outlook.appearance.growth.tobytes()]
 
 
