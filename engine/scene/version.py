@@ -1,12 +1,10 @@
 """Versions of the scene format, and upgrades from one to the next."""
 
-from collections.abc import Callable, Mapping
 from typing import Any
 
 from ..declared.scene import FORMAT
 
 Values = dict[str, Any]
-Steps = Mapping[int, Callable[[Values], Values]]
 
 FIRST_LIGHT = {"sun": "#fff1d6", "zenith": "#4f86c6", "horizon": "#cfdfe8", "haze": 900.0}
 """Defaults of light in format 1: a sky of two colours, where later formats have that of clear air."""
@@ -29,18 +27,18 @@ def _second(values: Values) -> Values:
     return {"mixing": "priority"} | values | kinds | {"light": _with_defaults(values.get("light"), FIRST_LIGHT)}
 
 
-STEPS: Steps = {1: _second}
-"""Functions that upgrade a scene's values to the next version, by the version they start from."""
+STEPS = (_second,)
+"""Functions that upgrade a scene's values, each to the next format, from format 1 on."""
 
 FIRST = f"a scene begins with 'tallgrass: {FORMAT}', the version of the scene format"
 
 
-def upgrade(values: Values, version: int, /, *, steps: Steps = STEPS, to: int = FORMAT) -> Values:
-    """Return the values upgraded to version `to`. Raises ValueError for an unknown version."""
-    if version > to:
-        raise ValueError(f"this scene is of format {version}, this release reads up to {to}; update tallgrass")
-    for step in range(version, to):
-        if step not in steps:
-            raise ValueError(f"there is no scene format {version}; write 'tallgrass: {to}'")
-        values = steps[step](values) | {"tallgrass": step + 1}
+def upgrade(values: Values, version: int, /) -> Values:
+    """Return the values upgraded to the present format. Raises ValueError for an unknown version."""
+    if version > FORMAT:
+        raise ValueError(f"this scene is of format {version}, this release reads up to {FORMAT}; update tallgrass")
+    if version < 1:
+        raise ValueError(f"there is no scene format {version}; write 'tallgrass: {FORMAT}'")
+    for step in STEPS[version - 1 :]:
+        values = step(values) | {"tallgrass": FORMAT}
     return values

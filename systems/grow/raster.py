@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Doubles, Floats, Rows
 
-_CHUNK = 1 << 15
+CHUNK = 1 << 15
 """Number of fragments processed at a time: few enough for the processor's cache."""
 
 _SLIVER = 1e-9
@@ -36,28 +36,20 @@ class Fragments:
 
 
 def rasterise(
-    corners: Doubles,
-    nearness: Doubles,
-    /,
-    *,
-    shape: tuple[int, int],
-    wrap: bool = False,
-    shift: int = 0,
-    chunk: int = _CHUNK,
+    corners: Doubles, nearness: Doubles, /, *, shape: tuple[int, int], wrap: bool = False, shift: int = 0
 ) -> Fragments:
     """Return the nearest triangle at each sample of an image.
 
     `corners` are (x, y) in samples, shape (n, 3, 2): sample (row, column) lies at y = row + 0.5 and somewhere
     between x = column and column + 1, staggered from row to row over every four rows. `nearness` is larger
     nearer to the eye, shape (n, 3). With `wrap` the image is a torus, twisted by `shift` rows: what leaves at the last
-    column enters at the first, with a row number smaller by `shift`. Without it, what lies outside is clipped. `chunk`
-    bounds the fragments that are held at a time.
+    column enters at the first, with a row number smaller by `shift`. Without it, what lies outside is clipped.
     """
     planes = plane_of(corners, nearness)
     low, high = (float(nearness.min()), float(nearness.max())) if nearness.size else (0.0, 0.0)
     scale = (2.0**32 - 1.0) / max(high - low, 1e-12)
     depth = _DepthBuffer(shape, wrap=wrap, shift=shift)
-    for triangle, row, column in _samples_inside(corners, shape, wrap=wrap, chunk=chunk):
+    for triangle, row, column in _samples_inside(corners, shape, wrap=wrap):
         x, y = _sample_x(row, column), _sample_y(row)
         steps = np.clip((_value(planes, triangle, x, y) - low) * scale, 0.0, 2.0**32 - 1.0).astype(np.uint64)
         depth.write((steps << np.uint64(32)) | (triangle + 1).astype(np.uint64), row, column)
@@ -133,18 +125,16 @@ class _DepthBuffer:
         return Fragments(sample, triangle, _sample_x(row, column), _sample_y(row))
 
 
-def _samples_inside(
-    corners: Doubles, shape: tuple[int, int], /, *, wrap: bool, chunk: int
-) -> Iterator[tuple[Rows, Rows, Rows]]:
-    """Yield the samples inside all triangles, about `chunk` at a time: triangle, row and column, shape (m,) each."""
+def _samples_inside(corners: Doubles, shape: tuple[int, int], /, *, wrap: bool) -> Iterator[tuple[Rows, Rows, Rows]]:
+    """Yield the samples inside all triangles, about `CHUNK` at a time: triangle, row and column, shape (m,) each."""
     halves = _halves(corners, shape, wrap=wrap)
-    for start, stop in _chunks(halves.count, chunk):
+    for start, stop in _chunks(halves.count):
         half, row = _expand(halves.count[start:stop], halves.low[start:stop])
         triangle, first, last = halves.row_spans(half + start, row)
         if not wrap:
             first, last = np.clip(first, 0, shape[1]), np.clip(last, 0, shape[1])
         length = np.maximum(last - first, 0)
-        for begin, end in _chunks(length, chunk):
+        for begin, end in _chunks(length):
             span, column = _expand(length[begin:end], first[begin:end])
             yield triangle[begin:end].take(span), row[begin:end].take(span), column
 
@@ -218,11 +208,11 @@ def _expand(length: Rows, first: Rows, /) -> tuple[Rows, Rows]:
     return run, np.arange(run.shape[0]) + start.take(run)
 
 
-def _chunks(length: Rows, chunk: int, /) -> list[tuple[int, int]]:
-    """Return ranges of runs that hold about `chunk` elements each."""
+def _chunks(length: Rows, /) -> list[tuple[int, int]]:
+    """Return ranges of runs that hold about `CHUNK` elements each."""
     if not length.size:
         return []
-    number = (np.cumsum(length) - length) // chunk
+    number = (np.cumsum(length) - length) // CHUNK
     edges = [0, *(np.flatnonzero(np.diff(number)) + 1).tolist(), length.shape[0]]
     return list(pairwise(edges))
 

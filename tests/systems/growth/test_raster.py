@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from tallgrass.systems.grow import raster
 from tallgrass.systems.grow.raster import interpolate, rasterise, ribbon_triangles
 
 STAGGER = np.array([0.125, 0.625, 0.375, 0.875])
@@ -55,7 +56,7 @@ def test_every_sample_shows_the_nearest_triangle_over_it(*, seed: int, wrap: boo
     corners = random.uniform(-0.4, 1.4, (count, 3, 2)) * [columns, rows]
     nearness = random.uniform(0.0, 1.0, (count, 3))
     turns = [(x * columns, y * rows + x * shift) for x in range(-2, 3) for y in range(-4, 5)] if wrap else [(0, 0)]
-    seen = rasterise(corners, nearness, shape=(rows, columns), wrap=wrap, shift=shift, chunk=50)
+    seen = rasterise(corners, nearness, shape=(rows, columns), wrap=wrap, shift=shift)
     shown = np.full(rows * columns, -1)
     shown[seen.sample] = seen.triangle
     np.testing.assert_array_equal(shown, brute(corners, nearness, rows, columns, np.array(turns, np.float64)))
@@ -66,7 +67,10 @@ def test_every_sample_shows_the_nearest_triangle_over_it(*, seed: int, wrap: boo
 def test_chunks_make_no_difference(seed: int) -> None:
     random = np.random.default_rng(seed)
     corners, nearness = random.uniform(0.0, 20.0, (30, 3, 2)), random.uniform(0.0, 1.0, (30, 3))
-    whole, parts = (rasterise(corners, nearness, shape=(20, 20), chunk=chunk) for chunk in (1 << 20, 7))
+    whole = rasterise(corners, nearness, shape=(20, 20))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(raster, "CHUNK", 7)
+        parts = rasterise(corners, nearness, shape=(20, 20))
     np.testing.assert_array_equal(whole.sample, parts.sample)
     np.testing.assert_array_equal(whole.triangle, parts.triangle)
 
