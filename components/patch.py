@@ -1,5 +1,6 @@
 """Components of patches of grass and of their level of detail, for a game to read and to write."""
 
+from dataclasses import dataclass
 from typing import Protocol, final
 
 import numpy as np
@@ -21,48 +22,42 @@ class Cleared(Protocol):
         """Restore the grass of a cell."""
 
 
-class Levels(Protocol):
-    """The levels of detail of all patches around a viewer, one row each."""
+@dataclass(frozen=True, slots=True, eq=False)
+class LodTable:
+    """The levels of detail of all patches around a viewer, a row each.
 
-    @property
-    def viewer(self) -> str:
-        """Name of the viewer."""
+    Representations are numbered from the finest to the coarsest; -1 is none.
+    """
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Names of the representations, by number."""
+    viewer: str
+    """The viewer's name."""
 
-    @property
-    def cell(self) -> NDArray[np.int32]:
-        """Shape (rows, 2)."""
+    names: tuple[str, ...]
+    """Names of the representations."""
 
-    @property
-    def distance(self) -> NDArray[np.int32]:
-        """Shape (rows,)."""
+    cell: NDArray[np.int32]
+    """Cell (i, j), shape (rows, 2)."""
 
-    @property
-    def visible(self) -> NDArray[np.bool_]:
-        """Shape (rows,)."""
+    distance: NDArray[np.int32]
+    """Discrete distance along the ground, shape (rows,)."""
 
-    @property
-    def wanted(self) -> NDArray[np.int8]:
-        """Shape (rows,)."""
+    visible: NDArray[np.bool_]
+    """Whether the patch is inside the view cone, shape (rows,)."""
 
-    @property
-    def hold(self) -> NDArray[np.int8]:
-        """Shape (rows,)."""
+    wanted: NDArray[np.int8]
+    """Representation that is due, shape (rows,)."""
 
-    @property
-    def representation(self) -> NDArray[np.int8]:
-        """Shape (rows,)."""
+    hold: NDArray[np.int8]
+    """Representation that a game holds the patch in, whatever is due, shape (rows,)."""
 
-    @property
-    def previous(self) -> NDArray[np.int8]:
-        """Shape (rows,)."""
+    representation: NDArray[np.int8]
+    """Current representation; during a change the new one, shape (rows,)."""
 
-    @property
-    def progress(self) -> NDArray[np.float32]:
-        """Shape (rows,)."""
+    previous: NDArray[np.int8]
+    """Representation before the last change, shape (rows,)."""
+
+    progress: NDArray[np.float32]
+    """Progress of that change, 1 when it is over, shape (rows,)."""
 
 
 @final
@@ -118,7 +113,7 @@ class Lod:
 
     __slots__ = ("_cell", "_levels", "_row")
 
-    def __init__(self, levels: Levels, row: int, cell: Cell) -> None:
+    def __init__(self, levels: LodTable, row: int, cell: Cell) -> None:
         self._levels, self._row, self._cell = levels, row, cell
 
     def __repr__(self) -> str:
