@@ -1,7 +1,8 @@
 """Components of patches of grass and of their level of detail, for a game to read and to write."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Protocol, final
+from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,16 +11,43 @@ Cell = tuple[int, int]
 """A square (i, j) of the tiling; it covers [i, i + 1) by [j, j + 1) patch sides in x and z."""
 
 
-class Cleared(Protocol):
-    """The set of cells whose grass has been removed."""
+class Clearings:
+    """The cells whose grass is taken away, for all viewers and at any distance from them."""
 
-    def __contains__(self, cell: object, /) -> bool: ...
+    def __init__(self) -> None:
+        self._cells: set[Cell] = set()
+        self.version = 0
+        """A number that differs after every change."""
+
+    def __contains__(self, cell: object) -> bool:
+        return cell in self._cells
 
     def clear(self, cell: Cell, /) -> None:
-        """Remove the grass of a cell."""
+        """Take the grass of a cell away."""
+        self._cells.add(cell)
+        self.version += 1
 
     def restore(self, cell: Cell, /) -> None:
-        """Restore the grass of a cell."""
+        """Give the grass of a cell back."""
+        self._cells.discard(cell)
+        self.version += 1
+
+    @property
+    def cells(self) -> frozenset[Cell]:
+        """The cells that are cleared."""
+        return frozenset(self._cells)
+
+    def resume(self, cells: Iterable[Cell], /) -> None:
+        """Clear these cells and no others, as a saved state says."""
+        self._cells = set(cells)
+        self.version += 1
+
+    def spare(self, cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
+        """Return which cells (n, 2) keep their grass, shape (n,)."""
+        if not self._cells:
+            return np.ones(len(cells), np.bool_)
+        cleared = _keys(np.array(list(self._cells), np.int64))
+        return np.isin(_keys(cells.astype(np.int64)), cleared, invert=True)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,7 +97,7 @@ class Patch:
 
     __slots__ = ("_cell", "_cleared", "_model", "_turn")
 
-    def __init__(self, cell: Cell, model: int, turn: int, cleared: Cleared) -> None:
+    def __init__(self, cell: Cell, model: int, turn: int, cleared: Clearings) -> None:
         self._cell, self._model, self._turn, self._cleared = cell, model, turn, cleared
 
     def __repr__(self) -> str:
@@ -195,3 +223,8 @@ class Lod:
         if not self._is_there():
             raise RuntimeError(f"the viewer '{self.viewer}' has left the patch {self._cell} behind")
         return self._row
+
+
+def _keys(cells: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return a unique number for each cell (n, 2), shape (n,)."""
+    return cells[:, 0] << 32 ^ cells[:, 1] & 0xFFFFFFFF
