@@ -1,6 +1,8 @@
 """Components of patches of grass and of their level of detail, for a game to read and to write."""
 
-from typing import Protocol, final
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,60 +11,81 @@ Cell = tuple[int, int]
 """A square (i, j) of the tiling; it covers [i, i + 1) by [j, j + 1) patch sides in x and z."""
 
 
-class Cleared(Protocol):
-    """The set of cells whose grass has been removed."""
+class Clearings:
+    """The cells whose grass is taken away, for all viewers and at any distance from them."""
 
-    def __contains__(self, cell: object, /) -> bool: ...
+    def __init__(self) -> None:
+        self._cells: set[Cell] = set()
+        self.version = 0
+        """A number that differs after every change."""
+
+    def __contains__(self, cell: object) -> bool:
+        return cell in self._cells
 
     def clear(self, cell: Cell, /) -> None:
-        """Remove the grass of a cell."""
+        """Take the grass of a cell away."""
+        self._cells.add(cell)
+        self.version += 1
 
     def restore(self, cell: Cell, /) -> None:
-        """Restore the grass of a cell."""
-
-
-class Levels(Protocol):
-    """The levels of detail of all patches around a viewer, one row each."""
+        """Give the grass of a cell back."""
+        self._cells.discard(cell)
+        self.version += 1
 
     @property
-    def viewer(self) -> str:
-        """Name of the viewer."""
+    def cells(self) -> frozenset[Cell]:
+        """The cells that are cleared."""
+        return frozenset(self._cells)
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Names of the representations, by number."""
+    def resume(self, cells: Iterable[Cell], /) -> None:
+        """Clear these cells and no others, as a saved state says."""
+        self._cells = set(cells)
+        self.version += 1
 
-    @property
-    def cell(self) -> NDArray[np.int32]:
-        """Shape (rows, 2)."""
+    def spare(self, cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
+        """Return which cells (n, 2) keep their grass, shape (n,)."""
+        if not self._cells:
+            return np.ones(len(cells), np.bool_)
+        cleared = _keys(np.array(list(self._cells), np.int64))
+        return np.isin(_keys(cells.astype(np.int64)), cleared, invert=True)
 
-    @property
-    def distance(self) -> NDArray[np.int32]:
-        """Shape (rows,)."""
 
-    @property
-    def visible(self) -> NDArray[np.bool_]:
-        """Shape (rows,)."""
+@dataclass(frozen=True, slots=True, eq=False)
+class LodTable:
+    """The levels of detail of all patches around a viewer, a row each.
 
-    @property
-    def wanted(self) -> NDArray[np.int8]:
-        """Shape (rows,)."""
+    Representations are numbered from the finest to the coarsest; -1 is none.
+    """
 
-    @property
-    def hold(self) -> NDArray[np.int8]:
-        """Shape (rows,)."""
+    viewer: str
+    """The viewer's name."""
 
-    @property
-    def representation(self) -> NDArray[np.int8]:
-        """Shape (rows,)."""
+    names: tuple[str, ...]
+    """Names of the representations."""
 
-    @property
-    def previous(self) -> NDArray[np.int8]:
-        """Shape (rows,)."""
+    cell: NDArray[np.int32]
+    """Cell (i, j), shape (rows, 2)."""
 
-    @property
-    def progress(self) -> NDArray[np.float32]:
-        """Shape (rows,)."""
+    distance: NDArray[np.int32]
+    """Discrete distance along the ground, shape (rows,)."""
+
+    visible: NDArray[np.bool_]
+    """Whether the patch is inside the view cone, shape (rows,)."""
+
+    wanted: NDArray[np.int8]
+    """Representation that is due, shape (rows,)."""
+
+    hold: NDArray[np.int8]
+    """Representation that a game holds the patch in, whatever is due, shape (rows,)."""
+
+    representation: NDArray[np.int8]
+    """Current representation; during a change the new one, shape (rows,)."""
+
+    previous: NDArray[np.int8]
+    """Representation before the last change, shape (rows,)."""
+
+    progress: NDArray[np.float32]
+    """Progress of that change, 1 when it is over, shape (rows,)."""
 
 
 @final
@@ -74,7 +97,7 @@ class Patch:
 
     __slots__ = ("_cell", "_cleared", "_model", "_turn")
 
-    def __init__(self, cell: Cell, model: int, turn: int, cleared: Cleared) -> None:
+    def __init__(self, cell: Cell, model: int, turn: int, cleared: Clearings) -> None:
         self._cell, self._model, self._turn, self._cleared = cell, model, turn, cleared
 
     def __repr__(self) -> str:
@@ -118,7 +141,7 @@ class Lod:
 
     __slots__ = ("_cell", "_levels", "_row")
 
-    def __init__(self, levels: Levels, row: int, cell: Cell) -> None:
+    def __init__(self, levels: LodTable, row: int, cell: Cell) -> None:
         self._levels, self._row, self._cell = levels, row, cell
 
     def __repr__(self) -> str:
@@ -200,3 +223,8 @@ class Lod:
         if not self._is_there():
             raise RuntimeError(f"the viewer '{self.viewer}' has left the patch {self._cell} behind")
         return self._row
+
+
+def _keys(cells: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return a unique number for each cell (n, 2), shape (n,)."""
+    return cells[:, 0] << 32 ^ cells[:, 1] & 0xFFFFFFFF

@@ -4,6 +4,7 @@ import gc
 import logging
 from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from itertools import count
 from operator import itemgetter
 from typing import Any, TypeVar
@@ -12,7 +13,6 @@ from weakref import WeakSet, ref
 import esper
 
 from ..components.pose import Pose
-from ..components.resident import Resident
 from .handed import NUMBER_TYPES, SOMEWHERE, is_somewhere
 
 Component = TypeVar("Component")
@@ -38,11 +38,28 @@ class Residents:
         """Identity of each entity's `Resident` component: entity numbers may be used again."""
         self.lost: list[int] = []
 
-    def note_gone(self, resident: Resident, /) -> None:
+    def note_gone(self, resident: "Resident", /) -> None:
         """Record that an entity has been deleted, unless a new entity has its number."""
         if self.marks.get(resident.entity) == id(resident):
             del self.marks[resident.entity]
             self.lost.append(resident.entity)
+
+
+@dataclass(slots=True, eq=False, weakref_slot=True)
+class Resident:
+    """A component of every entity that a prairie created.
+
+    A game that deletes its entities leaves those with this component alone; the prairie deletes them itself.
+    """
+
+    owner: Residents
+
+    entity: int = 0
+    """Entity that it marks."""
+
+    def __del__(self) -> None:
+        """Notify the owner: only esper refers to a mark, so it is freed as soon as its entity is deleted."""
+        self.owner.note_gone(self)
 
 
 class _Never:
@@ -216,7 +233,7 @@ class World:
             log.warning("%s of entity %d is left out while it has %s%s: %s", what, entity, have, more, SOMEWHERE)
         return usable
 
-    def _owner(self, entity: int) -> object | None:
+    def _owner(self, entity: int) -> Residents | None:
         mark = esper.try_component(entity, Resident)
         return None if mark is None else mark.owner
 

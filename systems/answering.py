@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..components.arrays import Floats
 from ..components.grass_at import GrassAt
+from ..components.patch import Clearings
 from ..components.sun import Sun
 from ..engine.declared.light import Light
 from ..engine.declared.scene import Scene
@@ -18,7 +19,6 @@ from ..engine.terrain.pick import pick
 from ..engine.terrain.sample import density_at, height_at, natural_at, normal_at
 from ..engine.underflow import Underflowing
 from ..engine.world import World
-from .around.clearing import Clearings
 from .around.outlook import Outlooks
 from .entities import PatchEntities
 from .features import FEATURES, feature_of

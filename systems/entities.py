@@ -7,9 +7,8 @@ from itertools import chain, zip_longest
 import numpy as np
 from numpy.typing import NDArray
 
-from ..components.patch import Cell, Lod, Patch
+from ..components.patch import Cell, Clearings, Lod, Patch
 from ..engine.world import World
-from .around.clearing import Clearings
 from .around.outlook import Outlook
 from .around.patches import PatchTable
 from .show.representation import Representation

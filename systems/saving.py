@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from ..components.arrays import Bytes, Floats, Ints
+from ..components.patch import Clearings
 from ..components.pose import Pose
 from ..components.presser import Presser
 from ..components.tree import Tree
@@ -21,7 +22,6 @@ from ..engine.scene import LoadedScene
 from ..engine.stored import refuse, unfit
 from ..engine.terrain.change import Squares, changed_squares, restore_squares
 from ..engine.world import World
-from .around.clearing import Clearings
 from .brought import Brought
 from .examine import ground_of, mown_of, must_be_trodden, sown_of
 from .fitting import lie_of, must_fit, scene_of

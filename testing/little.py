@@ -9,6 +9,7 @@ import moderngl
 import numpy as np
 
 from ..components.arrays import Floats
+from ..components.patch import Clearings
 from ..components.viewer import Viewer
 from ..components.wind import WindPrimitive
 from ..engine.camera import Camera, View, camera_at, projection_matrix, view_matrix
@@ -18,7 +19,6 @@ from ..engine.scene.read import LoadedScene, load_document
 from ..engine.schedule import Phase, Schedule
 from ..engine.terrain.sample import height_at
 from ..engine.world import World
-from ..systems.around.clearing import Clearings
 from ..systems.around.outlook import Outlook
 from ..systems.around.transitions import SEAMLESS, Transitions
 from ..systems.assembly import Assembly

@@ -71,8 +71,8 @@ from tallgrass.engine.declared.quality import PRESETS, StripRing
 from tallgrass.systems.stock import models
 
 
-def _grow_little(mechanics=models._Mechanics.of(GrassKind()), postures=models._postures):
-    models._Mechanics.of, models._postures = lambda _: mechanics, lambda *_: postures(mechanics, 0)
+def _grow_little(mechanics=models.mechanics_of(GrassKind()), postures=models._postures):
+    models.mechanics_of, models._postures = lambda _: mechanics, lambda *_: postures(mechanics, 0)
     rings = [StripRing(to=8, strips=2, columns=1, sections=1, texel=0.03)]
     small = PRESETS["low"].model_copy(update={"blades": 40, "models": 1, "strip_rings": rings, "carpet": 16})
     PRESETS.update(dict.fromkeys(PRESETS, small))

@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from hashlib import sha256
-from typing import Self
 
 import numpy as np
 
@@ -25,22 +24,16 @@ class Shot:
     """GL_RENDERER of the context that drew it."""
 
 
-class Shooting:
+class Shooting(Studio):
     """A film that is drawn frame by frame, never backwards; a context manager.
 
     Skipped frames are followed without drawing, since a frame depends on those before. Raises what `Studio` does.
     """
 
     def __init__(self, take: Take, fps: int) -> None:
-        self._studio, self._fps = Studio(take), fps
-        self.following = 0
+        super().__init__(take)
+        self._fps, self.following = fps, 0
         """Index of the earliest frame that can still be drawn."""
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._studio.__exit__()
 
     def shots(self, first: int, end: int, /, *, files: Mapping[str, str] | None = None) -> Iterator[Shot]:
         """Yield the frames from `first` to the one before `end`, drawn as they are asked for.
@@ -50,22 +43,21 @@ class Shooting:
         """
         if first < self.following:
             raise ValueError(f"the frame {first} has gone by: the next one is {self.following}")
-        renderer = str(self._studio.ctx.info["GL_RENDERER"])
+        renderer = str(self.ctx.info["GL_RENDERER"])
         for number in range(first, end):
-            picture = self._picture(number)
+            picture = self._at(number)
             pixel_hash = sha256(np.ascontiguousarray(picture).data).hexdigest()
             frame = picture if files is None else png(picture, at_frame(files, number, self._fps))
             yield Shot(frame, pixel_hash, renderer)
 
-    def _picture(self, number: int) -> Picture:
-        studio = self._studio
+    def _at(self, number: int) -> Picture:
         while self.following < number:
-            studio.follow(studio.camera(self._advance()))
-        return studio.picture(studio.camera(self._advance()))
+            self.follow(self.camera(self._advance()))
+        return self.picture(self.camera(self._advance()))
 
     def _advance(self) -> float:
         """Advance the prairie to the next frame's instant, and return the instant [s]."""
         time = self.following / self._fps
-        self._studio.prairie.advance(time - self._studio.prairie.time)
+        self.prairie.advance(time - self.prairie.time)
         self.following += 1
         return time

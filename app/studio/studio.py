@@ -2,9 +2,6 @@
 
 import math
 from pathlib import Path
-from typing import Self
-
-import moderngl
 
 from ... import __version__
 from ...components.arrays import Floats
@@ -19,54 +16,38 @@ from .offscreen import Offscreen
 from .take import SAMPLES, Take
 
 
-class Studio:
-    """A prairie, and a framebuffer to draw it into; a context manager.
+class Studio(Offscreen):
+    """A prairie, and a framebuffer of the take's size to draw it into; a context manager.
 
     The scene is `loaded` if given, else the take's. Raises `SceneError` where the scene is wrong,
     MachineError where there is no OpenGL.
     """
 
     def __init__(self, take: Take, loaded: LoadedScene | None = None) -> None:
+        super().__init__(take.size)  # first: without it, nothing is grown in vain
         self.take = take
-        self._offscreen = Offscreen(take.size)  # first: without it, nothing is grown in vain
         try:
             loaded = read_scene(take.scene) if loaded is None else loaded
             self.prairie = Prairie(loaded, preset=take.preset, lod=take.lod, live=False)
         except BaseException:
-            self._offscreen.release()
+            self.release()
             raise
         self.overlay = Overlay(take.overlay)
 
-    def __enter__(self) -> Self:
-        return self
-
     def __exit__(self, *_: object) -> None:
-        self._offscreen.make_current()
+        self.make_current()
         self.overlay.release()
         self.prairie.release()
-        self._offscreen.release()
+        self.release()
 
     def camera(self, time: float | None) -> Camera:
         """Return the scene's camera: on its path at `time` [s], or with None its fixed place."""
         return camera_at(self.prairie.scene.camera, time, self.prairie.height_at)
 
-    @property
-    def ctx(self) -> moderngl.Context:
-        """GL context of the framebuffer."""
-        return self._offscreen.ctx
-
     def matrices(self, camera: Camera) -> tuple[Floats, Floats]:
         """Return the camera's view and projection matrices for pictures of the take's size."""
-        width, height = self.take.size
+        width, height = self.size
         return view_matrix(camera), projection_matrix(camera.view, width / height)
-
-    def begin(self) -> None:
-        """Bind the framebuffer and clear it."""
-        self._offscreen.begin()
-
-    def read(self) -> Picture:
-        """Return the picture in the framebuffer."""
-        return self._offscreen.read()
 
     def follow(self, camera: Camera) -> None:
         """Let the prairie go through this instant as `picture` does, without drawing."""

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...components.patch import LodTable
+
 WORD = 8
 """Alignment of columns in memory [bytes]."""
 
@@ -17,28 +19,18 @@ NOWHERE = np.iinfo(np.int32).min
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class PatchTable:
+class PatchTable(LodTable):
     """The patches around one viewer, a row each.
 
     The rows form a square window around the viewer that wraps round: the patch of cell (i, j) is always at
-    row (j mod side) * side + (i mod side), so that a step of the viewer replaces one line of rows. Representations are
-    numbered from the finest to the coarsest; -1 is none.
+    row (j mod side) * side + (i mod side), so that a step of the viewer replaces one line of rows.
     """
-
-    viewer: str
-    """The viewer's name."""
-
-    names: tuple[str, ...]
-    """Names of the representations."""
 
     side: int
     """Number of patches along the window's side."""
 
     changing: NDArray[np.uint8]
     """Memory of all columns that may change while the viewer stays in its cell; comparing it finds whether any did."""
-
-    cell: NDArray[np.int32]
-    """Cell (i, j), shape (rows, 2)."""
 
     middle: NDArray[np.float64]
     """Ground position (x, z) of the patch's middle [m], shape (rows, 2)."""
@@ -55,38 +47,17 @@ class PatchTable:
     turn: NDArray[np.int32]
     """Quarter turns of the model, shape (rows,)."""
 
-    distance: NDArray[np.int32]
-    """Discrete distance along the ground, shape (rows,)."""
-
     away: NDArray[np.int32]
     """Discrete distance with the eye's height counted, shape (rows,)."""
 
     nearness: NDArray[np.int16]
     """Sort key of the drawing order: it rises from far to near, shape (rows,)."""
 
-    visible: NDArray[np.bool_]
-    """Whether the patch is inside the view cone, shape (rows,)."""
-
     near: NDArray[np.bool_]
     """Whether the patch is visible, or among the four patches nearest to a visible place, shape (rows,)."""
 
     was_visible: NDArray[np.bool_]
     """Whether the patch was visible in the viewer's last frame, shape (rows,)."""
-
-    wanted: NDArray[np.int8]
-    """Representation that is due, shape (rows,)."""
-
-    hold: NDArray[np.int8]
-    """Representation that a game holds the patch in, whatever is due, shape (rows,)."""
-
-    representation: NDArray[np.int8]
-    """Current representation; during a change the new one, shape (rows,)."""
-
-    previous: NDArray[np.int8]
-    """Representation before the last change, shape (rows,)."""
-
-    progress: NDArray[np.float32]
-    """Progress of that change, 1 when it is over, shape (rows,)."""
 
     height: NDArray[np.float32]
     """Height of the ground at the patch's middle [m], shape (rows,)."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Floats, Rows
-from ...components.receivers import Receivers
+from ...components.receivers import Places, Receivers
 from ...engine.world import World
 from .patches import PatchTable
 
@@ -20,7 +20,7 @@ NOT_FINITE = "messages of receivers must be finite numbers; those that are not w
 log = logging.getLogger("tallgrass")
 
 
-class Pool(Protocol):
+class Pool(Places, Protocol):
     """Receivers of one representation around a viewer, with a slot for each patch."""
 
     @property
@@ -30,12 +30,6 @@ class Pool(Protocol):
     @property
     def shape(self) -> tuple[int, ...]:
         """Shape of the array of a slot's receivers."""
-
-    def places(self, slots: Rows, /) -> Floats:
-        """Return the ground positions (x, z) [m] of the receivers of slots (m,), shape (m, *shape, 2)."""
-
-    def kind(self, slots: Rows, /) -> NDArray[np.intp]:
-        """Return the kind of grass of each receiver, slot by slot, shape (n,)."""
 
     def grows(self, slots: Rows, cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
         """Return which receivers of slots (m,), on cells (m, 2), have any grass, shape (n,)."""

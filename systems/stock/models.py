@@ -1,6 +1,6 @@
 """Growing a kind of grass: postures, response, and patch models with all their pictures (paper, sections 2.2, 3.2)."""
 
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import fields, is_dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -40,7 +40,7 @@ def grow(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
     The textures of all patch models have the same size, height and margin, so that they can be layers of one texture.
     They are drawn on several threads: each depends on its own patch model alone.
     """
-    mechanics = _Mechanics.of(kind)
+    mechanics = mechanics_of(kind)
     give, response = _give_and_response(mechanics)
     postures = replace(_postures(mechanics, seed), give=give)
     layout = layout_of(kind, quality)
@@ -65,38 +65,22 @@ def precompute_bytes(growth: Growth, /) -> int:
     return sum(seen.values())
 
 
-@dataclass(frozen=True, slots=True)
-class _Mechanics:
-    """The values of a kind that its simulation depends on."""
-
-    height: tuple[float, ...]
-    width: float
-    taper: float
-    stiffness: float
-    damping: float
-
-    @classmethod
-    def of(cls, kind: GrassKind, /) -> "_Mechanics":
-        return cls(tuple(kind.height), kind.width, kind.taper, kind.stiffness, kind.damping)
-
-    @property
-    def kind(self) -> GrassKind:
-        """A kind with these values, and defaults otherwise."""
-        return GrassKind(
-            height=[*self.height], width=self.width, taper=self.taper, stiffness=self.stiffness, damping=self.damping
-        )
+def mechanics_of(kind: GrassKind, /) -> str:
+    """Return the values of a kind that its simulation depends on, as JSON."""
+    return kind.model_dump_json(include={"height", "width", "taper", "stiffness", "damping"})
 
 
 @lru_cache(maxsize=_REMEMBERED)
-def _give_and_response(mechanics: _Mechanics, /) -> tuple[Floats, Response]:
+def _give_and_response(mechanics: str, /) -> tuple[Floats, Response]:
     """Return the give and the response of grass with these values."""
-    return grow_give(mechanics.kind), grow_response(mechanics.kind)
+    kind = GrassKind.model_validate_json(mechanics)
+    return grow_give(kind), grow_response(kind)
 
 
 @lru_cache(maxsize=_REMEMBERED)
-def _postures(mechanics: _Mechanics, seed: int, /) -> Postures:
+def _postures(mechanics: str, seed: int, /) -> Postures:
     """Return the postures of grass with these values."""
-    return grow_postures(mechanics.kind, variants=VARIANTS, rows=ROWS, seed=seed)
+    return grow_postures(GrassKind.model_validate_json(mechanics), variants=VARIANTS, rows=ROWS, seed=seed)
 
 
 def _models(seedlings: list[Seedling], /) -> tuple[PatchModel, ...]:

@@ -46,7 +46,7 @@ COARSEST = [StripRing(to=8, strips=2, columns=1, sections=1, texel=0.03)]
 LITTLE = PRESETS["low"].model_copy(update={"blades": 40, "models": 1, "strip_rings": COARSEST, "carpet": 16})
 """Quality that replaces the preset low: growing it takes no longer than drawing a picture."""
 
-ALIKE = models._Mechanics.of(GrassKind()), 0  # noqa: SLF001
+ALIKE = models.mechanics_of(GrassKind()), 0
 """How all grass bends on these pages, and its seed: to simulate each kind takes longer than to draw its picture."""
 
 POSTURES = models._postures  # noqa: SLF001
@@ -127,7 +127,7 @@ def run_here(text: str, folder: Path) -> str:
     with pytest.MonkeyPatch.context() as patch, contextlib.chdir(folder), contextlib.redirect_stdout(printed):
         patch.setenv("TALLGRASS_CACHE", str(folder / "cache"))
         patch.setitem(PRESETS, "low", LITTLE)
-        patch.setattr(models._Mechanics, "of", lambda _: ALIKE[0])  # noqa: SLF001
+        patch.setattr(models, "mechanics_of", lambda _: ALIKE[0])
         patch.setattr(models, "_postures", lambda *_: POSTURES(*ALIKE))
         for line in text.splitlines():
             assert tallgrass(shlex.split(line)[1:]) == 0, line

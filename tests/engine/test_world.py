@@ -6,8 +6,7 @@ from dataclasses import dataclass
 import esper
 import pytest
 
-from tallgrass.components.resident import Resident
-from tallgrass.engine.world import World
+from tallgrass.engine.world import Resident, World
 
 
 @dataclass

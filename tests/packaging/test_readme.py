@@ -53,8 +53,8 @@ def test_the_programs_use_only_what_the_face_offers() -> None:
 def _little_grass(monkeypatch: pytest.MonkeyPatch) -> None:
     """Make all presets grow in a moment, and all grass bend alike."""
     little = PRESETS["low"].model_copy(update={"blades": 40, "models": 1, "carpet": 16})
-    mechanics, postures = models._Mechanics.of(GrassKind()), models._postures  # noqa: SLF001
-    monkeypatch.setattr(models._Mechanics, "of", lambda _: mechanics)  # noqa: SLF001
+    mechanics, postures = models.mechanics_of(GrassKind()), models._postures  # noqa: SLF001
+    monkeypatch.setattr(models, "mechanics_of", lambda _: mechanics)
     monkeypatch.setattr(models, "_postures", lambda *_: postures(mechanics, 0))
     for preset in PRESETS:
         monkeypatch.setitem(PRESETS, preset, little)

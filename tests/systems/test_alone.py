@@ -3,13 +3,12 @@
 import esper
 import numpy as np
 
-from tallgrass.components.patch import Lod, Patch
+from tallgrass.components.patch import Clearings, Lod, Patch
 from tallgrass.components.receivers import Receivers
 from tallgrass.components.viewer import Viewer
 from tallgrass.components.wind import WindSource
 from tallgrass.engine.schedule import Phase
 from tallgrass.engine.world import World
-from tallgrass.systems.around.clearing import Clearings
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.blow import Blow, Blown, hearing
 from tallgrass.systems.cull import Cull

@@ -76,7 +76,7 @@ def test_t2_nothing_that_shows_in_the_picture_is_culled(
 @given(cameras, st.floats(-pi, pi), st.integers(0, 2**32 - 1))
 def test_t2_no_blade_is_left_out_any_part_of_which_shows(camera: Camera, bank: float, seed: int) -> None:
     rng, reach = np.random.default_rng(seed), 0.8
-    pool, seen = BladePool.allocate(2, np.zeros(30, np.intp)), seen_by(camera, bank=bank)
+    pool, seen = BladePool(2, np.zeros(30, np.intp)), seen_by(camera, bank=bank)
     pool.stamp[:] = rng.integers(-4, 4, (4, 2))
     pool.x[:], pool.z[:] = (pool.stamp.T[..., None] + rng.random((2, 4, 30))) * PATCH
     ground = rng.uniform(-2.0, 2.0, (4, 30))
@@ -88,7 +88,7 @@ def test_t2_no_blade_is_left_out_any_part_of_which_shows(camera: Camera, bank: f
 
 
 def test_t2_blades_beside_the_picture_and_behind_the_eye_are_left_out() -> None:
-    pool, patch = BladePool.allocate(3, np.zeros(4, np.intp)), 20.0
+    pool, patch = BladePool(3, np.zeros(4, np.intp)), 20.0
     pool.stamp[:3] = (-1, -1), (9, -9), (-1, 5)
     pool.x[0], pool.z[0] = [-0.1, -9.0, -19.0, -0.1], [-10.0, -10.0, -10.0, -0.1]
     pool.x[1], pool.z[1], pool.x[2], pool.z[2] = 190.0, -170.0, -10.0, 110.0

@@ -49,7 +49,7 @@ def bilinear(terrain: Terrain, place: NDArray[Any]) -> NDArray[np.float64]:
 
 def planted(growths: list[Growth], terrain: Terrain, maps: NDArray[np.float32] = EVERYWHERE) -> BladePool:
     stock = stock_blades(growths, PATCH)
-    pool = BladePool.allocate(4, stock.kinds)
+    pool = BladePool(4, stock.kinds)
     ground = Ground(terrain, Density(maps, terrain.size), PATCH)
     plant_blades(pool, SLOTS, CELLS, MODELS, TURNS, stock, ground)
     return pool

@@ -6,11 +6,10 @@ import esper
 import numpy as np
 import pytest
 
-from tallgrass.components.patch import Lod, Patch
+from tallgrass.components.patch import Clearings, Lod, Patch
 from tallgrass.components.viewer import Viewer
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.world import World
-from tallgrass.systems.around.clearing import Clearings
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.patches import PatchTable
 from tallgrass.systems.entities import BATCH, PatchEntities

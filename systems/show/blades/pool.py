@@ -1,6 +1,6 @@
 """The pool of the 3D blades around a viewer: each is a receiver, which stands at its root."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,23 +46,30 @@ class BladePool:
     kinds: NDArray[np.intp]
     """The kind of each of a patch's blades, shape (n,)."""
 
-    present: NDArray[np.bool_]
+    present: NDArray[np.bool_] = field(init=False)
     """Whether the density at its place lets each blade grow, shape (side * side, n)."""
 
-    x: Floats
+    x: Floats = field(init=False)
     """Receivers' x on the ground [m], shape (side * side, n)."""
 
-    z: Floats
+    z: Floats = field(init=False)
     """Receivers' z on the ground [m], shape (side * side, n)."""
 
-    ground: Floats
+    ground: Floats = field(init=False)
     """Lowest and highest ground under each slot's blades [m], shape (side * side, 2)."""
 
-    stamp: NDArray[np.int32]
+    stamp: NDArray[np.int32] = field(init=False)
     """Cell (i, j) that each slot is planted with, shape (side * side, 2)."""
 
-    sown: NDArray[np.int64]
+    sown: NDArray[np.int64] = field(init=False)
     """Number of times each slot was sown, and that number when `present` was last computed, shape (side * side, 2)."""
+
+    def __post_init__(self) -> None:
+        slots, shape = self.side * self.side, (self.side * self.side, len(self.kinds))
+        self.present = np.zeros(shape, np.bool_)
+        self.x, self.z = np.zeros(shape, np.float32), np.zeros(shape, np.float32)
+        self.ground = np.zeros((slots, 2), np.float32)
+        self.stamp, self.sown = np.full((slots, 2), NOWHERE, np.int32), np.zeros((slots, 2), np.int64)
 
     @property
     def slots(self) -> int:
@@ -87,21 +94,6 @@ class BladePool:
         planted = (self.stamp[slots] == cells).all(axis=1)
         return np.asarray(self.present[slots] & planted[:, None]).reshape(-1)
 
-    @classmethod
-    def allocate(cls, side: int, kinds: NDArray[np.intp]) -> "BladePool":
-        """Return an empty pool for a window of `side` by `side` patches with blades of these kinds (n,)."""
-        shape = (side * side, len(kinds))
-        return cls(
-            side=side,
-            kinds=kinds,
-            present=np.zeros(shape, np.bool_),
-            x=np.zeros(shape, np.float32),
-            z=np.zeros(shape, np.float32),
-            ground=np.zeros((side * side, 2), np.float32),
-            stamp=np.full((side * side, 2), NOWHERE, np.int32),
-            sown=np.zeros((side * side, 2), np.int64),
-        )
-
 
 class BladesKept(Kept):
     """The blades around one viewer."""
@@ -114,8 +106,8 @@ class BladesKept(Kept):
 
     def hold(self, pool: BladePool, /) -> None:
         """Take over the blades of another pool with as many slots; the entities of the slots stay."""
-        self.pool.kinds, self.pool.present, self.pool.x, self.pool.z = pool.kinds, pool.present, pool.x, pool.z
-        self.pool.ground, self.pool.stamp, self.pool.sown = pool.ground, pool.stamp, pool.sown
+        for each in fields(pool):
+            setattr(self.pool, each.name, getattr(pool, each.name))
         self.ahead = None
         self.receiving[0].messages.forget_all()
 

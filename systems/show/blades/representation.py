@@ -67,7 +67,7 @@ class BladeRepresentation(Representation):
 
     def keep(self, patches: PatchTable, side: int, /) -> BladesKept:
         """Return an empty pool of `side` by `side` patches."""
-        return BladesKept(BladePool.allocate(side, self.stock.kinds), self.name)
+        return BladesKept(BladePool(side, self.stock.kinds), self.name)
 
     def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:
         """Return the ring that is due on patches (n,) that hold the rings `held`, shape (n,)."""
@@ -121,7 +121,7 @@ class BladeRepresentation(Representation):
     def _carried(self, before: Representation, kept: BladesKept, patches: PatchTable) -> BladePool:
         """Return a pool of these blades on the slots where those of `before` stand."""
         assert isinstance(before, BladeRepresentation)
-        pool = BladePool.allocate(kept.pool.side, self.stock.kinds)
+        pool = BladePool(kept.pool.side, self.stock.kinds)
         carry_blades(pool, self.stock, kept.pool, before.stock, patches, self.ground)
         return pool
 
