@@ -82,13 +82,16 @@ class Road:
 def is_between(least: float, thing: object, most: float) -> bool:
     """Return whether something is a number from `least` to `most`."""
     # `type` first, as it is quicker than `isinstance`, and this is called within frames.
-    return (type(thing) is float or isinstance(thing, Real)) and least <= float(thing) <= most
+    try:
+        return (type(thing) is float or isinstance(thing, Real)) and least <= float(thing) <= most
+    except OverflowError:  # an integer beyond all floats
+        return False
 
 
 def _pairs(places: Iterable[Iterable[float]], due: str) -> tuple[tuple[float, float], ...]:
     try:
         return tuple((float(x), float(z)) for x, z in places)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ValueError(f"{due} places (x, z), not {shortened(places)}") from None
 
 

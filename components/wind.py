@@ -293,6 +293,8 @@ def must_be_wind(thing: object, due: str, /) -> None:
 
 
 def must_be_name(thing: object, /) -> None:
-    """Raise TypeError for a wind's name that is no text."""
+    """Raise TypeError for a wind's name that is no text, ValueError for one that no saved game can hold."""
     if not isinstance(thing, str):
         raise TypeError(f"a wind's name is a text such as 'north', not {shortened(thing)}")
+    if not thing.isascii() and thing != thing.encode(errors="replace").decode():
+        raise ValueError(f"a wind's name is Unicode, not {shortened(thing)}")

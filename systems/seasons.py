@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from math import inf
 from reprlib import repr as shortened
 from typing import Any
 
@@ -12,7 +11,7 @@ from pydantic import ValidationError
 from ..components.declaration import Declaration
 from ..engine.declared.grass import GrassKind
 from ..engine.declared.scene import Scene
-from ..engine.handed import NUMBER_TYPES
+from ..engine.handed import LONGEST, NUMBER_TYPES
 from ..engine.scene.validate import changed_kind
 from ..engine.stored import Time, refuse
 
@@ -148,8 +147,8 @@ class Seasons:
 
     def change(self, name: str, keys: Mapping[str, object], /, *, over: float, time: float) -> None:
         """Change keys of a kind over `over` seconds from `time` [s] on; raises ValueError for what cannot change."""
-        if not isinstance(over, NUMBER_TYPES) or not 0.0 <= over < inf:
-            raise ValueError(f"a kind changes over a time in seconds, 0 or more, not {shortened(over)}")
+        if not isinstance(over, NUMBER_TYPES) or not 0.0 <= over <= LONGEST:
+            raise ValueError(f"a kind changes over a time of 0 s to {LONGEST:g} s, not {shortened(over)}")
         for key, why in ELSEWHERE.items():
             if key in keys:
                 raise ValueError(f"grass.{name}.{key}: {why}")

@@ -43,16 +43,19 @@ class _Reading:
         if isinstance(data, dict):
             node.data = {}
             for key, inner in data.items():
-                name = key if isinstance(key, str) else shortened(key)
+                name = key if isinstance(key, str) and _is_unicode(key) else shortened(key)
                 below = self.node(inner, (*where, name))
                 if name != key:  # its value is read all the same, so that what is wrong in it is told too
-                    problem = f"a key must be text, found {name}"
+                    problem = f"a key must be {'Unicode ' if isinstance(key, str) else ''}text, found {name}"
                     self.problems.append(Problem("", below.line + 1, 1, problem, key=key_path(where)))
                 node.below[name] = node.keys[name] = below
                 node.data[name] = below.data
         elif isinstance(data, list):
             node.below = {step: self.node(inner, (*where, step)) for step, inner in enumerate(data)}
             node.data = [below.data for below in node.below.values()]
+        elif isinstance(data, str) and not _is_unicode(data):
+            self.problems.append(self._problem(where, f"text must be Unicode, found {shortened(data)}"))
+            node.data = data.encode(errors="replace").decode()
         return node
 
     def _problem(self, where: Where, message: str) -> Problem:
@@ -60,6 +63,15 @@ class _Reading:
 
     def _stop(self, where: Where, message: str) -> None:
         raise SceneError([*self.problems, self._problem(where, message)])
+
+
+def _is_unicode(text: str) -> bool:
+    """Return whether a text has no half of a surrogate pair: no file can hold one, neither a saved game."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _plain(value: Any) -> Any:

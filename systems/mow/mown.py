@@ -1,7 +1,7 @@
 """The map of cut heights."""
 
 from functools import partial
-from math import inf, isnan
+from math import inf
 from reprlib import repr as shortened
 
 import numpy as np
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Floats
 from ...components.pose import Pose
-from ...engine.handed import NUMBER_TYPES
+from ...engine.handed import FARTHEST, NUMBER_TYPES
 from ...engine.terrain.plots import CELL, CELLS, Plots, ends_of
 from ...engine.terrain.record import Terrain
 from ...engine.terrain.rectangle import Rectangle
@@ -39,13 +39,13 @@ class Mown:
         Raise TypeError for no footprint, height or pose, ValueError for a negative height or a pose that is not finite.
         """
         _must_be_valid("cut", area, height, pose)
-        self._stroke(area, pose, partial(_limit_within, limit=np.minimum, height=np.float32(height)))
+        self._stroke(area, pose, partial(_limit_within, limit=np.minimum, height=_single(height)))
 
     def grow(self, area: Area, height: float, pose: Pose) -> None:
         """Let cut grass under a footprint or a road stand up to `height` [m] again; raise the errors of `cut`."""
         _must_be_valid("grown", area, height, pose)
         if self.plots.any:
-            self._stroke(area, pose, partial(_limit_within, limit=np.maximum, height=np.float32(height)))
+            self._stroke(area, pose, partial(_limit_within, limit=np.maximum, height=_single(height)))
 
     def tops(self, cells: NDArray[np.int32], *, patch: float) -> Floats:
         """Return the largest cut height on each patch, shape (n,) [m]; infinite where any of it is uncut.
@@ -125,10 +125,15 @@ def _limit_within(before: Floats, distances: Floats, *, limit: np.ufunc, height:
     return np.where(distances <= 0.0, limit(before, height), before)
 
 
+def _single(height: float) -> np.float32:
+    """Return a height in single precision, infinite for one that no grass reaches."""
+    return np.float32(height if height < FARTHEST else inf)
+
+
 def _must_be_valid(done: str, area: object, height: object, pose: object) -> None:
     """Raise the errors of `Mown.cut`; `done` is the verb's participle."""
     must_be_area(area, pose, done)
     if isinstance(height, bool) or not isinstance(height, NUMBER_TYPES):
         raise TypeError(f"grass is {done} to a height in metres, not to {shortened(height)}")
-    if isnan(height) or height < 0.0:
+    if not height >= 0.0:
         raise ValueError(f"grass is {done} to 0 m or more, not to {height}")

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from math import isfinite
 from reprlib import repr as shortened
 
 import numpy as np
@@ -118,5 +117,5 @@ def _must_be_number(thing: object, rule: str, highest: float, unit: str = "") ->
     """Raise TypeError or ValueError unless a value is a number from 0 to `highest`; `rule` begins the message."""
     if isinstance(thing, bool) or not isinstance(thing, NUMBER_TYPES):
         raise TypeError(f"{rule} from 0 to {highest:g}{unit}, not {shortened(thing)}")
-    if not isfinite(thing) or not 0.0 <= thing <= highest:
+    if not 0.0 <= thing <= highest:
         raise ValueError(f"{rule} from 0 to {highest:g}{unit}, not {thing}")

@@ -7,7 +7,7 @@ import esper
 import numpy as np
 import pytest
 
-from tallgrass import Footprint, Gust, Hover, Pose, Presser, Road, Shade, Tree, WindSource
+from tallgrass import Footprint, Gust, Hover, Lamp, Pose, Presser, Road, Shade, Tree, WindSource
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.blast import Blast
@@ -117,3 +117,27 @@ def test_of_a_whole_array_in_place_of_a_number_one_line_shows_how_it_begins(prai
     ):
         with pytest.raises((TypeError, ValueError), match=r"^[^\n]* array\(\[\[0[^\n]{,60}$"):
             ask()
+
+
+def test_numbers_too_large_for_a_float_are_refused_as_any_out_of_range(prairie: Prairie) -> None:
+    huge, kind = 10**400, next(iter(prairie.scene.grass))
+    for ask in (
+        lambda: Footprint(radius=huge),
+        lambda: Footprint(corners=[(0, 0), (0, 1), (huge, 0)]),
+        lambda: Road([(0, 0), (1, huge)]),
+        lambda: Presser(wear=huge),
+        lambda: Lamp(candela=huge),
+        lambda: Tree("oak", height=huge),
+        lambda: Shade((0.0, 0.0, huge), 1.0),
+        lambda: prairie.cut(Footprint(), -huge),
+        lambda: prairie.sow(kind, Footprint(), huge),
+        lambda: prairie.clear(Footprint(), soft=huge),
+        lambda: prairie.change_kind(kind, tip="#ffffff", over=huge),
+    ):
+        with pytest.raises(ValueError, match=r" not \S"):
+            ask()
+    before = prairie.grass_at([(0.0, 0.0)]).height
+    prairie.cut(Footprint(), huge)  # that high it is cut, and grows
+    prairie.cut(Footprint(), 1e308)
+    prairie.grow(Footprint(), huge)
+    assert prairie.grass_at([(0.0, 0.0)]).height == before

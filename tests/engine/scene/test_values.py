@@ -214,3 +214,9 @@ def test_what_has_no_file_says_so_where_one_is_needed() -> None:
     with pytest.raises(ValueError, match=r"^this prairie was made from a program's values: call reload with a"):
         read_again(loaded, None)
     assert read_again(loaded, {"tallgrass": 2, "seed": 3, "grass": GREEN}).scene.seed == 3
+
+
+def test_half_a_character_is_refused_in_one_sentence_wherever_it_stands() -> None:
+    """A lone surrogate, as of a file's name of other bytes, is in no file and no saved game."""
+    assert told(grass={"a\ud800": {}}) == r"grass: a key must be Unicode text, found 'a\ud800'"
+    assert told(wind=[{"kind": "g\ud800"}]).startswith(r"wind[0].kind: text must be Unicode, found 'g\ud800'")

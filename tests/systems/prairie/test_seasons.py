@@ -22,7 +22,7 @@ REFUSED: list[tuple[dict[str, Any], str]] = [
     ),
     ({"head": {"form": "disc"}}, "grass.green.head.form: grass bears no disc: its heads are spikes and plumes"),
     ({"place": None}, "grass.green.place: where a kind grows is changed by sow and clear"),
-    ({"over": -1.0}, "a kind changes over a time in seconds, 0 or more, not -1.0"),
+    ({"over": -1.0}, "a kind changes over a time of 0 s to 1e+09 s, not -1.0"),
 ]
 
 
