@@ -14,9 +14,10 @@ float angle_of(float cosine) {
     return cosine < 0.0 ? PI - near : near;
 }
 
-// Radiance of the sky in a direction, without clouds.
+// Radiance of the sky in a direction, without clouds; below the horizon it is that of haze, whose azimuth counts the less the
+// steeper one looks.
 vec3 sky_toward(vec3 toward) {
-    float c = dot(toward.xz, toward_sun) * inversesqrt(dot(toward.xz, toward.xz) + LEAST_LENGTH);
+    float level = toward.y > 0.0 ? dot(toward.xz, toward.xz) : 1.0, c = dot(toward.xz, toward_sun) * inversesqrt(level + LEAST_LENGTH);
     vec2 size = vec2(textureSize(sky, 0)), place = vec2(angle_of(clamp(c, -1.0, 1.0)) / PI, sqrt(max(toward.y, 0.0)));
     return textureLod(sky, (place * (size - 1.0) + 0.5) / size, 0.0).rgb;
 }

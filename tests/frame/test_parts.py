@@ -282,6 +282,17 @@ def test_far_ground_fades_into_the_haze_that_a_game_gives(stage: Stage, load: Lo
     np.testing.assert_array_equal(drawn(stage, prairie, north, None), before)
 
 
+@pytest.mark.parametrize("haze", [None, lambda toward: np.where(toward[:, :1] > 0.5, (0.1, 0.6, 0.3), (0.8, 0.2, 0.4))])
+@pytest.mark.parametrize("x", [0.0, 5000.0], ids=["the ground's", "the sky's"])
+def test_haze_has_no_seam_straight_below(stage: Stage, load: Load, camera: Aim, haze: Any, x: float) -> None:
+    """As from an airship, or on a strategy game's map; beyond the terrain, the sky goes on below its horizon."""
+    prairie = load(STILL)
+    prairie.shine(haze=10.0, azimuth=70.0, elevation=20.0)
+    prairie.haze = haze
+    seen = drawn(stage, prairie, camera(x, 300.0, 0.0, pitch=-90), None)
+    assert np.ptp(seen[41:49, 76:84], axis=(0, 1)).max() < 10.0
+
+
 @pytest.mark.parametrize(
     "haze", ["greyish", (0.1, 0.2), (0.1, -1.0, 0.0), lambda toward: toward[:, 0], (np.nan, 0.0, 0.0)]
 )

@@ -4,15 +4,16 @@
 #include "engine/terrain/record.py"
 #include "systems/light/sky.py"
 
-// Radiance of haze in the direction of a place, as if it hid all behind it.
+// Radiance of haze in the direction of a place, as if it hid all behind it. Its azimuth counts the less the steeper one looks:
+// straight below there is none.
 vec3 haze_radiance(vec3 place) {
-    vec2 ray = place.xz - eye.xz;
+    vec3 ray = place - eye;
+    vec2 to = ray.xz * inversesqrt(dot(ray, ray) + LEAST_LENGTH);
     if (haze_given[0].w > 0.0) {  // the game's own
-        vec2 to = ray * inversesqrt(dot(ray, ray) + LEAST_LENGTH);
         vec3 turning = to.x * (haze_given[1].rgb + to.x * haze_given[3].rgb + to.y * haze_given[4].rgb);
         return max(haze_given[0].rgb + turning + to.y * haze_given[2].rgb, 0.0);
     }
-    float s = dot(ray, sun.xz) * inversesqrt(dot(ray, ray) + LEAST_LENGTH), forwards = inversesqrt(PEAK - s);
+    float s = dot(to, sun.xz), forwards = inversesqrt(PEAK - s);
     return horizon[0].rgb + s * (horizon[1].rgb + s * horizon[2].rgb) + forwards * forwards * forwards * horizon[3].rgb;
 }
 
