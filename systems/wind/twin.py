@@ -145,9 +145,9 @@ class Layout:
 
     def _plain(self, wind: WindPrimitive, values: TwinValues) -> list[float] | None:
         """Return the numbers in this layout, or None unless all types and sizes are the usual ones: a fast path."""
-        found: list[float] = []
+        found, named = list[float](), values.numbers
         for name, size in self.sizes:
-            number: Any = values.numbers[name] if name in values.numbers else getattr(wind, name, None)
+            number: Any = named[name] if name in named else getattr(wind, name, None)
             if size == 1 and type(number) in PLAIN:
                 found.append(number)
             elif type(number) in SEVERAL and len(number) == size > 1:
