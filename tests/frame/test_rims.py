@@ -19,8 +19,10 @@ HEIGHT, AWAY = 10.0, 60.0
 GRASS = slice(90, 110)
 """Rows of a picture that show the cliff's grass alone."""
 
-WITHIN = 0.11
-"""Largest distance of its outline from the reference's, as a mean over a metre and a half [m]."""
+WITHIN = 0.12
+"""Largest distance of its outline from the reference's, as a mean over a metre and a half [m].
+
+It is told by colours, so it depends on the hue of the light, too: by 0.006."""
 
 
 @pytest.fixture(scope="module")
