@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles
-from ..space.frustum import outside_planes
 from .bark import MOST_OUTSET, Faces, Wood
 from .grow import POINTS
 from .habit import Habit
@@ -111,25 +110,42 @@ def near_wood(wood: Wood, vertices: NDArray[np.void], balls: Balls, /) -> tuple[
     return Wood(whole, edges), (of_whole, of_edges)
 
 
-def blocks_inside(blocks: Balls, trees: NDArray[np.void], sides: Doubles, /) -> tuple[int, int]:
+def blocks_inside(blocks: Balls, trees: NDArray[np.void], sides: Doubles, beside: float, /) -> tuple[int, int]:
     """Return the first block in the picture of any of some trees, and the one after the last; 0 and 0 if there is none.
 
-    `trees` are records of `INSTANCE`, and `sides` planes of the frustum.
+    `trees` are records of `INSTANCE`, `sides` planes of the frustum, and up to `beside` them is in the picture [m].
     """
-    place, scale = places_of(np.broadcast_to(blocks.middle, (len(trees), *blocks.middle.shape)), trees)
-    outside = outside_planes(place.reshape(-1, 3), sides).reshape(len(trees), -1)
-    number = np.flatnonzero((outside <= scale[:, None] * blocks.radius).any(axis=0))
+    inside = inside_picture(blocks.middle.T, sides @ matrices_of(trees))
+    number = np.flatnonzero((inside >= trees["scale"][:, None] * -blocks.radius - beside).any(axis=0))
     return (int(number[0]), int(number[-1]) + 1) if len(number) else (0, 0)
 
 
-def places_of(middle: Doubles, trees: NDArray[np.void], /) -> tuple[Doubles, Doubles]:
-    """Return where parts of trees' models (n, m, 3) are [m], and the trees' scales (n,); `trees` are of `INSTANCE`."""
-    scale = trees["scale"].astype(np.float64)
-    (cosine, sine), x, z = scale * trees["turn"].T, middle[..., 0], middle[..., 2]
-    place = np.empty_like(middle)
-    place[..., 0], place[..., 2] = cosine[:, None] * x - sine[:, None] * z, sine[:, None] * x + cosine[:, None] * z
-    place[..., 1] = scale[:, None] * middle[..., 1]
-    return np.asarray(place + trees["root"][:, None]), scale
+def inside_picture(places: Doubles, sides: Doubles, /) -> Doubles:
+    """Return the distance of places inside the nearest of a picture's sides [m], below 0 outside it, (n, m).
+
+    Places (3, m) or (n, 3, m) [m of a model] and sides, planes (n, 4, 4), are in the axes of the models of n trees.
+    """
+    return np.asarray((sides[..., :3] @ places + sides[..., 3:]).min(axis=1))
+
+
+def outside_picture(extents: Doubles, sides: Doubles, /) -> Doubles:
+    """Return the distance of upright cylinders outside a picture's sides [m], 0 or less if they may touch it, (n,).
+
+    `extents` are their middles, half their heights and their radii (n, 5) [m], and `sides` planes of the frustum.
+    """
+    nearer = np.column_stack([sides[:, :3], np.abs(sides[:, 1]), np.hypot(*sides[:, :3:2].T)])
+    return np.asarray(-(nearer @ extents.T + sides[:, 3:]).min(axis=0))
+
+
+def matrices_of(trees: NDArray[np.void], /) -> Doubles:
+    """Return the matrices from trees' models to the world, (n, 4, 4); `trees` are records of `INSTANCE`."""
+    scale, found = trees["scale"].astype(np.float64), np.zeros((len(trees), 4, 4))
+    cosine, sine = scale * trees["turn"].T
+    found[:, 0, 0], found[:, 0, 2] = cosine, -sine
+    found[:, 2, 0], found[:, 2, 2] = sine, cosine
+    found[:, 1, 1], found[:, 3, 3] = scale, 1.0
+    found[:, :3, 3] = trees["root"]
+    return found
 
 
 def _sway(place: Doubles, pivot: NDArray[np.floating], height: float) -> Doubles:

@@ -8,13 +8,14 @@ import moderngl
 
 from ...engine.gl.shaders import PackedUniforms, pack, pack_array, set_packed, set_used_uniforms
 from ...engine.gl.stream import Stream
-from .choice import Batch
+from .batch import Batch
 from .habit import NEEDLES
 from .kind import Binding, GpuKind
 from .outline import Outline
-from .programs import SAMPLED, SOFT, Programs
+from .programs import HANG, HANG_LEAVES, SAMPLED, SOFT, Programs
 from .segments import Segment
 from .stream import BACKS, CARDS, FAR, IN_ROWS, LEAVES, NEAR, QUAD, SMALL_CARDS, WOOD, GpuModel, Uniforms
+from .twig import BLOCK
 from .wood import CLOSED, OPAQUE, SOLID
 
 SENT = object()
@@ -81,6 +82,25 @@ States = dict[tuple[int, str], State | None]
 """States by model and stream."""
 
 
+class Bound:
+    """What is bound while calls are made one after another: only what differs from the state before is set."""
+
+    def __init__(self, numbers: Uniforms) -> None:
+        self._numbers, self._textures = numbers, dict[int, object]()
+
+    def use(self, state: State) -> None:
+        """Set a state's uniforms, and bind its textures."""
+        program = state.array.program
+        if program.extra.get(SENT) is not self._numbers:  # soft edges come in many pieces
+            program.extra[SENT] = self._numbers
+            set_used_uniforms(program, self._numbers)
+        set_packed(state.uniforms)
+        for texture, unit in state.textures:
+            if self._textures.get(unit) is not texture:
+                self._textures[unit] = texture
+                texture.use(unit)
+
+
 class Calls:
     """The draw calls of the trees in a picture."""
 
@@ -88,6 +108,7 @@ class Calls:
         self._models, self._programs = models, programs
         self._batches: Sequence[Batch] = ()
         self._states: dict[Pass, States] = {}
+        self._hanging: dict[tuple[int, str], State] = {}
         self._calls: dict[Pass, list[DrawCall]] = {}
 
     def choose(self, batches: Sequence[Batch], /) -> None:
@@ -98,7 +119,31 @@ class Calls:
     def clear(self) -> None:
         """Forget the state of all streams."""
         self._states.clear()
+        self._hanging.clear()
         self._calls.clear()
+
+    def hang(self, numbers: Uniforms, /) -> int:
+        """Run `hang.vert` for the twigs of all batches; return the number of draw calls."""
+        bound, calls = Bound(numbers), 0
+        for batch in self._batches:
+            if batch.name not in CARDS and batch.name != LEAVES:
+                continue
+            model = self._models[batch.model][1]
+            hung, each = model.hung[batch.name], model.twigs_of_leaves if batch.name == LEAVES else BLOCK
+            hung.room(batch.size * each)
+            bound.use(state := self._hanging_state(batch.model, batch.name))
+            state.array.transform(hung.buffer, moderngl.POINTS, vertices=each, instances=batch.size)
+            calls += 1
+        return calls
+
+    def _hanging_state(self, number: int, name: str) -> State:
+        """Return the state that `hang.vert` runs in for a stream of twigs."""
+        if (key := (number, name)) not in self._hanging:
+            kind, model = self._models[number]
+            array = self._programs.feedback(HANG_LEAVES if name == LEAVES else HANG, model.streams[name])
+            uniforms, textures = kind.uniforms(array.program, model), kind.textures(array.program, model)
+            self._hanging[key] = State(array, model.streams[name], None, moderngl.POINTS, 0, uniforms, textures)
+        return self._hanging[key]
 
     def of_pass(self, how: Pass, /) -> list[DrawCall]:
         """Return a pass's draw calls in order: opaque ones from near to far, soft edges from far to near."""
@@ -171,19 +216,10 @@ class Calls:
 
 
 def draw(calls: Sequence[DrawCall], numbers: Uniforms, /) -> int:
-    """Make draw calls one after another, setting only what differs from the state before; return their number."""
-    bound = dict[int, object]()
+    """Make draw calls one after another; return their number."""
+    bound = Bound(numbers)
     for call in calls:
-        state = call.state
-        program = state.array.program
-        if program.extra.get(SENT) is not numbers:  # soft edges come in many pieces
-            program.extra[SENT] = numbers
-            set_used_uniforms(program, numbers)
-        set_packed(state.uniforms)
-        for texture, unit in state.textures:
-            if bound.get(unit) is not texture:
-                bound[unit] = texture
-                texture.use(unit)
+        bound.use(state := call.state)
         state.array.render(state.mode, first=call.first, vertices=call.vertices, instances=call.instances)
     return len(calls)
 

@@ -1,26 +1,37 @@
 """Choosing which trees a picture shows, and how: those of all models at once."""
 
 from collections.abc import Sequence
+from math import exp
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles, Indices, Ints
+from ...components.arrays import Doubles, Indices
 from ..space.cone import distance_in_order
-from ..space.frustum import outside_planes
 from ..space.window import cell_of
+from .batch import Batch, joined
+from .bounds import matrices_of, outside_picture
+from .distant import Distant
 from .habit import NEEDLES
-from .leafy import blocks_of_models, blocks_shown, near_twigs
+from .leafy import blocks_in_sight, blocks_of_models, blocks_shown, blocks_within, near_twigs
+from .look import Look, Slack
 from .model import MARGIN, Model
 from .shells import SHELLS, farthest_of, rings_of, shells_of
-from .standing import BAREST, WIDEST_ROW, Standing, columns_of, far_instances, ring_opacity, set_detail
+from .standing import (
+    BAREST,
+    FADES_BELOW,
+    PICTURE_BELOW,
+    WIDEST_ROW,
+    Standing,
+    columns_of,
+    far_instances,
+    ring_opacity,
+    set_detail,
+)
 from .stream import BACKS, CARDS, FAR, FIRST_OF, LEAVES, SHELL_OF, STREAMS, WOOD_LIMITS, WOODS
 from .twig import LEAF_PIXELS
 from .wood import AWAY, SWAYS, THINNEST, nearest_ahead
-
-CLUSTER = 32
-"""Trees, one after another in memory, that share a bounding sphere: trees of a forest are stored side by side."""
 
 NEAREST = 0.1
 """Least distance of a tree's middle from the eye [m]: nearer ones count as so far."""
@@ -28,84 +39,14 @@ NEAREST = 0.1
 ANY_HEIGHT = 1e6
 """Height in the picture that stands for full detail [pixels]."""
 
+DETAIL = "twig_share", "far_fade", "opacity"
+"""Fields of `INSTANCE` that change with every step."""
 
-class Look(NamedTuple):
-    """The viewpoint and projection that trees are chosen for."""
+SLACK = Slack(moves=0.25, shifts=0.16, turns=0.02, zooms=0.001)
+"""Changes within which trees stay chosen, but for their level of detail: about ten frames of a walk."""
 
-    eye: Doubles
-    """[m]."""
-
-    sides: Doubles
-    """Planes of the frustum, as `Viewer` has them."""
-
-    clip: Doubles
-    """Matrix from places to clip space, (4, 4)."""
-
-    focal: float
-    """Focal length [pixels]."""
-
-    reach: float
-    """Distance up to which grass is drawn from far to near [m]."""
-
-    patch: float
-    """Side of a patch of grass [m]."""
-
-    centre: Ints
-    """Cell that the viewer stands in, (2,)."""
-
-    detail_eyes: Sequence[Doubles | tuple[float, float, float]] = ()
-    """Eyes that level of detail is chosen for: the nearest one counts. Without any, `eye` does."""
-
-    leaves_from: float | None = None
-    """Height of their own pictures from which all trees are drawn leaf by leaf, and lower ones as pictures [pixels];
-    None lets the size of leaves decide."""
-
-
-class Batch(NamedTuple):
-    """Trees of one model, or twigs or blocks of twigs of them, that one stream draws together."""
-
-    model: int
-    """Index of the model among those of all kinds."""
-
-    name: str
-    """Name of the stream."""
-
-    first: int
-    """Index of the first one in `Chosen.instances`."""
-
-    size: int
-    nearest: float
-    """Distance of the nearest crown's middle [m]."""
-
-    mean: float
-    """Mean distance of the crowns' middles [m]."""
-
-    far: float
-    """Distance of the farthest tree by the order of patches, as `farthest_of` returns it [m]."""
-
-    pixel_radius: float
-    """Least radius of a stem of the model that is a pixel wide, at the nearest tree [m]."""
-
-    foliage: float
-    """Least share of its leaves that a tree has."""
-
-
-class Chosen(NamedTuple):
-    """What is drawn of trees."""
-
-    batches: list[Batch]
-    instances: NDArray[np.void]
-    """Instance attributes of all trees, batch after batch: records of `INSTANCE`."""
-
-
-def one_of_each(models: int, tree: NDArray[np.void], /) -> Chosen:
-    """Return a tree for each stream of so many models, drawn anywhere; `tree` is a record of `INSTANCE`, shape (1,)."""
-    streams = [(model, name) for model in range(models) for name in STREAMS]
-    batches = [
-        Batch(model, name, number, 1, 0.0, 0.0, farthest_of(SHELL_OF[name], 1.0), 1.0, 1.0)
-        for number, (model, name) in enumerate(streams)
-    ]
-    return Chosen(batches, tree.repeat(len(streams)))
+Twigs = tuple[Indices, Doubles]
+"""Twigs, or blocks of them: each one's tree, as an index into those seen, and `first` of its instance."""
 
 
 class _Seen(NamedTuple):
@@ -126,6 +67,28 @@ class _Seen(NamedTuple):
 
     pixel_radius: Doubles
     """Radius of a stem of its model that is a pixel wide at its nearest point [m]."""
+
+    larger: Doubles
+    """Greatest height of each one's picture within the slack [pixels]."""
+
+    smaller: Doubles
+    """Least height of each one's picture within the slack [pixels]."""
+
+    beside: Doubles
+    """How far beside the picture what is in it may be within the slack [m]."""
+
+
+class _Chosen(NamedTuple):
+    """What was chosen for a viewpoint, and serves others within the slack."""
+
+    look: Look
+    batches: list[Batch]
+    seen: _Seen
+    tree: Indices
+    """Tree of each of the instances, as an index into those seen."""
+
+    instances: NDArray[np.void]
+    """Instances of the batches, but for distant trees."""
 
 
 class Choice:
@@ -154,70 +117,112 @@ class Choice:
         """Half the height and the radius of each tree's bounding cylinder in any wind [m], shape (n, 2)."""
         beside, sways = np.where(self._ring > 1, WIDEST_ROW, 0.0), (1.0 + SWAYS) * self._scale
         high, aside = (beside + sways * MARGIN * extent for extent in (middle, radius))
-        self._extents = np.column_stack([self._middle, high, aside])
+        self.extents = np.column_stack([self._middle, high, aside])
         """Middle of each tree, and its half extents up and aside with the row that it stands for [m], shape (n, 5)."""
-        self._spheres = _bounding_spheres(self._middle, np.hypot(high, aside))
+        pictured = np.where(self._ring > 1, 0.0, self._height * self._pictured)
+        self._chosen: _Chosen | None = None
+        self._distant = Distant(self._model, self.extents, self._instances, self._ring, pictured, self._needles)
 
-    def in_picture(self, sides: Doubles, /) -> Indices:
-        """Return the indices of the trees within a frustum's sides."""
-        middle, radius = self._spheres
-        near = np.flatnonzero(np.repeat(outside_planes(middle, sides) <= radius, CLUSTER)[: len(self._model)])
-        nearer = np.column_stack([sides[:, :3], np.abs(sides[:, 1]), np.hypot(*sides[:, :3:2].T)])
-        inside = nearer @ self._extents.take(near, axis=0).T + sides[:, 3:]
-        return np.asarray(near[inside.min(axis=0) >= 0.0])
+    def choose(self, look: Look, /) -> Sequence[Batch]:
+        """Return what is drawn of the trees in a picture.
 
-    def choose(self, look: Look, /) -> Chosen:
-        """Return what is drawn of the trees in a picture."""
-        number = self.in_picture(look.sides)
-        distance = _distance(self._middle.take(number, axis=0), look.eye)
+        It is the same object while it serves other pictures, with another level of detail.
+        """
+        if self._chosen is not None and _serves(self._chosen.look, look):
+            self._update(self._chosen, look)
+        else:
+            self._distant.follow(look)
+            self._chosen = self._nearer(look)
+        return self._chosen.batches
+
+    def _update(self, chosen: _Chosen, look: Look) -> None:
+        """Write the level of detail of the trees in a new picture."""
+        seen = chosen.seen
+        self._set_detail(look, seen.instances, seen.number)
+        for name in DETAIL:
+            chosen.instances[name] = seen.instances[name].take(chosen.tree)
+
+    def _nearer(self, look: Look) -> _Chosen:
+        """Return what is drawn of all trees, those anew that are not distant."""
+        number, slack = self._distant.others, _slack_of(look)
+        extents = self.extents.take(number, axis=0)
+        distance = _distance(extents[:, :3], look.eye)
+        inside = outside_picture(extents, look.sides) <= slack.beside(distance + extents[:, 3] + extents[:, 4])
+        number, distance = number[inside], distance[inside]
         order = np.argsort(distance)
         order = order[_stable_order(self._model[number[order]])]
-        number, distance = number[order], distance[order]
-        seen = self._seen(look, number, distance)
-        leafy, twigs = self._leafy(look, seen, distance), self._on_cards(look, seen)
+        seen = self._seen(look, number[order])
+        leafy, cards = self._twigs(look, seen)
         shell, ring = shells_of(seen.along, look.reach), rings_of(seen.along, look.reach)
         back = np.where(self._needles[seen.model] & (shell == 0) & (ring > 0), SHELLS + ring, shell)
-        stream, tree, first = _by_stream(seen, shell, back, leafy, twigs)
-        batches = _batches(stream, tree, seen, distance)
+        stream, tree, first = _by_stream(seen, shell, back, leafy, cards)
         instances = seen.instances.take(tree)  # thirty times as fast as fancy indexing on structured arrays
         instances["first"] = first
-        return Chosen(batches, instances)
+        near_batches = _batches(stream, tree, instances, seen, distance[order])
+        batches = {(batch.model, batch.name): batch for batch in near_batches}
+        for beyond in self._distant.pictures:
+            near = batches.get(key := (beyond.model, beyond.name))
+            batches[key] = beyond if near is None else joined(near, beyond)
+        return _Chosen(look, [*batches.values()], seen, tree, instances)
 
-    def _seen(self, look: Look, number: Indices, distance: Doubles) -> _Seen:
-        """Return the level of detail of trees at distances (n,) [m]."""
-        middle, scale, ring = self._middle.take(number, axis=0), self._scale[number], self._ring[number]
-        if look.detail_eyes:
-            distance = np.min([_distance(middle, np.asarray(eye)) for eye in look.detail_eyes], axis=0)
-        pixels = look.focal * self._height[number] / np.maximum(distance, NEAREST)
-        pictured = self._pictured[number]
+    def _set_detail(self, look: Look, instances: NDArray[np.void], number: Indices) -> Doubles:
+        """Write trees' level of detail into records of `INSTANCE`; return the height of their pictures [pixels]."""
+        middle, ring = self._middle.take(number, axis=0), self._ring[number]
+        eyes = look.detail_eyes or (look.eye,)
+        distance = np.min([_distance(middle, np.asarray(eye)) for eye in eyes], axis=0)
+        pictured = look.focal * self._height[number] * self._pictured[number] / np.maximum(distance, NEAREST)
         if look.leaves_from is not None:
-            pixels = np.where(pixels * pictured <= look.leaves_from, 0.0, ANY_HEIGHT)
-        pixels[ring > 1] = 0.0
-        instances, along = self._instances.take(number), np.hypot(*(middle - look.eye)[:, ::2].T)
+            pictured = np.where(pictured <= look.leaves_from, 0.0, ANY_HEIGHT)
+        pictured[ring > 1] = 0.0
+        set_detail(instances, pictured)
+        instances["opacity"] = ring_opacity(ring, np.hypot(*(middle - look.eye)[:, ::2].T))
+        return np.asarray(pictured)
+
+    def _seen(self, look: Look, number: Indices) -> _Seen:
+        """Return how trees are seen from about a viewpoint."""
+        middle, scale, slack = self._middle.take(number, axis=0), self._scale[number], _slack_of(look)
+        instances, distance = self._instances.take(number), _distance(middle, look.eye)
+        pictured = self._set_detail(look, instances, number)
+        larger = pictured * exp(slack.zooms) * distance / np.maximum(distance - slack.moves, NEAREST)
+        smaller = pictured * exp(-slack.zooms) * distance / (distance + slack.moves)
+        along = np.hypot(*(middle - look.eye)[:, ::2].T)
         in_order = look.patch * distance_in_order(cell_of(middle[:, ::2], patch=look.patch), look.centre)
-        set_detail(instances, pixels * pictured)
-        instances["opacity"] = ring_opacity(ring, along)
-        ahead = nearest_ahead(look.clip, middle, look.eye, self._reach.take(number, axis=0))
+        ahead = nearest_ahead(look.clip, middle, look.eye, self._reach.take(number, axis=0)) - slack.moves
         pixel_radius = THINNEST * np.maximum(ahead, AWAY) / (look.focal * scale)
-        return _Seen(number, self._model[number], instances, along, in_order, pixel_radius)
+        beside = slack.beside(distance + scale * self._ball[number])
+        return _Seen(number, self._model[number], instances, along, in_order, pixel_radius, larger, smaller, beside)
 
-    def _on_cards(self, look: Look, seen: _Seen) -> tuple[Indices, Doubles]:
-        """Return the blocks of twigs drawn on cards: each one's tree, as an index into `seen`, and `first`."""
-        near = np.flatnonzero(seen.instances["far_fade"] < 1.0)
-        tree, first = blocks_shown(self._blocks, seen.model[near], seen.instances.take(near), look.eye, look.sides)
-        return near[tree], first
-
-    def _leafy(self, look: Look, seen: _Seen, distance: Doubles) -> tuple[Indices, Doubles]:
-        """Return the twigs drawn leaf by leaf: each one's tree, as an index into `seen`, and its own number."""
+    def _twigs(self, look: Look, seen: _Seen) -> tuple[Twigs, Twigs]:
+        """Return the twigs drawn leaf by leaf, and the blocks of twigs drawn on cards."""
+        near = np.flatnonzero(seen.larger > PICTURE_BELOW)
+        model, number, slack = seen.model[near], seen.number[near], _slack_of(look)
+        instances = seen.instances.take(near)
+        matrix = matrices_of(instances)
+        set_detail(instances, seen.larger[near])
+        share = instances["twig_share"] * (1.0 - instances["far_fade"]) * instances["foliage"]
+        sight = blocks_in_sight(self._blocks, model, matrix, look, slack)
+        tree, first = blocks_shown(self._blocks, model, share, sight)
+        on_cards = near[tree], first
         if look.leaves_from is not None:
-            near = np.flatnonzero(seen.instances["far_fade"] < 1.0)
-            return near, np.zeros(len(near))
-        scale = self._scale[seen.number]
-        within = look.focal * scale * self._leaf[seen.number] / LEAF_PIXELS[0]
-        trees = np.flatnonzero(within > distance - scale * self._ball[seen.number]).tolist()
-        models = self._models
-        twigs = [near_twigs(models[seen.model[n]], seen.instances[n], look.eye, look.sides, within[n]) for n in trees]
-        return np.repeat(np.array(trees, np.intp), [*map(len, twigs)]), np.concatenate([np.zeros(0), *twigs])
+            return (near, np.zeros(len(near))), on_cards
+        within = look.focal * self._scale[number] * self._leaf[number] / LEAF_PIXELS[0] + slack.moves
+        blocks = blocks_within(sight, within)
+        leafy = np.flatnonzero(blocks.any(axis=1))
+        twigs = [
+            near_twigs(self._models[model[n]], np.flatnonzero(blocks[n]), share[n], matrix[n], look, slack, within[n])
+            for n in leafy.tolist()
+        ]
+        return (near[leafy].repeat([*map(len, twigs)]), np.concatenate([np.zeros(0), *twigs])), on_cards
+
+
+def _serves(before: Look, now: Look) -> bool:
+    """Return whether what was chosen for a viewpoint serves another."""
+    return (before.patch, *before.centre) == (now.patch, *now.centre) and SLACK.used(before, now) <= 1.0
+
+
+def _slack_of(look: Look) -> Slack:
+    """Return the slack that trees are chosen with: none for references and benchmarks."""
+    return SLACK if look.is_usual else Slack(0.0, 0.0, 0.0, 0.0)
 
 
 def _model_numbers(model: Model, variety: float) -> tuple[float, ...]:
@@ -237,26 +242,16 @@ def _stable_order(number: Indices) -> Indices:
     return np.argsort(number.astype(np.int16), kind="stable")  # 16 bits are sorted by radix, much faster
 
 
-def _bounding_spheres(middle: Doubles, reach: Doubles) -> tuple[Doubles, Doubles]:
-    """Return bounding spheres of clusters of `CLUSTER` trees: middles (n, 3) and radii (n,) [m]."""
-    if not len(middle):
-        return middle, reach
-    first = np.arange(0, len(middle), CLUSTER)
-    low = np.minimum.reduceat(middle - reach[:, None], first)
-    high = np.maximum.reduceat(middle + reach[:, None], first)
-    return 0.5 * (low + high), 0.5 * np.linalg.norm(high - low, axis=1)
-
-
 def _by_stream(
-    seen: _Seen, shell: Indices, back: Indices, leafy: tuple[Indices, Doubles], cards: tuple[Indices, Doubles]
+    seen: _Seen, shell: Indices, back: Indices, leafy: Twigs, cards: Twigs
 ) -> tuple[Indices, Indices, Doubles]:
     """Sort trees into streams; return the stream of each entry, its tree and its `first`, ordered by stream.
 
     Streams are numbered through all models. A tree has an entry in each stream that draws it, or one for each of its
     twigs drawn leaf by leaf, and of its blocks of twigs drawn on cards.
     """
-    far_fade, (leafy_tree, twig), (card_tree, block) = seen.instances["far_fade"], leafy, cards
-    near, far = np.flatnonzero(far_fade < 1.0), np.flatnonzero(far_fade > 0.0)
+    (leafy_tree, twig), (card_tree, block) = leafy, cards
+    near, far = np.flatnonzero(seen.larger > PICTURE_BELOW), np.flatnonzero(seen.smaller < FADES_BELOW)
     tree = np.concatenate([leafy_tree, card_tree, near, far, far[::-1]])
     within = [
         np.zeros(len(twig), np.intp), shell[card_tree], _wood_stream(seen, near, shell),
@@ -277,19 +272,21 @@ def _wood_stream(seen: _Seen, near: Indices, shell: Indices) -> Indices:
     )
 
 
-def _batches(stream: Indices, tree: Indices, seen: _Seen, distance: Doubles) -> list[Batch]:
+def _batches(
+    stream: Indices, tree: Indices, instances: NDArray[np.void], seen: _Seen, distance: Doubles
+) -> list[Batch]:  # fmt: skip
     """Return a batch for each run of equal `stream`; `distance` is that of each tree's crown [m]."""
-    first = np.flatnonzero(np.diff(stream, prepend=-1))
-    count, foliage = np.diff(first, append=len(stream)), seen.instances["foliage"]
+    begin = np.flatnonzero(np.append(True, stream[1:] != stream[:-1])[: len(stream)])
     low, high, total = np.minimum.reduceat, np.maximum.reduceat, np.add.reduceat
-    new = np.diff(tree, prepend=-1) != 0  # else another block of twigs of the same tree
-    new[first] = True
+    new = np.append(True, tree[1:] != tree[:-1])[: len(tree)]  # else another block of twigs of the same tree
+    new[begin] = True
     columns = (
-        *divmod(stream[first], len(STREAMS)), first, count, low(distance[tree], first),
-        total(distance[tree] * new, first) / total(new, first, dtype=np.intp), high(seen.in_order[tree], first),
-        low(seen.pixel_radius[tree], first), low(foliage[tree], first),
+        *divmod(stream[begin], len(STREAMS)), begin, np.append(begin, len(stream))[1:], low(distance[tree], begin),
+        total(distance[tree] * new, begin) / total(new, begin, dtype=np.intp), high(seen.in_order[tree], begin),
+        low(seen.pixel_radius[tree], begin), low(instances["foliage"], begin), high(seen.beside[tree], begin),
     )  # fmt: skip
     return [
-        Batch(model, STREAMS[index], start, size, nearest, mean, farthest_of(SHELL_OF[STREAMS[index]], far), *rest)
-        for model, index, start, size, nearest, mean, far, *rest in zip(*map(np.ndarray.tolist, columns), strict=True)
+        Batch(model, name, (instances[start:end],), nearest, mean, farthest_of(SHELL_OF[name], far), *rest)
+        for model, index, start, end, nearest, mean, far, *rest in zip(*map(np.ndarray.tolist, columns), strict=True)
+        for name in (STREAMS[index],)
     ]

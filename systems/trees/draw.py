@@ -15,16 +15,18 @@ from ..frame.feature import Part, WindTextures
 from ..space.grown import Grown
 from ..wind.blow import mean_wind
 from ..wind.mean import MeanWind
+from .batch import Batch, one_of_each
 from .call import Calls, DrawCall, Pass, draw
-from .choice import Batch, Choice, Chosen, Look, one_of_each
+from .choice import Choice
 from .kind import GpuKind
+from .look import Look
 from .motion import PERIOD
-from .programs import HANG, HANG_LEAVES, HARD, SOFT, STAND, Programs
+from .programs import HARD, SOFT, STAND, Programs
 from .segments import Segments
 from .shade import ShadeMap
 from .standing import Standing
-from .stream import ALONE, CARDS, CAST, LEAVES, GpuModel, Uniforms
-from .twig import BLOCK, LEAF_PIXELS
+from .stream import ALONE, CAST, LEAVES, GpuModel, Uniforms
+from .twig import LEAF_PIXELS
 
 EVERY_LEAF = -2.0, -1.0
 """Uniform in place of `LEAF_PIXELS` where all twigs are drawn leaf by leaf."""
@@ -50,7 +52,7 @@ class TreePart(Part):
         self._inputs: object = None
         self._choice: tuple[Standing, Choice] | None = None
         """The trees of a frame, to choose from."""
-        self._batches: list[Batch] = []
+        self._batches: Sequence[Batch] = []
         """Batches that are drawn."""
         self._calls: Calls | None = None
         self._soft_left: list[DrawCall] = []
@@ -88,7 +90,7 @@ class TreePart(Part):
                 for number, kind in enumerate(scene.trees.values())
             ]
         self._models = [(kind, model) for kind in self._kinds for model in kind.models]
-        self._batches, self._choice = [], None
+        self._choice = None
         self._forget()
         if self._kinds and self._shade is None:
             self._shade = ShadeMap(self._ctx)
@@ -106,7 +108,7 @@ class TreePart(Part):
         self._rehearsing = True
 
     def _forget(self) -> None:
-        self._inputs = self._calls = None
+        self._inputs, self._batches, self._calls = None, [], None
         if self._programs is not None:
             self._programs.release()
             self._programs = None
@@ -181,9 +183,13 @@ class TreePart(Part):
         if self._choice is None or self._choice[0] is not standing:
             models = [model.model for _, model in self._models]
             self._choice = standing, Choice(standing, models, [kind.declared.variety for kind, _ in self._models])
-        chosen = self._choice[1].choose(self._look(outlook))
-        self._send(chosen)
-        self._show_wood(chosen, viewer.sides)
+        batches = self._choice[1].choose(self._look(outlook))
+        if batches is self._batches:
+            assert self._segments is not None
+            self._segments.write_again()
+        else:
+            self._send(batches)
+            self._show_wood(viewer.sides)
 
     def _look(self, outlook: Outlook) -> Look:
         """Return the viewpoint that trees are chosen for."""
@@ -199,22 +205,22 @@ class TreePart(Part):
         reach = self._reach(outlook)
         return Look(eye, outlook.viewer.sides, clip, focal, reach, patch, centre, detail_eyes, self.leaves_from)
 
-    def _send(self, chosen: Chosen) -> None:
+    def _send(self, batches: Sequence[Batch]) -> None:
         """Send instances, and where they stand."""
         assert self._segments is not None
         assert self._calls is not None
-        self._batches = chosen.batches
-        filled = [self._models[batch.model][1].streams[batch.name] for batch in self._batches]
-        self._segments.write(filled, [batch.size for batch in self._batches], chosen.instances)
-        self._calls.choose(self._batches)
+        self._batches = batches
+        filled = [self._models[batch.model][1].streams[batch.name] for batch in batches]
+        self._segments.write(filled, [batch.parts for batch in batches])
+        self._calls.choose(batches)
 
-    def _show_wood(self, chosen: Chosen, sides: Doubles) -> None:
+    def _show_wood(self, sides: Doubles) -> None:
         """Choose what is drawn of wood and of single leaves; `sides` are planes of the frustum."""
-        for batch in chosen.batches:
+        for batch in self._batches:
             _, model = self._models[batch.model]
             if batch.name in model.wood:
-                rows = chosen.instances[batch.first : batch.first + batch.size]
-                model.show_wood(batch.name, batch.pixel_radius, batch.foliage, rows, sides)
+                (rows,) = batch.parts
+                model.show_wood(batch.name, batch.pixel_radius, batch.foliage, rows, sides, batch.beside)
             elif batch.name == LEAVES:
                 model.twigs_of_leaves = 1 if self.leaves_from is None else len(model.model.twigs)
 
@@ -226,7 +232,7 @@ class TreePart(Part):
     def take_wind(self, air: WindTextures, /) -> int:
         """Run `stand.vert` for each tree and `hang.vert` for each twig; return the number of draw calls."""
         programs, calls, self._air = self._programs, 0, air
-        if not self._kinds or programs is None:
+        if not self._kinds or programs is None or self._calls is None:
             return 0
         air.texture.use(self._units["tree_air"])
         air.mean.use(self._units["tree_mean"])
@@ -236,22 +242,8 @@ class TreePart(Part):
             array = programs.feedback(STAND, instances)
             set_used_uniforms(array.program, self._uniforms)
             array.transform(stood.buffer, moderngl.POINTS, vertices=instances.count)
-            calls = 1
-        return calls + sum(
-            self._hang(batch, programs) for batch in self._batches if batch.name in CARDS or batch.name == LEAVES
-        )
-
-    def _hang(self, batch: Batch, programs: Programs) -> int:
-        """Run `hang.vert` for a batch's twigs; return the number of draw calls."""
-        (kind, model), name = self._models[batch.model], batch.name
-        stream, hung, each = model.streams[name], model.hung[name], model.twigs_of_leaves if name == LEAVES else BLOCK
-        hung.room(batch.size * each)
-        if not hung.count:
-            return 0
-        array = programs.feedback(HANG_LEAVES if name == LEAVES else HANG, stream)
-        kind.set_uniforms(array.program, model, self._uniforms)
-        array.transform(hung.buffer, moderngl.POINTS, vertices=each, instances=batch.size)
-        return 1
+            calls = 1 + self._calls.hang(self._uniforms)
+        return calls
 
     def draw_solid(self) -> int:
         """Draw the opaque pass; return the number of draw calls."""

@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...components.arrays import Doubles, Indices
+from ...components.arrays import Doubles, Indices, Mask
 from ..space.frustum import outside_planes
-from .bounds import places_of
+from .bounds import inside_picture
+from .look import Look, Slack
 from .model import Model
 from .twig import BLOCK, RANKS
 
@@ -17,58 +17,79 @@ GROUPED_FROM = 2 / 3
 outside the picture are left out. Below it, they are of the first twigs that are drawn."""
 
 
+NONE = -1e9
+"""Radius of a block that there is not: no picture has it [m]."""
+
+
 class Blocks(NamedTuple):
     """Blocks of neighbouring twigs of all models."""
 
     middle: Doubles
-    """Of their bounding spheres, (models, most blocks, 3) [m]."""
+    """Of their bounding spheres, (models, 3, most blocks) [m]."""
 
     radius: Doubles
-    """(models, most blocks) [m]; below 0 where a model has no more."""
+    """(models, most blocks) [m]; `NONE` where a model has no more."""
 
     twigs: Indices
     """Number of each model's twigs, (models,)."""
 
 
+class InSight(NamedTuple):
+    """Blocks of neighbouring twigs of trees, as they are seen."""
+
+    shown: Mask
+    """Whether they may be in the picture, (n, most blocks)."""
+
+    away: Doubles
+    """Square of their middles' distance from the eye [m²], (n, most blocks)."""
+
+    radius: Doubles
+    """Of their bounding spheres, (n, most blocks) [m]."""
+
+
 def blocks_of_models(models: Sequence[Model], /) -> Blocks:
     """Return the blocks of models."""
     most = max((len(model.blocks.radius) for model in models), default=0)
-    middle, radius = np.zeros((len(models), most, 3)), np.full((len(models), most), -np.inf)
+    middle, radius = np.zeros((len(models), 3, most)), np.full((len(models), most), NONE)
     for number, model in enumerate(models):
         count = len(model.blocks.radius)
-        middle[number, :count], radius[number, :count] = model.blocks
+        middle[number, :, :count], radius[number, :count] = model.blocks.middle.T, model.blocks.radius
     return Blocks(middle, radius, np.array([len(model.twigs) for model in models], np.intp))
 
 
-def blocks_shown(
-    blocks: Blocks, model: Indices, instances: NDArray[np.void], eye: Doubles, sides: Doubles, /
-) -> tuple[Indices, Doubles]:
+def blocks_in_sight(
+    blocks: Blocks, model: Indices, matrix: Doubles, look: Look, slack: Slack, /
+) -> InSight:  # fmt: skip
+    """Return all blocks of trees of models (n,), which `matrices_of` places (n, 4, 4) in the world."""
+    middle, scale = blocks.middle[model], matrix[:, 1, 1, None]
+    radius, from_eye = scale * blocks.radius[model], matrix[:, :3, 3] - look.eye
+    along = (from_eye[:, None] @ matrix[:, :3, :3] @ middle)[:, 0]
+    away = scale**2 * (middle**2).sum(axis=1) + 2.0 * along + (from_eye**2).sum(axis=1)[:, None]
+    away = np.maximum(away, 0.0)
+    inside = inside_picture(middle, look.sides @ matrix)
+    return InSight(inside >= -radius - slack.beside(np.sqrt(away) + radius), away, radius)
+
+
+def blocks_shown(blocks: Blocks, model: Indices, share: Doubles, sight: InSight, /) -> tuple[Indices, Doubles]:
     """Return the blocks of twigs that are drawn on cards: each one's tree, and `first` of its instance, by tree.
 
-    `model` is that of each tree (n,), and `instances` are records of `INSTANCE`; `sides` are planes of the frustum.
+    `model` is that of each tree (n,), and `share` that of its twigs which is seen.
     """
-    share = instances["twig_share"] * (1.0 - instances["far_fade"]) * instances["foliage"]
     sampled = np.flatnonzero((share > 0.0) & (share < GROUPED_FROM))
-    grouped = np.flatnonzero(share >= GROUPED_FROM)
+    grouped = share >= GROUPED_FROM
     count = -(-twigs_drawn(blocks.twigs[model[sampled]], share[sampled]) // BLOCK)
     number = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
-    whose, block = _neighbours_shown(blocks, model[grouped], instances[grouped], eye, sides)
-    tree = np.concatenate([np.repeat(sampled, count), grouped[whose]])
-    first = np.concatenate([BLOCK * number, -1 - BLOCK * block]).astype(np.float64)
+    whose, block = np.nonzero(sight.shown & grouped[:, None])
+    order = np.lexsort((sight.away[whose, block], whose))
+    tree = np.concatenate([np.repeat(sampled, count), whose[order]])
+    first = np.concatenate([BLOCK * number, -1 - BLOCK * block[order]]).astype(np.float64)
     order = np.argsort(tree, kind="stable")
     return tree[order], first[order]
 
 
-def _neighbours_shown(
-    blocks: Blocks, model: Indices, instances: NDArray[np.void], eye: Doubles, sides: Doubles
-) -> tuple[Indices, Indices]:
-    """Return the blocks of neighbours in the picture: each one's tree and its own number, from near to far."""
-    place, scale = places_of(blocks.middle[model], instances)
-    outside = outside_planes(place.reshape(-1, 3), sides).reshape(place.shape[:2])
-    tree, block = np.nonzero(outside <= scale[:, None] * blocks.radius[model])
-    away = place[tree, block] - eye
-    order = np.lexsort((np.einsum("ij,ij->i", away, away), tree))
-    return tree[order], block[order]
+def blocks_within(sight: InSight, within: Doubles, /) -> Mask:
+    """Return which blocks may have a twig in the picture within a distance of the eye (n,) [m]: (n, most blocks)."""
+    return np.asarray(sight.shown & (sight.away < (within[:, None] + sight.radius) ** 2))
 
 
 def twigs_drawn(twigs: Indices, share: Doubles, /) -> Indices:
@@ -77,19 +98,18 @@ def twigs_drawn(twigs: Indices, share: Doubles, /) -> Indices:
     return np.minimum((twigs * (share + dwindling)).astype(np.intp) + 1, twigs)
 
 
-def near_twigs(model: Model, instance: np.void, eye: Doubles, sides: Doubles, within: float) -> Indices:
-    """Return the numbers of a tree's twigs within a distance of the eye [m] and in the picture, nearest first.
+def near_twigs(
+    model: Model, blocks: Indices, share: float, matrix: Doubles, look: Look, slack: Slack, within: float
+) -> Indices:  # fmt: skip
+    """Return the numbers of the twigs in a tree's blocks within a distance of the eye [m] and in the picture.
 
-    `instance` is the tree's record of `INSTANCE`, and `sides` the picture's, as `Viewer` has them.
+    The nearest is the first. `share` is that of its twigs which is seen, and `matrix` places its model in the world.
     """
-    (cosine, sine), scale = instance["turn"].tolist(), float(instance["scale"])
-    root = instance["root"].astype(np.float64)
-    to_model = np.array([[cosine, 0.0, -sine], [0.0, 1.0, 0.0], [sine, 0.0, cosine]])
-    share = float(instance["twig_share"] * (1.0 - instance["far_fade"]) * instance["foliage"])
-    middle, radius = (each[: twigs_drawn(np.array(len(model.twigs)), np.array(share))] for each in model.balls)
-    away = middle - (eye - root) @ to_model / scale
-    squared = np.einsum("ij,ij->i", away, away)
-    near = np.flatnonzero(squared < (within / scale) ** 2)
-    planes = np.column_stack([sides[:, :3] @ to_model, (sides[:, :3] @ root + sides[:, 3]) / scale])
-    near = near[outside_planes(middle[near], planes) <= radius[near]]
-    return np.asarray(near[np.argsort(squared[near])])
+    places = (BLOCK * blocks[:, None] + np.arange(BLOCK)).reshape(-1)
+    twig = model.twigs["grouped"][places[places < len(model.twigs)]].astype(np.intp)
+    twig = twig[twig < twigs_drawn(np.array(len(model.twigs)), np.array(share))]
+    place, radius = model.balls.middle[twig] @ matrix[:3, :3].T + matrix[:3, 3], matrix[1, 1] * model.balls.radius[twig]
+    distance = np.linalg.norm(place - look.eye, axis=1)
+    is_seen = outside_planes(place, look.sides) <= radius + slack.beside(distance + radius)
+    near = np.flatnonzero(is_seen & (distance < within))
+    return np.asarray(twig[near[np.argsort(distance[near])]])

@@ -7,14 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...engine.gl.stream import Stream, release_all
-from .standing import INSTANCE, STOOD
+from .standing import INSTANCE, STOOD, WORDS
 
 SPARE_PART, SPARE_TREES = 8, 4
 """A segment has room for one part in `SPARE_PART` more trees than it needs, and for `SPARE_TREES` more: it seldom
 moves."""
-
-WHOLE = np.dtype((np.void, INSTANCE.itemsize))
-"""A record of `INSTANCE` as mere bytes: numpy copies it sixty times as fast."""
 
 
 class Segment:
@@ -56,9 +53,11 @@ class Segments:
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.instances, self.stood = Stream(ctx, INSTANCE), Stream(ctx, STOOD)
-        self._rows = np.zeros(0, WHOLE)
+        self._rows = np.zeros(0, INSTANCE)
         """Scratch array of the first buffer's records."""
         self._filled: Sequence[Segment] = []
+        self._parts: list[tuple[NDArray[np.uint64], NDArray[np.uint64]]] = []
+        """Places in the scratch array, and what is written there."""
         self._roomy = set[Segment]()
         """Segments that have room."""
         self._end = 0
@@ -67,22 +66,31 @@ class Segments:
         """Return a new segment, empty so far."""
         return Segment((self.instances, self.stood))
 
-    def write(self, filled: Sequence[Segment], count: Sequence[int], instances: NDArray[np.void], /) -> None:
-        """Fill segments with so many of the instances each, one after another, and empty all others."""
+    def write(self, filled: Sequence[Segment], trees: Sequence[Sequence[NDArray[np.void]]], /) -> None:
+        """Fill segments with records of `INSTANCE` each, one array after another, and empty all others."""
         for segment in self._filled:
             segment.count = 0
-        self._filled, rows, done = filled, instances.view(WHOLE), 0
-        for segment, trees in zip(filled, count, strict=True):
-            segment.count = trees
-            if trees > segment.room:
+        self._filled = filled
+        for segment, parts in zip(filled, trees, strict=True):
+            segment.count = sum(map(len, parts))
+            if segment.count > segment.room:
                 self._give_room(segment)
-        if self._end > 2 * (len(instances) + SPARE_TREES * len(filled)):
+        if self._end > 2 * (sum(segment.count for segment in filled) + SPARE_TREES * len(filled)):
             self._close_gaps()
         if self._end > len(self._rows):
-            self._rows = np.zeros(2 * self._end, WHOLE)
-        for segment in filled:
-            self._rows[segment.first : segment.first + segment.count] = rows[done : done + segment.count]
-            done += segment.count
+            self._rows = np.zeros(2 * self._end, INSTANCE)
+        words, self._parts = self._rows.view(np.uint64), []
+        for segment, parts in zip(filled, trees, strict=True):
+            first = WORDS * segment.first
+            for rows in parts:
+                place = words[first : (first := first + WORDS * len(rows))]
+                self._parts.append((place, rows.view(np.uint64)))
+        self.write_again()
+
+    def write_again(self) -> None:
+        """Write what is by now in the arrays that were written last."""
+        for place, numbers in self._parts:
+            place[:] = numbers
         self.instances.write(self._rows[: self._end])
         self.stood.room(self._end)
 

@@ -38,4 +38,4 @@ def farthest_of(shell: int, distance: float, /) -> float:
 
     It is infinite for shell 0, beyond all grass, and 0 for single leaves, which are in front of it.
     """
-    return {0: inf, SHELLS + 1: 0.0}.get(shell, distance)
+    return inf if shell == 0 else 0.0 if shell > SHELLS else distance

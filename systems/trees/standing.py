@@ -44,6 +44,9 @@ INSTANCE = np.dtype(
 """Instance attributes of a tree, a block of its twigs or one of them; `tree.glsl`, `hang.vert` and `stand.vert`
 describe each."""
 
+WORDS = INSTANCE.itemsize // 8
+"""Numbers of 64 bits in a record of `INSTANCE`: as such, numpy copies it a hundred times as fast."""
+
 STOOD = np.dtype(
     [("wind_response", "4f4"), ("haze_in_front", "4f4"), ("grass_about", "4f4"), ("light_from_grass", "3f4")]
 )

@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from tallgrass.components.arrays import Doubles
+from tallgrass.components.arrays import Doubles, Indices
 from tallgrass.engine.camera import View, projection_matrix, view_matrix
 from tallgrass.systems.space.frustum import picture_sides
 from tallgrass.systems.trees import bark
 from tallgrass.systems.trees.bark import PIXEL_RADII
-from tallgrass.systems.trees.bounds import blocks_inside
-from tallgrass.systems.trees.leafy import GROUPED_FROM, blocks_of_models, blocks_shown
+from tallgrass.systems.trees.bounds import blocks_inside, matrices_of
+from tallgrass.systems.trees.leafy import GROUPED_FROM, blocks_in_sight, blocks_of_models, blocks_shown
+from tallgrass.systems.trees.look import Look, Slack
 from tallgrass.systems.trees.model import Model, models_of
 from tallgrass.systems.trees.standing import INSTANCE
 from tallgrass.systems.trees.twig import BLOCK
@@ -18,6 +19,7 @@ from tallgrass.testing import looking
 EYE = np.array([0.0, 1.7, 0.0])
 CAMERA = looking(0.0, 1.7, 0.0, pitch=4.0, view=50.0)
 SIDES = picture_sides(View(view_matrix(CAMERA), projection_matrix(CAMERA.view, 16.0 / 9.0)))
+LOOK = Look(EYE, SIDES, np.eye(4), 900.0, 100.0, 2.0, np.zeros(2, np.int32))
 
 
 @pytest.fixture(scope="module", params=["birch", "oak"])
@@ -36,6 +38,13 @@ def around() -> np.ndarray:
     return rows
 
 
+def blocks_of(model: Model, trees: np.ndarray) -> tuple[Indices, Doubles]:
+    """Return the blocks of twigs that are drawn of trees: each one's tree, and `first` of its instance."""
+    blocks, of_model = blocks_of_models([model]), np.zeros(len(trees), int)
+    sight = blocks_in_sight(blocks, of_model, matrices_of(trees), LOOK, Slack(0.0, 0.0, 0.0, 0.0))
+    return blocks_shown(blocks, of_model, trees["twig_share"] * trees["foliage"], sight)
+
+
 def inside(places: Doubles, tree: np.void) -> np.ndarray:
     """Return whether places of a tree's model (n, 3) are in the picture, (n,)."""
     (cosine, sine), (x, y, z) = tree["turn"], places.T
@@ -49,13 +58,13 @@ def test_next_to_the_eye_all_wood_in_the_picture_is_drawn_and_little_of_a_tree_b
     for near, blocks in zip(model.wood[0], model.near_blocks, strict=True):
         drawn = []
         for tree in trees:
-            first, end = (BLOCK * each for each in blocks_inside(blocks, tree[None], SIDES))
+            first, end = (BLOCK * each for each in blocks_inside(blocks, tree[None], SIDES, 0.0))
             left_out = np.concatenate([near.triangles[:first], near.triangles[end:]])
             assert not inside(places[left_out.reshape(-1)], tree).any()
             drawn.append(1.0 - len(left_out) / len(near.triangles))
         assert min(drawn) == 0.0  # behind the eye
         assert sum(0.0 < each < 0.5 for each in drawn) > 2  # at the picture's edge
-        both = blocks_inside(blocks, trees[np.argsort(drawn)[-2:]], SIDES)
+        both = blocks_inside(blocks, trees[np.argsort(drawn)[-2:]], SIDES, 0.0)
         assert both[1] - both[0] >= max(drawn) * len(blocks.radius) - 1.0
 
 
@@ -79,7 +88,7 @@ def test_blocks_of_twigs_are_neighbours_and_each_twig_is_in_one(model: Model) ->
 
 def test_all_twigs_in_the_picture_are_drawn_and_near_to_the_eye_few_others(model: Model) -> None:
     trees, order = around(), model.twigs["grouped"].astype(int)
-    whose, first = blocks_shown(blocks_of_models([model]), np.zeros(len(trees), int), trees, EYE, SIDES)
+    whose, first = blocks_of(model, trees)
     drawn_of_all, grouped = 0, 0
     for number, tree in enumerate(trees):
         places, share = first[whose == number].astype(int), float(tree["twig_share"] * tree["foliage"])
@@ -97,7 +106,7 @@ def test_all_twigs_in_the_picture_are_drawn_and_near_to_the_eye_few_others(model
 def test_a_tree_without_leaves_has_no_blocks(model: Model) -> None:
     trees = around()
     trees["foliage"] = 0.0
-    whose, first = blocks_shown(blocks_of_models([model]), np.zeros(len(trees), int), trees, EYE, SIDES)
+    whose, first = blocks_of(model, trees)
     assert len(whose) == len(first) == 0
 
 

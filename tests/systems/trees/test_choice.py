@@ -1,5 +1,6 @@
 """Which trees a picture has, and in which streams those of all models are that are chosen in one go (F3, N6)."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,16 +12,18 @@ from tallgrass.engine.camera import View, projection_matrix, view_matrix
 from tallgrass.systems.space.cone import distance_in_order
 from tallgrass.systems.space.frustum import picture_sides
 from tallgrass.systems.space.window import cell_of
-from tallgrass.systems.trees.choice import Batch, Choice, Chosen, Look
+from tallgrass.systems.trees.batch import Batch
+from tallgrass.systems.trees.choice import Choice
 from tallgrass.systems.trees.habit import NEEDLES
+from tallgrass.systems.trees.look import Look
 from tallgrass.systems.trees.model import MODELS, Model, models_of
 from tallgrass.systems.trees.shells import RINGS, SHELL
 from tallgrass.systems.trees.standing import PICTURE_BELOW, STANDING, Standing
 from tallgrass.systems.trees.stream import BACKS, CARDS, FAR, LEAVES, WOODS
+from tallgrass.systems.trees.twig import BLOCK
 from tallgrass.testing import looking
 
 PIXELS, REACH, PATCH = 900.0, 120.0, 2.0
-CAMERA = looking(0.0, 4.0, 0.0, pitch=5.0, view=45.0)
 EYE = np.array([0.0, 4.0, 0.0])
 
 
@@ -41,28 +44,39 @@ def a_wood(models: list[Model], *, count: int = 400) -> NDArray[np.void]:
     return rows
 
 
+def looking_from(
+    eye: tuple[float, float, float] = (0.0, 4.0, 0.0), *, yaw: float = 0.0, reach: float = REACH,
+    leaves_from: float | None = None,
+) -> Look:  # fmt: skip
+    camera = looking(*eye, yaw=yaw, pitch=5.0, view=45.0)
+    view = View(view_matrix(camera), projection_matrix(camera.view, 1.0))
+    sides, clip, centre = picture_sides(view), view.clip.astype(np.float64), cell_of(np.array(eye[::2]), patch=PATCH)
+    return Look(np.array(eye), sides, clip, PIXELS, reach, PATCH, centre, leaves_from=leaves_from)
+
+
 def chosen(
     rows: NDArray[np.void], models: list[Model], *, reach: float = REACH, leaves_from: float | None = None
-) -> Chosen:
-    view = View(view_matrix(CAMERA), projection_matrix(CAMERA.view, 1.0))
-    sides, clip = picture_sides(view), view.clip.astype(np.float64)
-    look = Look(EYE, sides, clip, PIXELS, reach, PATCH, np.zeros(2, np.int32), leaves_from=leaves_from)
-    return Choice(Standing(rows), models, [0.1] * len(models)).choose(look)
+) -> Sequence[Batch]:
+    return all_of(rows, models).choose(looking_from(reach=reach, leaves_from=leaves_from))
 
 
-def parts(found: Chosen) -> list[tuple[Batch, NDArray[np.void]]]:
+def all_of(rows: NDArray[np.void], models: list[Model]) -> Choice:
+    return Choice(Standing(rows), models, [0.1] * len(models))
+
+
+def parts(found: Sequence[Batch]) -> list[tuple[Batch, NDArray[np.void]]]:
     """Return each batch and its instances."""
-    return [(batch, found.instances[batch.first : batch.first + batch.size]) for batch in found.batches]
+    return [(batch, np.concatenate(batch.parts)) for batch in found]
 
 
-def by_stream(found: Chosen) -> dict[tuple[int, str], bytes]:
+def by_stream(found: Sequence[Batch]) -> dict[tuple[int, str], bytes]:
     """Return what is instances of each stream, by the number of its model and its name."""
     instances = {(batch.model, batch.name): rows.tobytes() for batch, rows in parts(found)}
-    assert len(instances) == len(found.batches)
+    assert len(instances) == len(found)
     return instances
 
 
-def roots(found: Chosen, model: int, *names: str) -> Doubles:
+def roots(found: Sequence[Batch], model: int, *names: str) -> Doubles:
     """Return where those stand that are in some streams of a model."""
     some = [rows["root"] for batch, rows in parts(found) if batch.model == model and batch.name in names]
     return np.concatenate([np.zeros((0, 3)), *some])
@@ -112,7 +126,6 @@ def test_what_is_placed_and_how_far_off_it_is_is_of_the_trees_of_each_stream(mod
     rows_of_all = a_wood(models)
     found = chosen(rows_of_all, models)
     height = {tuple(each["root"]): each["height"] for each in rows_of_all}
-    assert sum(batch.size for batch in found.batches) == len(found.instances)
     for batch, rows in parts(found):
         larger = np.array([height[tuple(root)] for root in rows["root"]]) / models[batch.model].height
         assert np.allclose(rows["scale"], larger)
@@ -120,7 +133,7 @@ def test_what_is_placed_and_how_far_off_it_is_is_of_the_trees_of_each_stream(mod
         off = np.linalg.norm(rows["root"] + rows["crown_at"][:, None] * (0.0, 1.0, 0.0) - EYE, axis=1)
         _, trees = np.unique(rows["root"], axis=0, return_index=True)
         assert (batch.nearest, batch.mean) == pytest.approx((off.min(), off[trees].mean()))
-        assert batch.foliage == rows["foliage"].min()
+        assert batch.name not in WOODS or batch.foliage == rows["foliage"].min()
 
 
 def test_the_fewer_leaves_a_tree_has_the_smaller_it_becomes_a_picture(models: list[Model]) -> None:
@@ -172,7 +185,7 @@ def test_soft_edges_come_after_the_patch_that_the_farthest_tree_of_a_stream_stan
 
 def test_twigs_that_are_drawn_leaf_by_leaf_are_of_trees_that_are_near(models: list[Model]) -> None:
     found = chosen(a_wood(models), models)
-    leaves = [batch for batch in found.batches if batch.name == LEAVES]
+    leaves = [batch for batch in found if batch.name == LEAVES]
     assert leaves
     for batch in leaves:
         of, near = roots(found, batch.model, LEAVES), roots(found, batch.model, *CARDS)
@@ -199,4 +212,41 @@ def test_where_no_tree_is_in_the_picture_nothing_is_drawn(models: list[Model]) -
     behind["root"][:, 0] = 0.0
     for rows in (behind, behind[:0]):
         found = chosen(rows, models)
-        assert (found.batches, len(found.instances)) == ([], 0)
+        assert not found
+
+
+def drawn_of(found: Sequence[Batch], models: list[Model]) -> dict[tuple[object, ...], tuple[float, ...]]:
+    """Return the level of detail of all that is drawn: of trees as pictures, of their wood, and of each twig."""
+    drawn = dict[tuple[object, ...], tuple[float, ...]]()
+    for batch, rows in parts(found):
+        model = models[batch.model]
+        order = model.twigs["grouped"].astype(int)
+        name = "wood" if batch.name in WOODS else "back" if batch.name in BACKS else batch.name
+        for row in rows:
+            key, first = (batch.model, *row["root"].tolist()), int(row["first"])
+            far_fade, opacity, twig_share = (float(row[each]) for each in ("far_fade", "opacity", "twig_share"))
+            if batch.name not in (LEAVES, *CARDS):
+                drawn[name, *key] = far_fade, opacity
+                continue
+            block = order[-1 - first :][:BLOCK] if first < 0 else np.arange(first, first + BLOCK)
+            for twig in [first] if name == LEAVES else block.tolist():
+                drawn["twig", *key, twig] = far_fade, twig_share
+    return drawn
+
+
+STEPS = [((0.02 * step, 4.0 + 0.01 * step, -0.05 * step), 0.1 * step) for step in range(16)]
+"""Eyes and yaws of a walk that turns."""
+
+
+def test_on_a_walk_all_that_is_seen_is_drawn_and_most_is_not_chosen_anew_in_each_frame(models: list[Model]) -> None:
+    rows, kept, before = a_wood(models, count=60), 0, None
+    walked, another = all_of(rows, models), all_of(rows, models)
+    for eye, yaw in STEPS:
+        look = looking_from(eye, yaw=yaw)
+        found, anew = walked.choose(look), another.choose(look._replace(detail_eyes=(look.eye,)))  # without slack
+        kept, before = kept + (found is before), found
+        drawn, seen = drawn_of(found, models), drawn_of(anew, models)
+        assert {*seen} <= {*drawn}
+        assert all(drawn[each] == seen[each] for each in seen)
+        assert len(drawn) < 1.3 * len(seen)
+    assert kept > 0.5 * len(STEPS)

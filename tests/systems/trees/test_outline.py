@@ -6,6 +6,7 @@ import pytest
 from tallgrass.components.arrays import Bytes, Doubles
 from tallgrass.engine.camera import View, projection_matrix, view_matrix
 from tallgrass.systems.space.frustum import picture_sides
+from tallgrass.systems.trees.bounds import outside_picture
 from tallgrass.systems.trees.choice import Choice
 from tallgrass.systems.trees.model import Model, models_of
 from tallgrass.systems.trees.outline import BOX, CORNERS, MARGIN, TRIANGLE, Outline, card_outline, picture_outline
@@ -78,8 +79,7 @@ def test_a_slender_tree_is_in_a_picture_as_soon_as_its_crown_is_and_no_sooner(po
     sides = picture_sides(View(view_matrix(camera), projection_matrix(camera.view, ASPECT)))
     rows = np.zeros(200, STANDING)
     rows["root"][:, 0], rows["height"] = np.linspace(0.0, 2.5 * off, len(rows)), poplar.height
-    seen = np.zeros(len(rows), bool)
-    seen[Choice(Standing(rows), [poplar], [0.0]).in_picture(sides)] = True
+    seen = outside_picture(Choice(Standing(rows), [poplar], [0.0]).extents, sides) <= 0.0
     edge = off * np.tan(np.radians(30.0)) * ASPECT
     x, crown = rows["root"][:, 0], poplar.radius / np.cos(np.arctan(edge / off))
     assert seen[x < edge + crown].all()

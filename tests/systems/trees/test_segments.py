@@ -50,7 +50,8 @@ def test_each_stream_reads_its_own_trees_however_many_come_and_go(ctx: moderngl.
         count = [int(draw.integers(1, 20 * (1 + step % 9))) for _ in filled]
         trees, before = np.zeros(sum(count), INSTANCE), [each.first for each in filled]
         trees["root"][:, 1], trees["hertz"] = np.arange(len(trees)), step
-        segments.write(filled, count, trees)
+        one_by_one = np.split(trees, np.cumsum(count)[:-1]) if count else []
+        segments.write(filled, [np.split(each, [step % (1 + len(each))]) for each in one_by_one])
         moved += sum(each.first != first for each, first in zip(filled, before, strict=True))
         told = np.concatenate([np.zeros(0, np.float32), *(reader.read(each) for each in filled)])
         assert np.array_equal(told, trees["root"][:, 1] + trees["hertz"])
@@ -63,7 +64,17 @@ def test_each_stream_reads_its_own_trees_however_many_come_and_go(ctx: moderngl.
 
 def test_a_stream_that_hardly_changes_stays_where_it_is(segments: Segments) -> None:
     streams = [segments.segment() for _ in range(3)]
-    segments.write(streams, [100, 50, 20], np.zeros(170, INSTANCE))
+    segments.write(streams, [[np.zeros(count, INSTANCE)] for count in (100, 50, 20)])
     before = [each.first for each in streams]
-    segments.write(streams, [105, 40, 22], np.zeros(167, INSTANCE))
+    segments.write(streams, [[np.zeros(count, INSTANCE)] for count in (105, 40, 22)])
     assert [each.first for each in streams] == before
+
+
+def test_what_has_changed_in_the_trees_is_written_again(ctx: moderngl.Context, segments: Segments) -> None:
+    streams, trees = [segments.segment() for _ in range(2)], np.zeros(30, INSTANCE)
+    reader = Reader(ctx, streams)
+    segments.write(streams, [[trees[:10]], [trees[10:20], trees[20:]]])
+    trees["hertz"] = np.arange(30)
+    segments.write_again()
+    assert np.concatenate([*map(reader.read, streams)]).tolist() == list(range(30))
+    release_all(*reader.arrays.values(), reader.program, reader.result)
