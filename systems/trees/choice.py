@@ -20,12 +20,12 @@ from .model import MARGIN, Model
 from .shells import SHELLS, farthest_of, rings_of, shells_of
 from .standing import (
     BAREST,
-    FADES_BELOW,
-    PICTURE_BELOW,
     WIDEST_ROW,
     Standing,
     columns_of,
     far_instances,
+    has_picture,
+    has_twigs,
     ring_opacity,
     set_detail,
 )
@@ -194,7 +194,7 @@ class Choice:
 
     def _twigs(self, look: Look, seen: _Seen) -> tuple[Twigs, Twigs]:
         """Return the twigs drawn leaf by leaf, and the blocks of twigs drawn on cards."""
-        near = np.flatnonzero(seen.larger > PICTURE_BELOW)
+        near = np.flatnonzero(has_twigs(seen.larger))
         model, number, slack = seen.model[near], seen.number[near], _slack_of(look)
         instances = seen.instances.take(near)
         matrix = matrices_of(instances)
@@ -251,7 +251,7 @@ def _by_stream(
     twigs drawn leaf by leaf, and of its blocks of twigs drawn on cards.
     """
     (leafy_tree, twig), (card_tree, block) = leafy, cards
-    near, far = np.flatnonzero(seen.larger > PICTURE_BELOW), np.flatnonzero(seen.smaller < FADES_BELOW)
+    near, far = np.flatnonzero(has_twigs(seen.larger)), np.flatnonzero(has_picture(seen.smaller))
     tree = np.concatenate([leafy_tree, card_tree, near, far, far[::-1]])
     within = [
         np.zeros(len(twig), np.intp), shell[card_tree], _wood_stream(seen, near, shell),

@@ -11,7 +11,7 @@ from .batch import Batch
 from .bounds import outside_picture
 from .look import Look, Slack
 from .shells import SHELLS, rings_of
-from .standing import DENSE_TO, PICTURE_BELOW, RING_FADES, ring_opacity
+from .standing import DENSE_TO, RING_FADES, alone_from, ring_opacity
 from .stream import BACKS, FAR
 
 SLACK = Slack(moves=2.0, shifts=2.0, turns=0.05, zooms=0.02)
@@ -85,7 +85,7 @@ class Distant:
         """Return the distance along the ground from which on a model's trees are distant [m]."""
         if not look.is_usual:
             return inf
-        pictured = exp(self._slack.zooms) * look.focal * self._highest[model] / PICTURE_BELOW
+        pictured = alone_from(exp(self._slack.zooms) * look.focal * self._highest[model])
         return max(pictured, look.reach + self._slack.moves) + self._slack.moves
 
     def _batches(self, model: int, number: Indices, along: Doubles, distance: Doubles, reach: float) -> list[Batch]:

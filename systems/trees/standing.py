@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles, Floats
+from ...components.arrays import Doubles, Floats, Mask
 from ...engine.random import hash3, stream, unit
 from .far import LINES
 from .model import MODELS
@@ -147,6 +147,21 @@ def set_detail(instances: NDArray[np.void], pictured: Doubles, /) -> None:
     foliage = np.maximum(instances["foliage"], BAREST)
     instances["twig_share"] = np.clip((pictured / FADES_BELOW) ** TWIG_POWER / foliage, FEWEST_TWIGS, 1.0)
     instances["far_fade"] = np.clip((FADES_BELOW - pictured) / (FADES_BELOW - PICTURE_BELOW), 0.0, 1.0)
+
+
+def has_twigs(pictured: Doubles, /) -> Mask:
+    """Return which trees are drawn twig by twig, by the height of their own pictures (n,) [pixels]."""
+    return np.asarray(pictured > PICTURE_BELOW)
+
+
+def has_picture(pictured: Doubles, /) -> Mask:
+    """Return which trees are drawn as pictures, by the height of these (n,) [pixels]."""
+    return np.asarray(pictured < FADES_BELOW)
+
+
+def alone_from(pictured: float, /) -> float:
+    """Return the distance from which on a tree is a picture alone [m]; `pictured` is its height at 1 m [pixels]."""
+    return pictured / PICTURE_BELOW
 
 
 def ring_opacity(ring: NDArray[np.integer], distance: Doubles, /) -> Doubles:
