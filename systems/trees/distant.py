@@ -17,11 +17,12 @@ from .stream import BACKS, FAR
 SLACK = Slack(moves=2.0, shifts=2.0, turns=0.05, zooms=0.02)
 """Changes within which distant trees stay chosen: less than the distance from tree to tree, and turns of 3 degrees."""
 
-IN_RINGS = SLACK._replace(moves=0.01 * RING_FADES * DENSE_TO)
-"""These changes where trees of rings cross-fade: they do so in steps of a hundredth."""
+IN_RINGS = SLACK._replace(moves=0.02 * RING_FADES * DENSE_TO)
+"""These changes where trees of rings cross-fade: they do so in steps of a fiftieth at most."""
 
-TIRED = 0.5
-"""Part of these changes from which on a model's trees are chosen anew if it is their turn."""
+MOST_USED, TIRED = 0.5, 0.25
+"""Parts of these changes from which on a model's trees are chosen anew, and if it is their turn. The rest is left until
+other trees are chosen next."""
 
 TURNS = 4
 """Each model's turn comes once in so many times: seldom are the trees of many chosen anew."""
@@ -59,7 +60,7 @@ class Distant:
         """Choose the trees of those models anew whose view has changed."""
         self._time, due = (self._time + 1) % TURNS, list[int]()
         for model, before in enumerate(self._looks):
-            limit = TIRED if model % TURNS == self._time else 1.0
+            limit = TIRED if model % TURNS == self._time else MOST_USED
             if before is None or self._slack.used(before, look) > limit:
                 self._choose(model, look)
                 due.append(model)

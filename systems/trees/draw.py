@@ -27,6 +27,7 @@ from .shade import ShadeMap
 from .standing import Standing
 from .stream import ALONE, CAST, LEAVES, GpuModel, Uniforms
 from .twig import LEAF_PIXELS
+from .wild import MOST_VIEWERS
 
 EVERY_LEAF = -2.0, -1.0
 """Uniform in place of `LEAF_PIXELS` where all twigs are drawn leaf by leaf."""
@@ -50,8 +51,8 @@ class TreePart(Part):
         self._leaves_from_chosen: float | None = None
         self._rehearsing = False
         self._inputs: object = None
-        self._choice: tuple[Standing, Choice] | None = None
-        """The trees of a frame, to choose from."""
+        self._choices: dict[str, tuple[Standing, Choice]] = {}
+        """The trees of a frame to choose from, by viewer."""
         self._batches: Sequence[Batch] = []
         """Batches that are drawn."""
         self._calls: Calls | None = None
@@ -90,7 +91,7 @@ class TreePart(Part):
                 for number, kind in enumerate(scene.trees.values())
             ]
         self._models = [(kind, model) for kind in self._kinds for model in kind.models]
-        self._choice = None
+        self._choices.clear()
         self._forget()
         if self._kinds and self._shade is None:
             self._shade = ShadeMap(self._ctx)
@@ -180,16 +181,22 @@ class TreePart(Part):
         if self._inputs == inputs:
             return
         self._inputs = inputs
-        if self._choice is None or self._choice[0] is not standing:
-            models = [model.model for _, model in self._models]
-            self._choice = standing, Choice(standing, models, [kind.declared.variety for kind, _ in self._models])
-        batches = self._choice[1].choose(self._look(outlook))
+        batches = self._choice(standing, viewer.name).choose(self._look(outlook))
         if batches is self._batches:
             assert self._segments is not None
             self._segments.write_again()
         else:
             self._send(batches)
             self._show_wood(viewer.sides)
+
+    def _choice(self, standing: Standing, viewer: str) -> Choice:
+        """Return the trees to choose from for a viewer."""
+        known = self._choices.pop(viewer, None)
+        if known is None or known[0] is not standing:
+            models = [model.model for _, model in self._models]
+            known = standing, Choice(standing, models, [kind.declared.variety for kind, _ in self._models])
+        self._choices = dict([*self._choices.items(), (viewer, known)][-MOST_VIEWERS:])
+        return known[1]
 
     def _look(self, outlook: Outlook) -> Look:
         """Return the viewpoint that trees are chosen for."""

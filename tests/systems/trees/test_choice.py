@@ -235,7 +235,8 @@ def drawn_of(found: Sequence[Batch], models: list[Model]) -> dict[tuple[object, 
 
 
 STEPS = [((0.02 * step, 4.0 + 0.01 * step, -0.05 * step), 0.1 * step) for step in range(16)]
-"""Eyes and yaws of a walk that turns."""
+STEPS += [((0.3 * step, 4.0, -3.0 * step), 60.0 * step) for step in range(1, 4)]
+"""Eyes and yaws of a walk that turns, and of a run."""
 
 
 def test_on_a_walk_all_that_is_seen_is_drawn_and_most_is_not_chosen_anew_in_each_frame(models: list[Model]) -> None:
