@@ -16,6 +16,11 @@ const int ROWS = 40503;  // numbers of cells from one row to the next
 const float BITS = 16.0;  // in each half of the random bits of a patch
 const uint LOWER_HALF = 0xFFFFu;
 
+// Random bits of a patch.
+uint bits_of(ivec2 cell) {
+    return scramble(uint(cell.x * ROWS + cell.y ^ stock.y));
+}
+
 // Texture coordinates and image that a pixel reads of each kind.
 struct Look {
     vec2 at;        // texture coordinates
@@ -25,9 +30,8 @@ struct Look {
 };
 
 // Of the images of two slopes each patch shows one, chosen at random by their weights.
-Look look_along(vec2 heading) {
-    vec2 at = place.xz * patches_per_metre, cell = floor(at), here = fract(at) - blown * patches_per_metre - 0.5;
-    uint random_bits = scramble(uint(int(cell.x) * ROWS + int(cell.y) ^ stock.y));
+Look look_along(vec2 heading, uint random_bits) {
+    vec2 here = fract(place.xz * patches_per_metre) - blown * patches_per_metre - 0.5;
     float upper = float(random_bits >> UPPER_HALF);
     int low = min(int(elevation), SLOPES - 2), slope = min(int(elevation + upper * exp2(-BITS)), low + 1);
     int side = int(random_bits >> UPPER_HALF) & (HEADINGS - 1);
@@ -74,8 +78,8 @@ void add_kind(inout Grass sum, int kind, Look look, vec2 facing) {
     sum.taller += part * (shown.g * mean.a / max(mean.g, LEAST_TEXEL) - 1.0);
 }
 
-Grass grass_seen(vec2 heading) {
-    Look look = look_along(heading);
+Grass grass_seen(vec2 heading, uint random_bits) {
+    Look look = look_along(heading, random_bits);
     Grass sum = Grass(vec3(0.0), 0.0, 0.0, 0.0);
     for (int kind = 0; kind < KINDS; kind++)
         if (OF(met, kind) > LEAST_MET)
@@ -93,20 +97,33 @@ float hides_behind(float slope, float taller, float share) {
     return 1.0 - dot(transmittance(leaves * sqrt(spike_factor(taller, share))), vec2(HALF));
 }
 
+// Brightness of the litter on a patch, of which little is seen between the grass: each patch shows another part of the texture.
+float litter_on_patch(uint random_bits) {
+    vec2 part = vec2(random_bits & LOWER_HALF, random_bits >> UPPER_HALF) * exp2(-BITS);
+    vec2 in_patch = fract(place.xz * patches_per_metre) * patch_side;
+    return litter_between(in_patch / LITTER_SIDE + part, dFdx(place.xz), dFdy(place.xz)).x;
+}
+
 void main() {
-    float share = mesh_share > 0.0 ? share_at(ivec2(floor(place.xz * patches_per_metre))) : 0.0, covered = 1.0;
+    ivec2 cell = ivec2(floor(place.xz * patches_per_metre));
+    uint random_bits = bits_of(cell);
+    float share = mesh_share > 0.0 ? share_at(cell) : 0.0, covered = 1.0;
     vec2 shadow = has_casters() ? mix(in_shade, vec2(1.0), casters_visibility(place)) : vec2(1.0);
-    vec3 color = soil_seen * (shadow.y * litter_at(place.xz, dFdx(place.xz), dFdy(place.xz), share > 0.0 ? 0.0 : 1.0).x);
+    vec3 color = soil_seen * (shadow.y * litter_on_patch(random_bits));
     if (share > 0.0) {
         vec3 ray = place - eye;
         float nearness = inversesqrt(max(dot(ray.xz, ray.xz), TINY * TINY)), facing = (dot(rise, ray.xz) - ray.y) * nearness;
-        Grass grass = grass_seen(ray.xz * nearness);
+        Grass grass = grass_seen(ray.xz * nearness, random_bits);
         vec3 light = max(ground_light + light_rise * grass.height, 0.0) * shadow.x;
         vec3 leaves = tone_mapped(grass.pigment * grass.pigment * light + air_light);
-        float slope = max(facing, 0.0), ends = smoothstep(ENDS.x * share, ENDS.y * share, slope * slope / crest_deep);
-        float covers = past_strips * mix(min(grass.covers / LEAST_COVER, 1.0), grass.covers, ends);
+        float square = max(facing, 0.0) * max(facing, 0.0), covers = grass.covers;
+        if (square < outlined_to || rim_path < NO_RIM) {
+            float ends = smoothstep(ENDS.x * share, ENDS.y * share, square / crest_deep);
+            covers = mix(min(covers / LEAST_COVER, 1.0), covers, ends);
+            covered = mix(1.0, hides_behind(facing, grass.taller, share), min(share / SHOWN_FROM, 1.0));
+        }
+        covers *= past_strips;
         color = color * (1.0 - covers) + leaves * covers;
-        covered = mix(1.0, hides_behind(facing, grass.taller, share), min(share / SHOWN_FROM, 1.0));
     }
     if (covered < max(NOTHING, STANDING * (1.0 - share)))
         discard;

@@ -9,6 +9,7 @@ WITHIN PASSED vec2 rise;           // gradient of the ground along x and z [m/m]
 WITHIN PASSED float crest;         // twice the curvature of the ground along the line of sight [1/m]
 WITHIN PASSED float crest_deep;    // that times the height of the grass
 WITHIN PASSED float crest_leaves;  // optical depth over a crest, by the root of `crest` and the height of a line of sight to the power of 3/2
+WITHIN PASSED float outlined_to;   // square of the slope of a line of sight from which on no outline is seen
 WITHIN PASSED vec2 in_pixel;       // heights of the lines of sight LINES of a pixel over the outline [m]
 WITHIN PASSED float rim_path;      // from rim_path_at
 WITHIN PASSED float rim_leaves;    // optical depth over a rim, for a path of 1

@@ -11,6 +11,8 @@
 #include "systems/show/carpet/coarse.glsl"
 
 const float LOWER = 0.5;  // height of the lower one of two leaves whose light is computed, as a part of what images show
+const float BEHIND_NOTHING = 9.0 * log(2.0);  // optical depth from which on 8 bits hold nothing of what is behind
+const float PER_PATH = 1.0 / 1.5;  // exponent of the path over a crest, by its optical depth
 
 // Set the varyings of the grass's height over a crest and over a rim.
 void set_outline(Laid laid) {
@@ -20,6 +22,9 @@ void set_outline(Laid laid) {
     crest_deep = crest * high;
     crest_leaves = CREST * laid.leaf_area / (high * high) + BARE_LEAVES * max(1.0 - laid.tall / (2.0 * LOWEST_GRASS), 0.0);
     in_pixel = pixel * LINES - outline_raise(laid.curvature, pixel);
+    float leaves = crest_leaves * inversesqrt(crest) * transmittance(0.5 * SPIKES * TALLER);  // among plants lower than the mean
+    float opaque_path = pow(BEHIND_NOTHING / max(leaves, TINY), PER_PATH);
+    outlined_to = crest * max(ENDS.y * high, opaque_path - in_pixel.x);
     rim_path = laid.rim_path;
     rim_leaves = RIM * laid.leaf_area;
 }

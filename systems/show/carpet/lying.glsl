@@ -8,11 +8,14 @@ const int HALF_OF_BITS = 65536;
 const vec2 WAVES = vec2(2.9, 0.15);  // waves of the squares' borders, as straight ones would show: wave number [1/m]; amplitude, in sides
 
 // Texture coordinates of a place. Each square of the tiling has its own random offset, as equal squares would show as a lattice from
-// above.
+// above. Coordinates begin in each square: beside a triangle that reaches behind the eye places are endless, and a software rasteriser's
+// anisotropic filter would go through all texels up to there.
 vec2 tiled_place(vec2 at) {
-    ivec2 square = ivec2(floor(at / LITTER_SIDE + WAVES.y * abs(fract(WAVES.x * at.yx) - 0.5)));
-    uint random_bits = scramble(uint(HALF_OF_BITS * square.x + square.y));
-    return at / LITTER_SIDE + vec2(random_bits % uint(HALF_OF_BITS), random_bits / uint(HALF_OF_BITS)) / float(HALF_OF_BITS);
+    vec2 square = floor(at / LITTER_SIDE + WAVES.y * abs(fract(WAVES.x * at.yx) - 0.5));
+    ivec2 number = ivec2(square);
+    uint random_bits = scramble(uint(HALF_OF_BITS * number.x + number.y));
+    vec2 offset = vec2(random_bits % uint(HALF_OF_BITS), random_bits / uint(HALF_OF_BITS)) / float(HALF_OF_BITS);
+    return at / LITTER_SIDE - square + offset;
 }
 
 #ifdef ANISOTROPIC
@@ -21,6 +24,11 @@ const float SHARPENED = exp2(-LITTER_SHARPER) / LITTER_SIDE;
 // At a low angle the footprint is a long stripe of ground: the sampler is anisotropic.
 vec2 litter_at(vec2 at, vec2 dx, vec2 dy, float bare) {
     return textureGrad(repeating, tiled_place(at), dx * SHARPENED, dy * SHARPENED).gb;
+}
+
+// The same at texture coordinates, where hardly any ground is seen between the grass.
+vec2 litter_between(vec2 uv, vec2 dx, vec2 dy) {
+    return textureGrad(repeating, uv, dx * SHARPENED, dy * SHARPENED).gb;
 }
 #else
 const float LITTER_PARTS = 4.0;  // most parts of a long stripe, one behind the other
@@ -42,5 +50,11 @@ vec2 litter_at(vec2 at, vec2 dx, vec2 dy, float bare) {
         sum += textureLod(repeating, first + part * step, level + (part - 0.5 * count + 0.5) * apart).gb;
     while (++part < count);
     return sum / count;
+}
+
+// The same at texture coordinates, where hardly any ground is seen between the grass: read once, for a stripe as long as wide.
+vec2 litter_between(vec2 uv, vec2 dx, vec2 dy) {
+    float texels = float(textureSize(repeating, 0).x) / LITTER_SIDE, longest = max(dot(dx, dx), dot(dy, dy));
+    return textureLod(repeating, uv, 0.5 * log2(longest * texels * texels) - LITTER_SHARPER).gb;
 }
 #endif

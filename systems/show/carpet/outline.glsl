@@ -1,14 +1,11 @@
 // Outlines: the silhouette of the carpet against what is behind a crest.
 #include "systems/show/carpet/sight.glsl"
 
-const float SPIKES = 18.0;  // exponential growth of the leaves met along an outline, for each 1 of `taller`
-const float TALLER = 0.05;  // largest relative height of taller plants that counts
 const vec2 SPIKES_FROM = vec2(0.8, 1.0);  // shares of the carpet from which on they count: where it sinks, they would swim
 const float SHOWN_FROM = 1.0 / 3.0;  // share from which on an outline hides none of its own grass
 const float STANDING = 0.9;  // least coverage that is drawn where strips have just begun to give way
 const float NOTHING = 0.004;  // coverage below which a pixel shows nothing, in 8 bits
 const float LEAST_COVER = 0.05;  // least coverage of grass over a crest whose colour stands for all of it
-const vec2 ENDS = vec2(0.5, 1.5);  // greatest depths, relative to the carpet's share, of lines of sight that see grass behind, and ground
 const float HALF = 0.5;
 
 const vec4 IN_PIXEL = vec4(-0.375, -0.125, 0.125, 0.375);  // lines of sight that sample a pixel, as fractions of its height

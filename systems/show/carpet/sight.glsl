@@ -23,6 +23,10 @@ const float LOWEST_GRASS = 0.01;  // least height of grass [m]
 const float OPAQUE = 12.0;  // optical depth of bare ground, which is its own outline
 const float HIGHER = 0.4;  // raise of an outline, which is thin in its last pixels; the mesh is raised by half a pixel [pixels]
 
+const float SPIKES = 18.0;  // exponential growth of the leaves met along an outline, for each 1 of `taller`
+const float TALLER = 0.05;  // largest relative height of taller plants that counts
+const vec2 ENDS = vec2(0.5, 1.5);  // greatest depths, relative to the carpet's share, of lines of sight that see grass behind, and ground
+
 const float NO_RIM = 500.0;  // value of rim_path_at from which on a line of sight passes over no rim
 
 uniform float outline;  // height of the carpet along outlines, as a fraction of its height elsewhere; 0: the same
