@@ -26,7 +26,8 @@ struct Look {
     vec2 at;        // texture coordinates
     int image;      // index among the images of a kind
     ivec2 between;  // images of both slopes
-    float blend;    // weight of the second slope
+    vec2 weights;   // of both slopes in the mean
+    vec2 means;     // weights of their means beside the image with its gain of contrast
 };
 
 // Of the images of two slopes each patch shows one, chosen at random by their weights.
@@ -36,11 +37,11 @@ Look look_along(vec2 heading, uint random_bits) {
     int low = min(int(elevation), SLOPES - 2), slope = min(int(elevation + upper * exp2(-BITS)), low + 1);
     int side = int(random_bits >> UPPER_HALF) & (HEADINGS - 1);
     int model = int((float(random_bits & LOWER_HALF) + 0.5) * (float(stock.x) * exp2(-BITS)));
-    float longer = max(on_level, FLATTEST) / slopes[slope] - 1.0;
-    float along = dot(here, heading) * longer * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, on_level));
+    float along = dot(here, heading) * (stretch.x / slopes[slope] - stretch.y);
     ivec3 image = (model * SLOPES + ivec3(low, low + 1, slope)) * HEADINGS + side;
     vec2 place_in_image = rotated(here + heading * along, image_turn(heading, side)) + 0.5;
-    return Look(place_in_image, image.z, image.xy, elevation - float(low));
+    float steeper = elevation - float(low), own = steeper - grain * float(slope - low);
+    return Look(place_in_image, image.z, image.xy, vec2(1.0 - steeper, steeper), vec2(1.0 - grain - own, own));
 }
 
 // Sums over all kinds, weighted by coverage: pigment and height; coverage; excess of height over the mean.
@@ -54,15 +55,15 @@ struct Grass {
 void add_kind(inout Grass sum, int kind, Look look, vec2 facing) {
     float part = OF(met, kind), from = OF(first, kind);
     vec4 lower = layer_mean(images, int(from) + look.between.x, stock.z), steeper = layer_mean(images, int(from) + look.between.y, stock.z);
-    vec4 mean = mix(lower, steeper, look.blend), own_mean = look.image == look.between.x ? lower : steeper;
-    vec4 image = max(mean + (layer_at(images, vec3(look.at, from + float(look.image)), level) - own_mean) * grain, 0.0);
-    float covers = max(1.0 - (1.0 - min(image.a, 1.0)) * bent_through, 0.0);
-    vec3 shown = min(image.rgb / max(image.a, LEAST_TEXEL), 1.0);
-    vec2 at = places.xy * (places.z + places.w * shown.rg);
+    vec4 mean = lower * look.weights.x + steeper * look.weights.y;
+    vec4 image = lower * look.means.x + steeper * look.means.y + layer_at(images, vec3(look.at, from + float(look.image)), level) * grain;
+    float covers = clamp(1.0 - clamp(1.0 - image.a, 0.0, 1.0) * bent_through, 0.0, 1.0);
+    vec3 shown = clamp(image.rgb / max(image.a, LEAST_TEXEL), 0.0, 1.0);
+    vec2 at = places.xy + places.zw * shown.rg;
 #ifdef HEADS
     float ripe = OF(riper, kind);
     at.x += ripe * (ripe > 0.0 ? 1.0 - at.x : at.x);
-    covers = OF(bears, kind) > 0.0 ? min(image.a / max(mean.a, LEAST_MEAN), 1.0) : covers;
+    covers = OF(bears, kind) > 0.0 ? clamp(image.a / max(mean.a, LEAST_MEAN), 0.0, 1.0) : covers;
 #endif
     covers *= part;
     float cos_double = 2.0 * shown.b - 1.0, eyed = 0.0;

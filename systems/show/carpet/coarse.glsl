@@ -18,13 +18,13 @@ WITHIN PASSED ByKind met;          // by kind: weight of its image
 WITHIN PASSED ByKind riper;        // by kind: excess of heads over its image, from kinds_met
 #endif
 WITHIN PASSED vec2 blown;          // displacement of leaves [m]
-WITHIN PASSED float on_level;      // from level_slope
+WITHIN PASSED vec2 stretch;        // lengthening of images along the line of sight: its parts in proportion to their slope, and taken off
 WITHIN PASSED float elevation;     // from elevation_index
 WITHIN PASSED float level;         // mip level of the images
 WITHIN PASSED float grain;         // gain of contrast about the mean of images
 WITHIN PASSED float past_strips;   // opacity of the grass among strips, from among_strips
 WITHIN PASSED float bent_through;  // transmittance of the additional leaves that a line of sight meets in bent grass
-WITHIN PASSED vec4 places;         // place along blades and height of leaves on top; their parts that images do not change, and do
+WITHIN PASSED vec4 places;         // place along blades and height of leaves: where images show 0, and the rise to where they show 1
 WITHIN PASSED vec3 ground_light;   // radiance of a white leaf on the ground, as if light were linear in height
 WITHIN PASSED vec3 light_rise;     // its rise to the top of the canopy
 WITHIN PASSED vec3 air_light;      // radiance of haze and gloss before leaves

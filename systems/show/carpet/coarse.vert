@@ -10,6 +10,8 @@
 #define PASSED out
 #include "systems/show/carpet/coarse.glsl"
 
+float on_level;  // from level_slope
+
 const float LOWER = 0.5;  // height of the lower one of two leaves whose light is computed, as a part of what images show
 const float BEHIND_NOTHING = 9.0 * log(2.0);  // optical depth from which on 8 bits hold nothing of what is behind
 const float PER_PATH = 1.0 / 1.5;  // exponent of the path over a crest, by its optical depth
@@ -39,8 +41,8 @@ vec4 set_places(Laid laid, float slope, float on_strips, vec2 bent) {
     bent *= height_factor(on_level, laid.leaf_area);
 #endif
     past_strips = among.x;
-    places = vec4(bent, 1.0 - deep, deep * among.y);
-    return vec4(bent * (places.z + LOWER * places.w), bent * (places.z + places.w));
+    places = vec4(bent * (1.0 - deep), bent * (deep * among.y));
+    return vec4(places.xy + LOWER * places.zw, places.xy + places.zw);
 }
 
 // Set the varyings of light, which is linear in the height of leaves between two of them, as set_places returns them.
@@ -105,11 +107,12 @@ ByKind filled_covers(ByKind covers) {
     return covers;
 }
 
-// Set mip level and gain of contrast at which images are read.
+// Set mip level, gain of contrast and lengthening at which images are read.
 void set_sharpness(float tall) {
     float across = pixel_height(place), size = float(textureSize(images, 0).x);
     level = log2(max(across * patches_per_metre, THINNEST_PIXEL) * (SHARP * size));
     float steep = smoothstep(STEEP.x, STEEP.y, on_level), filtered = clamp(level + FILTERED - log2(SHARP), 0.0, 1.0);
+    stretch = vec2(on_level, 1.0) * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, on_level));
     float far = inversesqrt(1.0 + across / (FEATURE * max(tall, LOWEST_GRASS)));
     grain = CONTRAST * mix(far * mix(1.0, GRAIN, filtered), mix(1.0, GRAIN_ABOVE.x, filtered), steep);
 }
