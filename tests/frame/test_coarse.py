@@ -6,6 +6,7 @@ import esper
 import moderngl
 import numpy as np
 import pytest
+import yaml
 from numpy.typing import NDArray
 
 from tallgrass import Shade
@@ -19,7 +20,7 @@ SCENE = """\
 tallgrass: 2
 terrain: {{ size: [60, 60], noise: flat }}
 grass: {{ turf: {{ height: [0.3, 0.5], width: 0.02, blades: {blades} }} }}
-light: {{ azimuth: 90, elevation: 50, haze: 1e6 }}
+light: {{ azimuth: 90, elevation: 50, haze: 1000000 }}
 quality:
   models: 2
   blade_rings: [{{ to: 1, segments: 2 }}]
@@ -52,6 +53,24 @@ def test_n12_a_shade_is_as_dark_on_a_coarse_carpet_as_on_a_whole_one(room: Stage
         esper.delete_entity(shade, immediate=True)
     assert darker[0] < 0.8
     assert darker[1] == pytest.approx(darker[0], abs=0.05)
+
+
+def test_g4_over_crests_of_a_coarse_carpet_as_much_sky_is_seen_as_over_a_whole_one(
+    ctx: moderngl.Context, room: Stage
+) -> None:
+    z = np.arange(121.0) - 60.0
+    ridge = np.where(np.abs(z) < 30.0, 3.0 * np.cos(z * np.pi / 60.0) ** 2, 0.0)
+    heights = np.repeat(ridge[:, None], 121, 1).astype(np.float32)
+    clear = []  # how far down the sky is seen, in rows of pixels
+    for coarse in ("false", "true"):
+        scene = yaml.safe_load(SCENE.format(blades=400, coarse=coarse))
+        scene["terrain"] = {"heights": heights, "cell": 1.0}
+        prairie = Prairie.load(scene, ctx=ctx, lod="carpet")
+        picture = room.shot(prairie, Camera((0.6, 1.7, 50.0), 0.0, 0.024, np.radians(5.0))).mean(axis=(1, 2))
+        prairie.release()
+        sky, grass = picture[:10].mean(), picture[-20:].mean()
+        clear.append(float(((picture - grass) / (sky - grass)).sum()))
+    assert clear[1] == pytest.approx(clear[0], abs=1.0)
 
 
 def test_g5_between_sparse_grass_litter_shows_on_coarse_ground_too(room: Stage, load: Load) -> None:
