@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ...components.arrays import Doubles
 from ...engine.declared.plant import SIZES, Head, HeadForm
 from .layout import Layout, has_few_petals
-from .organs import BLOTCHED, BUD, CAPSULE, DISC, EYE, FLORETS, PETAL, RAY, STAMENS, STRAP, TUFT
+from .organs import BLOTCHED, BUD, CAPSULE, DISC, EYE, FLORETS, PETAL, RAY, STAMENS, STRAP, TUFT, TWIN
 from .rows import GOLDEN, Rows, Stems, stand_organs
 
 Whorl = tuple[float, float]
@@ -159,7 +159,7 @@ def _eyed(
     whorls = BELL if head.form == "bell" else DISC_OF_FEW if few else ROUND_A_DISC
     below = 0.0 if few else _BELOW_DISC
     cup = _grow_cup(
-        head, layout, stems, size, random, whorls=whorls, petal=BLOTCHED if few else STRAP, below=below
+        head, layout, stems, size, random, whorls=whorls, petal=BLOTCHED if few else TWIN, below=below
     )  # fmt: skip
     if few:
         return cup.petals, *_stamens(cup, layout.middles, stems, size)

@@ -42,14 +42,14 @@ class Organ:
 
 
 BLADE, STEM, LEAF, FROND, PETAL, EYE, BUD, RAY, TUFT, WITHERED, FLORETS, SPRIG, STRAP = range(13)
-BLOTCHED, DISC, STAMENS, CAPSULE = range(13, 17)
+BLOTCHED, DISC, STAMENS, CAPSULE, TWIN = range(13, 18)
 
 ORGANS: Final = (
     Organ((), (0.0, 1.0)),
     Organ((1.0, 0.9, 0.8, 0.75, 0.7), (0.0, 0.06)),
     Organ((0.35, 0.85, 1.0, 0.75, 0.05), (0.0, 0.08)),
     Organ((0.25, 0.9, 1.0, 0.7, 0.05), (0.1, 0.9)),
-    Organ((0.3, 0.75, 1.0, 0.95, 0.4), (0.62, 1.0), 0.35),
+    Organ((0.3, 0.75, 1.0, 1.0, 0.1), (0.62, 1.0), 0.35),
     Organ((0.7, 1.0, 1.0, 0.9, 0.5), (0.2, 0.4), 0.35),
     Organ((0.6, 1.0, 0.95, 0.7, 0.15), (0.0, 0.3), 0.35),
     Organ((0.06, 0.06, 0.07, 0.9, 0.6), (0.1, 1.0), 0.35),
@@ -57,24 +57,25 @@ ORGANS: Final = (
     Organ((0.5, 0.75, 0.65, 0.4, 0.05), (0.75, 1.0), 0.7),
     Organ((0.5, 0.9, 1.0, 0.8, 0.2), (0.7, 1.0), teeth=6),
     Organ((0.35, 0.8, 1.0, 0.85, 0.3), (0.0, 0.1), teeth=6),
-    Organ((0.3, 0.7, 0.95, 1.0, 0.6), (0.7, 1.0), 0.35, ligules=10),
-    Organ((0.3, 0.75, 1.0, 0.95, 0.4), (0.9, 1.0), 0.35, dyed=(0.2, 0.48)),
+    Organ((0.3, 0.7, 0.95, 1.0, 0.6), (0.7, 1.0), 0.35, ligules=5),
+    Organ((0.3, 0.75, 1.0, 1.0, 0.1), (0.9, 1.0), 0.35, dyed=(0.2, 0.48)),
     Organ((0.5, 0.85, 1.0, 1.0, 0.7), (1.0, 1.0), 0.35, dyed=(1.0, 2.0)),
     Organ((0.3, 0.65, 0.95, 1.0, 0.5), (1.0, 1.0), 0.35, dyed=(1.0, 2.0)),
     Organ((0.45, 0.8, 1.0, 1.0, 0.8), (0.02, 0.12), 0.35),
+    Organ((0.3, 0.7, 0.95, 1.0, 0.6), (0.7, 1.0), 0.35, ligules=2),
 )
 """Sorts of organs, by the numbers above. `LEAF` belongs to a plant with a head, whose colour is the tip's, `FROND` to
 one without. `EYE` is the middle of an open head, `RAY` a ray of an umbel with florets at its end, `TUFT` a branch of a
 plume with its spikelets, a centimetre apart as on a reed's. `WITHERED` grass is as pale as tips, thinner, and stiffer.
 `FLORETS` are several of a spike, one above another; a `SPRIG` is a shrub's short twig with its leaves. The wind bends
 both as far as their stems, so that they stay close. `STRAP` is a group of narrow petals side by side, in discs of many
-petals, as of dandelions and daisies. Heads with an eye of its own colour have `BLOTCHED` petals about `STAMENS` and a
-`CAPSULE`, as poppies; with many petals, these stand about a `DISC` of florets, as a daisy's."""
+petals, as of dandelions. Heads with an eye of its own colour have `BLOTCHED` petals about `STAMENS` and a `CAPSULE`, as
+poppies; with many petals, these are `TWIN`, two broad ones side by side, about a `DISC` of florets, as a daisy's."""
 
-HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT, FLORETS, STRAP, BLOTCHED, DISC, STAMENS, CAPSULE)
+HEADS: Final = (PETAL, EYE, BUD, RAY, TUFT, FLORETS, STRAP, BLOTCHED, DISC, STAMENS, CAPSULE, TWIN)
 """Organs of heads."""
 
-AT_TIPS: Final = (PETAL, EYE, BUD, RAY, STRAP, BLOTCHED, DISC, STAMENS, CAPSULE)
+AT_TIPS: Final = (PETAL, EYE, BUD, RAY, STRAP, BLOTCHED, DISC, STAMENS, CAPSULE, TWIN)
 """Organs of heads that stand together on the tip of a stem."""
 
 LEAVES: Final = (LEAF, FROND, WITHERED)
@@ -96,21 +97,23 @@ DYED: Final = np.array([organ.dyed for organ in ORGANS])
 """Places along each organ where its eye's colour begins to fade, and where it ends, shape (organs, 2)."""
 
 _BETWEEN: Final = np.array([-1.0, 9.0, 9.0, -1.0]) / 16.0
-"""Weights of four places for the width between the inner two (Catmull and Rom, A class of local interpolating splines,
-1974)."""
+"""Weights of four places for the square of the width between the inner two (Catmull and Rom, A class of local
+interpolating splines, 1974)."""
 
 
 def _widths(number: int, /) -> Doubles:
     """Return the relative width of an organ at `KNOTS` places.
 
-    Organs on the tips of stems are round in outline, but for rays, which are stalks.
+    Organs on the tips of stems are round in outline, as ellipses are, whose squared width is a parabola; but for rays,
+    which are stalks.
     """
     given = np.array(ORGANS[number].widths or (0.0,) * GIVEN)
     if number not in AT_TIPS or number == RAY:
         return np.asarray(np.interp(np.linspace(0.0, 1.0, KNOTS), np.linspace(0.0, 1.0, GIVEN), given))
-    ends = 2.0 * given[0] - given[1], *given, 2.0 * given[-1] - given[-2]
+    square = given * given
+    ends = 2.0 * square[0] - square[1], *square, 2.0 * square[-1] - square[-2]
     widths = np.empty(KNOTS)
-    widths[::2], widths[1::2] = given, np.convolve(ends, _BETWEEN, "valid")
+    widths[::2], widths[1::2] = given, np.sqrt(np.convolve(ends, _BETWEEN, "valid"))
     return np.asarray(widths.clip(0.0, 1.0))
 
 

@@ -242,27 +242,30 @@ DANDELIONS = (
     .replace("plants: 50", "plants: 400")
     .replace("blades: 160", "blades: 500")
 )
+DAISIES = DANDELIONS.replace('"#ffd21c", head: {', '"#f1efe6", head: { eye: "#eeb611",')
 
 
 @pytest.mark.parametrize(
-    ("scene", "eye", "pitch", "view"),
+    ("scene", "eye", "pitch", "view", "off"),
     [
-        pytest.param(HEATH, (0.0, 0.5, 3.0), -15.0, 15.0, id="florets and leaves of twigs"),
-        pytest.param(REEDS, (0.0, 0.8, 4.0), -10.0, 15.0, id="spikelets of plumes"),
-        pytest.param(DANDELIONS, (0.0, 1.0, 50.0), -35.0, 12.0, id="petals of dandelions", marks=pytest.mark.slow),
+        pytest.param(HEATH, (0.0, 0.5, 3.0), -15.0, 15.0, 0.02, id="florets and leaves of twigs"),
+        pytest.param(REEDS, (0.0, 0.8, 4.0), -10.0, 15.0, 0.02, id="spikelets of plumes"),
+        pytest.param(DANDELIONS, (0.0, 1.0, 50.0), -35.0, 12.0, 0.03, id="dandelions", marks=pytest.mark.slow),
+        pytest.param(DAISIES, (0.0, 1.0, 50.0), -35.0, 12.0, 0.05, id="daisies", marks=pytest.mark.slow),
     ],
 )
 def test_f3_what_an_organ_is_made_of_stands_out_near_by_and_leaves_the_colour_of_all_as_it_is(
     stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch,
-    scene: str, eye: tuple[float, float, float], pitch: float, view: float,
+    scene: str, eye: tuple[float, float, float], pitch: float, view: float, off: float,
 ) -> None:  # fmt: skip
+    """Broad petals that lie over one another hide a little less when they are parted."""
     aim, pictures = camera(*eye, pitch=pitch, view=view), []
     for _ in range(2):
         pictures.append(stage.shot(load(scene, lod="blades"), aim).astype(float))
         monkeypatch.setattr(representation, "any_with", lambda *_: False)
     fine, whole = pictures
     assert np.abs(fine - whole).mean() > 1.0
-    np.testing.assert_allclose(fine.mean(axis=(0, 1)), whole.mean(axis=(0, 1)), rtol=0.02)
+    np.testing.assert_allclose(fine.mean(axis=(0, 1)), whole.mean(axis=(0, 1)), rtol=off)
 
 
 def test_f3_broad_petals_seen_aslant_have_the_outline_of_the_references(stage: Stage, load: Load, camera: Aim) -> None:

@@ -84,9 +84,14 @@ int segments_on(int level, int k) {
 #endif
 }
 
-// Place along a blade of the joint nearest to place `t`, with this number of segments.
+// Place along a blade of the joint nearest to place `t`, with this number of segments. Where ends are round, joints are closer.
 float joint_at(float t, int segments) {
-    return floor(t * float(segments) + 0.5) / float(segments);
+    float joint = floor(t * float(segments) + 0.5) / float(segments);
+#ifdef ORGANS
+    if (is_at_tip(organ()))
+        return 1.0 - (1.0 - joint) * sqrt(1.0 - joint);
+#endif
+    return joint;
 }
 
 // A point on the middle line of a ribbon.
@@ -232,7 +237,8 @@ float widened_by_teeth(float t, float side) {
 #endif
     float wider = mix(1.0, TOOTHED_WIDER, max(seen, 0.0));
     tooth_widths = vec2(mix(1.0, TOOTHED_WIDER * BETWEEN, max(seen, 0.0)), TOOTHED_WIDER * (1.0 - BETWEEN) * max(seen, 0.0)) / wider;
-    return seen < 0.0 ? mix(1.0, LIGULES_WIDER, -seen) : wider;
+    float rounded = ENDS_LACK * length(lean_across.zw) / (foot.w * max(LIGULES_OF[organ()], 1.0));
+    return seen < 0.0 ? mix(1.0, LIGULES_WIDER * (1.0 + rounded), -seen) : wider;
 }
 #endif
 

@@ -18,6 +18,7 @@ const float SLIT_FROM = 0.25;  // place along ligules from which on slits part t
 const float SLIT_TO = 0.3;     // width of slits at the ends, relative to the spacing of ligules
 const float SHORTER = 0.2;     // fraction by which the shortest ligule is shorter than the longest
 const float LIGULES_WIDER = 1.0 / ((1.0 - 0.5 * SLIT_TO * (1.0 - SLIT_FROM)) * (1.0 - 0.5 * SHORTER));  // width that keeps the mean area
+const float ENDS_LACK = 1.0 / 3.0;  // area that round ends lack, relative to half a ligule's width times its width
 
 const float TEETH_OF[ORGANS] = TEETH, LIGULES_OF[ORGANS] = LIGULES;
 

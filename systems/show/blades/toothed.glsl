@@ -18,11 +18,11 @@ Outline teeth_outline(float to_side) {
 }
 
 #ifdef LIGULES_TOO
-// Ligules, at a place in them; `pixel_size` is the size of a pixel there. They show where they are wider than pixels.
+// Ligules, at a place in them; `pixel_size` is the size of a pixel there. They show where they are wider than pixels, with round ends.
 Outline ligules_outline(vec2 place, vec2 pixel_size) {
     float ligule = floor(place.y), off = abs(place.y - ligule - 0.5), end = 1.0 - SHORTER * fract(ligule * GOLDEN_PART);
-    float half_wide = 0.5 * (1.0 - SLIT_TO * smoothstep(SLIT_FROM, 1.0, place.x));
-    vec2 inside = clamp(vec2(end - place.x, half_wide - off) / pixel_size + 0.5, 0.0, 1.0);
+    float half_wide = 0.5 * (1.0 - SLIT_TO * smoothstep(SLIT_FROM, 1.0, place.x)), ending = 2.0 * off * off * pixel_size.x / pixel_size.y;
+    vec2 inside = clamp(vec2(end - ending - place.x, half_wide - off) / pixel_size + 0.5, 0.0, 1.0);
     float seen = clamp(1.0 / pixel_size.y - 1.0, 0.0, 1.0) * -outlined;
     return Outline(1.0, mix(1.0, inside.x * inside.y, seen), 1.0 + seen * LIGULE_EDGES * (0.5 - 2.0 * off));
 }

@@ -173,7 +173,8 @@ def test_the_table_of_organs_begins_with_blades_and_its_tones_and_widths_are_par
 
 def test_petals_are_round_in_outline_and_other_organs_have_straight_sides() -> None:
     bends = np.abs(np.diff(organs.WIDTHS, n=2, axis=1))
-    assert bends[organs.PETAL].max() < 0.6 * np.abs(np.diff(organs.ORGANS[organs.PETAL].widths, n=2)).max()
+    assert (organs.WIDTHS[[organs.PETAL, organs.BLOTCHED], -1] < 0.2).all()  # no cut across their ends
+    assert (organs.WIDTHS[[organs.PETAL, organs.BLOTCHED], -2] > 0.7).all()
     np.testing.assert_allclose(bends[organs.LEAF, ::2], 0.0, atol=1e-12)
 
 
