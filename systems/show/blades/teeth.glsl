@@ -6,13 +6,14 @@
 #define SIDED  // pixels of soft ribbons with teeth alone know their side by themselves
 #endif
 
-const float BETWEEN = 0.4;   // width of the ribbon between teeth, relative to that at their ends
+const float BETWEEN = 0.3;   // width of the ribbon between teeth, relative to that at their ends
 const float ENDS_AT = 0.7;   // place of a tooth's end between the feet of two teeth: they point upwards
-const float TOOTHED_WIDER = 2.0 / (1.0 + BETWEEN);  // width at the ends of teeth, relative to the mean
+const float ROUND_MEAN = 2.0 / 3.0, ROUND_MOMENT = 5.0 / 12.0;  // of x * (2 - x) on [0, 1], which makes teeth round: mean, and that of x times it
+const float TOOTHED_WIDER = 1.0 / mix(ROUND_MEAN, 1.0, BETWEEN);  // width at the ends of teeth, relative to the mean
 const float TEETH_FROM = 1.2, TEETH_ALL = 3.0;  // spacing of teeth from which on they begin to show, and show fully [pixel]
 const float TEETH_NEAREST = 0.1;  // least distance from the eye that counts [m]
 const float OUTER = 0.5;     // relative brightness of a tooth's end over that deep between two
-const float MEAN_END = (0.5 * BETWEEN + (1.0 - BETWEEN) / 3.0) * TOOTHED_WIDER;  // mean place of the area along teeth, towards their ends
+const float MEAN_END = mix(ROUND_MOMENT, 0.5, BETWEEN) * TOOTHED_WIDER;  // mean place of the area along teeth, towards their ends
 
 const float SLIT_FROM = 0.25;  // place along ligules from which on slits part them
 const float SLIT_TO = 0.3;     // width of slits at the ends, relative to the spacing of ligules

@@ -11,10 +11,10 @@ struct Outline {
     float brightness;  // relative to the ribbon's
 };
 
-// Teeth, which alternate between the two sides.
+// Teeth, which are round and alternate between the two sides.
 Outline teeth_outline(float to_side) {
     float up = fract(tooth + (to_side > 0.0 ? 0.5 : 0.0)), end = min(up / ENDS_AT, (1.0 - up) / (1.0 - ENDS_AT));
-    return Outline(tooth_widths.x + tooth_widths.y * end, 1.0, 1.0 + outlined * OUTER * (end - MEAN_END));
+    return Outline(tooth_widths.x + tooth_widths.y * end * (2.0 - end), 1.0, 1.0 + outlined * OUTER * (end - MEAN_END));
 }
 
 #ifdef LIGULES_TOO
