@@ -237,8 +237,11 @@ float widened_by_teeth(float t, float side) {
 #endif
     float wider = mix(1.0, TOOTHED_WIDER, max(seen, 0.0));
     tooth_widths = vec2(mix(1.0, TOOTHED_WIDER * BETWEEN, max(seen, 0.0)), TOOTHED_WIDER * (1.0 - BETWEEN) * max(seen, 0.0)) / wider;
+#ifdef LIGULES_TOO
     float rounded = ENDS_LACK * length(lean_across.zw) / (foot.w * max(LIGULES_OF[organ()], 1.0));
-    return seen < 0.0 ? mix(1.0, LIGULES_WIDER * (1.0 + rounded), -seen) : wider;
+    wider = seen < 0.0 ? mix(1.0, LIGULES_WIDER * (1.0 + rounded), -seen) : wider;
+#endif
+    return wider;
 }
 #endif
 
