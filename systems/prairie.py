@@ -103,10 +103,11 @@ class Prairie(Tending):
         `ctx` is the context to draw in, by default the one that is current at the first draw. `preset` overrides the
         scene's quality. `lod` shows everything in one representation, and `transitions` turns off parts of changes;
         both are for measuring. A `live` prairie leaves out a plugin's wind that takes too long, and compiles programs
-        ahead: at its first frame, or after it where the driver can in the background. Others compile each when it is
-        first needed. `hold` is the longest time that a draw may take [s]; it draws less to keep to that. A `linear`
-        prairie draws linear radiance, for a game with its own tone curve. Raises `SceneError` with every problem of the
-        scene and its maps; ValueError for an unknown preset or representation, and for a `hold` that is no time.
+        ahead: at its first frame, or after it where the driver can in the background. Trees stay chosen in it for
+        some frames. Others compile each program when it is first needed. `hold` is the longest time that a draw may
+        take [s]; it draws less to keep to that. A `linear` prairie draws linear radiance, for a game with its own
+        tone curve. Raises `SceneError` with every problem of the scene and its maps; ValueError for an unknown preset
+        or representation, and for a `hold` that is no time.
         """
         must_be_known("representation", str(lod), get_args(LodName))
         must_be_flags(live=live, linear=linear)

@@ -221,7 +221,7 @@ def _serves(before: Look, now: Look) -> bool:
 
 
 def _slack_of(look: Look) -> Slack:
-    """Return the slack that trees are chosen with: none for references and benchmarks."""
+    """Return the slack that trees are chosen with: none where they do not stay chosen."""
     return SLACK if look.is_usual else Slack(0.0, 0.0, 0.0, 0.0)
 
 

@@ -38,9 +38,10 @@ class TreePart(Part):
 
     def __init__(
         self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], standing: Callable[[], Standing],
-        shading: Callable[[], Standing],
+        shading: Callable[[], Standing], *, live: bool,
     ) -> None:  # fmt: skip
         self._ctx, self._block, self._units, self._standing, self._shading = ctx, block, units, standing, shading
+        self._live = live
         self._kinds: list[GpuKind] = []
         self._models: list[tuple[GpuKind, GpuModel]] = []
         self._declared: object = None
@@ -210,7 +211,8 @@ class TreePart(Part):
             detail_eyes = self.detail_eyes
         patch, centre = float(record["patch_side"]), outlook.viewer.centre
         reach = self._reach(outlook)
-        return Look(eye, outlook.viewer.sides, clip, focal, reach, patch, centre, detail_eyes, self.leaves_from)
+        sides, leaves_from = outlook.viewer.sides, self.leaves_from
+        return Look(eye, sides, clip, focal, reach, patch, centre, detail_eyes, leaves_from, self._live)
 
     def _send(self, batches: Sequence[Batch]) -> None:
         """Send instances, and where they stand."""

@@ -258,7 +258,7 @@ class Trees(Feature):
 
     def part(self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], /) -> TreePart:
         """Return the part that draws them in a GL context."""
-        return TreePart(ctx, block, units, lambda: self.standing, lambda: self.shading)
+        return TreePart(ctx, block, units, lambda: self.standing, lambda: self.shading, live=self._live)
 
 
 def _seedlings(name: str, kind: TreeKind, place: Floats, *, seed: int) -> list[Seedling]:

@@ -41,10 +41,13 @@ class Look(NamedTuple):
     """Height of their own pictures from which all trees are drawn leaf by leaf, and lower ones as pictures [pixels];
     None lets the size of leaves decide."""
 
+    live: bool = True
+    """Whether what was chosen for a viewpoint near by may serve; else a picture does not depend on those before it."""
+
     @property
     def is_usual(self) -> bool:
-        """Whether level of detail is that of this viewpoint, as it is but for references and benchmarks."""
-        return self.leaves_from is None and not self.detail_eyes
+        """Whether level of detail is that of this viewpoint and trees may stay chosen: not in films and references."""
+        return self.live and self.leaves_from is None and not self.detail_eyes
 
 
 class Slack(NamedTuple):

@@ -251,3 +251,16 @@ def test_on_a_walk_all_that_is_seen_is_drawn_and_most_is_not_chosen_anew_in_each
         assert all(drawn[each] == seen[each] for each in seen)
         assert len(drawn) < 1.3 * len(seen)
     assert kept > 0.5 * len(STEPS)
+
+
+def test_in_a_film_it_does_not_matter_which_pictures_were_drawn_before(models: list[Model]) -> None:
+    rows = a_wood(models, count=60)
+    walked = all_of(rows, models)
+    for eye, yaw in STEPS[:6]:
+        look = looking_from(eye, yaw=yaw)._replace(live=False)
+        assert in_order(walked.choose(look)) == in_order(all_of(rows, models).choose(look))
+
+
+def in_order(found: Sequence[Batch]) -> list[tuple[object, ...]]:
+    """Return all that batches hold, in their order."""
+    return [(*batch._replace(parts=()), rows.tobytes()) for batch, rows in parts(found)]
