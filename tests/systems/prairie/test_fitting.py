@@ -1,6 +1,7 @@
 """States restored into a changed scene: of a later release, or of a game's next version (F4)."""
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import esper
@@ -25,6 +26,9 @@ SCENE: dict[str, Any] = {
     "trees": {"oak": OAK},
     "quality": safe_load(LITTLE)["quality"],
 }
+SAVED = Path(__file__).with_name("format-5.prairie")
+"""State of this scene, as the first copy of format 5 wrote it: players keep such files."""
+
 SOWN, DUG = (-10.0, 13.0), (2.5, 2.5)
 
 
@@ -84,6 +88,12 @@ OTHERWISE = {
 @pytest.mark.parametrize("other", OTHERWISE.values(), ids=[*OTHERWISE], indirect=True)
 def test_a_state_comes_back_to_its_scene_whatever_that_says_besides(state: bytes, other: Prairie) -> None:
     other.restore(state)
+    assert_played(other)
+
+
+@pytest.mark.parametrize("other", [{}], indirect=True)
+def test_a_state_that_an_older_copy_saved_comes_back(other: Prairie) -> None:
+    other.restore(SAVED.read_bytes())
     assert_played(other)
 
 
