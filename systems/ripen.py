@@ -4,8 +4,8 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass, replace
 
-from ..engine.apart import Apart
 from ..engine.declared.grass import GrassKind
+from ..engine.executor import DaemonExecutor
 from .seasons import Batch, Kinds, Seasons
 from .site import Site, must_grow, ripened
 
@@ -31,7 +31,7 @@ class Ripening:
     def __init__(self, seasons: Seasons, *, live: bool) -> None:
         self._seasons, self._live = seasons, live
         self._pending: _Pending | None = None
-        self._apart = Apart()
+        self._executor = DaemonExecutor()
         self._batch_end = 0.0
         """Time at which the last batch of kinds had changed [s]."""
 
@@ -90,7 +90,7 @@ class Ripening:
         wanted = site, self._known, stands, {} if batch is None else batch.kinds
         if waits:
             return _Pending(ripened(*wanted), stands, batch)
-        return _Pending(self._apart.submit(ripened, *wanted), stands, batch)
+        return _Pending(self._executor.submit(ripened, *wanted), stands, batch)
 
     def _arrive(self, site: Site, time: float, stage: Stage, *, waits: bool) -> Site:
         """Return the pending site if it is complete and uploaded, otherwise the present one."""
@@ -112,4 +112,4 @@ class Ripening:
 
     def release(self) -> None:
         """Cancel what is pending, and grow no more."""
-        self._apart.release()
+        self._executor.release()

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ..components.arrays import Point
 from ..components.viewer import Viewer
-from ..engine.apart import Apart
+from ..engine.executor import DaemonExecutor
 from ..engine.terrain.blocks import Blocks, Numbers
 from ..engine.terrain.record import Terrain
 from ..engine.terrain.stream import paste, window_of
@@ -41,7 +41,7 @@ class Streaming:
     def __init__(self, *, live: bool) -> None:
         self._live = live
         self._pending: _Pending | None = None
-        self._apart = Apart()
+        self._executor = DaemonExecutor()
 
     def follow(self, terrain: Terrain, eye: Point, others: Iterable[Viewer], /, *, time: float) -> None:
         """Move a terrain's window towards the middle of all viewers, if it streams.
@@ -66,7 +66,7 @@ class Streaming:
         if due == terrain.first:
             return
         if self._pending is None or (waits and self._pending.first != due):
-            self._pending = _Pending(self._apart.submit(_made, blocks, due), due, dict(blocks.changed))
+            self._pending = _Pending(self._executor.submit(_made, blocks, due), due, dict(blocks.changed))
         if waits or self._pending.window.done():
             self._take_over(terrain, blocks, self._pending, leaps=waits)
             self._pending = None
@@ -88,7 +88,7 @@ class Streaming:
 
     def release(self) -> None:
         """Cancel what is pending, and make no more windows."""
-        self._apart.release()
+        self._executor.release()
 
 
 def _made(blocks: Blocks, first: Numbers) -> Terrain:

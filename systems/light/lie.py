@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Bytes, Doubles, Floats, Place
-from ...engine.apart import Apart
+from ...engine.executor import DaemonExecutor
 from ...engine.gl.shaders import program, set_uniform
 from ...engine.gl.stream import release_all
 from ...engine.gl.texture import interpolated
@@ -93,7 +93,7 @@ class LieMap:
         self._map: _Map | None = None
         self._next: _NextMap | None = None
         self._toward_sun: tuple[float, float] | None = None
-        self._apart = Apart()
+        self._executor = DaemonExecutor()
 
     def _make_programs(self, *, mirrored: bool) -> None:
         """Make the programs that draw both maps."""
@@ -153,7 +153,7 @@ class LieMap:
             self._map, self._seen_changes = new, -1
             self.leap()
         elif not self._is_same_corner(origin, self._map.origin):
-            slow = self._apart.submit(slow_map, self._terrain.size, origin, seed=self._seed)
+            slow = self._executor.submit(slow_map, self._terrain.size, origin, seed=self._seed)
             self._next = _NextMap(origin, slow)
 
     def leap(self) -> None:
@@ -276,7 +276,7 @@ class LieMap:
         """Release all GL objects, and the thread."""
         release_all(*self._vertex_arrays, self._slope_program, self._horizon_program)
         self._release_maps()
-        self._apart.release()
+        self._executor.release()
 
 
 def map_shape(size: tuple[float, float], /) -> tuple[int, int]:

@@ -6,9 +6,9 @@ from functools import lru_cache
 import numpy as np
 
 from ...components.arrays import Floats
-from ...engine.apart import Apart
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
+from ...engine.executor import DaemonExecutor
 from ..grow.bend import spine
 from ..grow.layout import layout_of
 from ..grow.plants import grow_patch
@@ -86,7 +86,7 @@ def _postures(mechanics: str, seed: int, /) -> Postures:
 def _models(seedlings: list[Seedling], /) -> tuple[PatchModel, ...]:
     """Return patch models, drawn on several threads: numpy releases Python's lock while it computes large arrays."""
     drawn = [each for each in REPRESENTATIONS if each.record is not None]
-    threads = Apart(_THREADS)
+    threads = DaemonExecutor(_THREADS)
     try:
         pieces = {
             (number, each.name): threads.submit(each.grow, seedling)

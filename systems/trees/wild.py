@@ -8,7 +8,7 @@ import numpy as np
 from ...components.arrays import Place, Point
 from ...components.pose import Pose
 from ...components.tree import Tree
-from ...engine.apart import Apart
+from ...engine.executor import DaemonExecutor
 from ...engine.world import World
 from .felled import found_again
 from .forest import Forest, Gone, Rows, Square
@@ -36,7 +36,7 @@ class Wild:
     def __init__(self, world: World, forest: Forest, names: list[str], *, live: bool) -> None:
         self._world, self._forest, self._names = world, forest, names
         self._live = live
-        self._apart = Apart()
+        self._executor = DaemonExecutor()
         self._growing: dict[str, Future[None]] = {}
         self._viewer_squares: dict[str, tuple[int, int]] = {}
         """Square that each viewer is on."""
@@ -128,7 +128,7 @@ class Wild:
     def _still_growing(self, viewer: str, eye: Point) -> bool:
         """Return whether a viewer's distant trees are still growing; start growing them if need be."""
         if viewer not in self._growing:
-            self._growing[viewer] = self._apart.submit(self._forest.grow_about, eye)
+            self._growing[viewer] = self._executor.submit(self._forest.grow_about, eye)
         if not self._growing[viewer].done():
             return True
         self._growing.pop(viewer).result()
@@ -178,7 +178,7 @@ class Wild:
 
     def release(self) -> None:
         """Stop the growing thread."""
-        self._apart.release()
+        self._executor.release()
 
 
 def seedlings(rows: Rows, names: list[str], /) -> list[Seedling]:

@@ -1,4 +1,4 @@
-"""Tasks apart: in their order, cancelled, and left behind by a program that ends."""
+"""Tasks on daemon threads: in their order, cancelled, and left behind by a program that ends."""
 
 import subprocess
 import sys
@@ -6,31 +6,31 @@ from threading import Event
 
 import pytest
 
-from tallgrass.engine.apart import Apart
+from tallgrass.engine.executor import DaemonExecutor
 
 
 def test_tasks_of_one_thread_are_done_in_their_order_and_their_errors_raised_where_asked() -> None:
-    done, apart = list[int](), Apart()
-    futures = [apart.submit(done.append, number) for number in range(50)]
-    failed = apart.submit(int, "none")
+    done, executor = list[int](), DaemonExecutor()
+    futures = [executor.submit(done.append, number) for number in range(50)]
+    failed = executor.submit(int, "none")
     assert [future.result(10.0) for future in futures] == [None] * 50
     with pytest.raises(ValueError, match="none"):
         failed.result(10.0)
     assert done == [*range(50)]
-    assert apart.submit(int, "7").result(10.0) == 7
+    assert executor.submit(int, "7").result(10.0) == 7
 
 
 def test_release_cancels_what_waits_and_not_what_has_begun() -> None:
-    begun, end, apart = Event(), Event(), Apart()
+    begun, end, executor = Event(), Event(), DaemonExecutor()
 
     def begin() -> bool:
         begun.set()
         return end.wait(10.0)
 
-    first = apart.submit(begin)
-    waiting = apart.submit(int, "7")
+    first = executor.submit(begin)
+    waiting = executor.submit(int, "7")
     assert begun.wait(10.0)
-    apart.release()
+    executor.release()
     end.set()
     assert first.result(10.0) is True
     assert waiting.cancelled()
@@ -38,9 +38,9 @@ def test_release_cancels_what_waits_and_not_what_has_begun() -> None:
 
 QUIT = """\
 import time, threading
-from tallgrass.engine.apart import Apart
+from tallgrass.engine.executor import DaemonExecutor
 begun = threading.Event()
-Apart().submit(lambda: begun.set() or time.sleep(600))
+DaemonExecutor().submit(lambda: begun.set() or time.sleep(600))
 begun.wait()
 """
 

@@ -1,4 +1,4 @@
-"""Tasks apart: on threads of their own, for which a program that ends does not wait."""
+"""An executor on daemon threads: a program that ends does not wait for its tasks."""
 
 from collections import deque
 from collections.abc import Callable
@@ -10,7 +10,7 @@ P = ParamSpec("P")
 Result = TypeVar("Result")
 
 
-class Apart:
+class DaemonExecutor:
     """Carries out tasks on a few threads, in the order in which they come.
 
     With a `ThreadPoolExecutor`, a player who quits while grass grows would wait until all of it has grown. A thread
