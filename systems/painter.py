@@ -182,7 +182,7 @@ class Painter(Holding):
                 self.draw_calls += sum(part.prepare_behind() for part in self._parts_with["prepare_behind"])
         self._draw_land(target, asked)
         if "grass" in asked.parts:
-            self._draw_carpet(target, view, all_soft=blades is not None)
+            self._draw_carpet(target, view, all_soft=blades is not None, is_deep=asked.is_deep)
         self._hand_over()
         if "grass" in asked.parts and blades is None:
             self._draw_grass(target, is_deep=asked.is_deep)
@@ -246,14 +246,17 @@ class Painter(Holding):
             for part in self._parts_with["draw_behind"]:
                 self.draw_calls += part.draw_behind()
 
-    def _draw_carpet(self, target: moderngl.Framebuffer, view: View, *, all_soft: bool) -> None:
-        """Draw the carpet, and soft edges in front of it: all of them, or only those beyond standing grass."""
+    def _draw_carpet(self, target: moderngl.Framebuffer, view: View, *, all_soft: bool, is_deep: bool) -> None:
+        """Draw the carpet, and soft edges in front of it: all of them, or only those beyond standing grass.
+
+        If `is_deep`, it writes depth only where it covers at least half a pixel.
+        """
         target.depth_mask = False
         self._blend()
         edged = [part for part in self._parts_with["soft_distance"] if part.soft_distance() is not None]
-        carpet, limit = self.coarsest, nextafter(self._reach(), inf)
-        self.draw_calls += self._draw_culled(view, partial(carpet.draw_dense if edged else carpet.draw, target))
-        if edged:  # thin grass on a crest lets trees behind it show through, and most near ones stand in front of it
+        carpet, limit, parted = self.coarsest, nextafter(self._reach(), inf), bool(edged) or is_deep
+        self.draw_calls += self._draw_culled(view, partial(carpet.draw_dense if parted else carpet.draw, target))
+        if parted:  # thin grass on a crest lets trees behind it show through, and most near ones stand in front of it
             self.draw_calls += sum(part.draw_soft(CRESTS_FROM) for part in edged)
             self.draw_calls += self._draw_culled(view, partial(carpet.draw_thin, target))
         target.depth_mask = True

@@ -1,5 +1,6 @@
 """`prepare`: after it, no frame makes anything in GL."""
 
+import ctypes
 import sys
 import threading
 from collections.abc import Callable, Iterator
@@ -26,6 +27,7 @@ from tallgrass import (
     WindPrimitive,
 )
 from tallgrass.engine.camera import Camera, View
+from tallgrass.engine.gl.functions import ENUMS, functions_of
 from tallgrass.engine.plugins import wind_kinds
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import LITTLE
@@ -243,11 +245,11 @@ def test_a_frame_is_rehearsed_with_all_that_may_come_and_no_pixel_changes(
     prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0, pitch=-10)
     if was_drawn:
         stage.shot(prairie, aim)
-    rendered: set[int] = set()
+    rendered: set[tuple[int, ...]] = set()
     render = moderngl.VertexArray.render
 
     def noted(array: moderngl.VertexArray, *given: Any, **named: Any) -> None:
-        rendered.add(array.program.glo)
+        rendered.add(_compiled_for(array.program))
         render(array, *given, **named)
 
     monkeypatch.setattr(moderngl.VertexArray, "render", noted)
@@ -263,9 +265,31 @@ def test_a_frame_is_rehearsed_with_all_that_may_come_and_no_pixel_changes(
     prairie.add(Blast(body="saucer"), pose=Pose(0, 5))
     changed = stage.shot(prairie, aim)
     assert (changed != before).any()
+    prairie.draw(*stage.matrices(aim), depth="all")
     stage.begin()
     with prairie._screen.opened(prairie.site) as painter:  # noqa: SLF001
         assert painter is not None
         painter.draw(View(*stage.matrices(aim)), scale=0.5)
     assert (stage.read() != empty).any()
     assert rendered <= rendered_before
+
+
+SAMPLERS = {0x8B5E: "TEXTURE_BINDING_2D", 0x8DC1: "TEXTURE_BINDING_2D_ARRAY", 0x8B5F: "TEXTURE_BINDING_3D"}
+"""Textures' bindings by the types of GLSL's samplers."""
+
+
+def _compiled_for(program: moderngl.Program) -> tuple[int, ...]:
+    """Return what drivers compile a program for: its number, the depth test, and whether its samplers have textures."""
+    gl, found = functions_of(program.ctx), ctypes.c_int()
+
+    def asked(name: str) -> int:
+        gl.glGetIntegerv(ENUMS[name], ctypes.addressof(found))
+        return found.value
+
+    before, bound = asked("ACTIVE_TEXTURE"), []
+    for uniform in map(program.get, program, [None] * len(list(program))):
+        if isinstance(uniform, moderngl.Uniform) and uniform.gl_type in SAMPLERS and uniform.array_length == 1:
+            gl.glActiveTexture(ENUMS["TEXTURE0"] + uniform.value)
+            bound.append(bool(asked(SAMPLERS[uniform.gl_type])))
+    gl.glActiveTexture(before)
+    return program.glo, asked("DEPTH_FUNC"), asked("DEPTH_WRITEMASK"), *bound

@@ -87,6 +87,7 @@ class GroundPainter:
         self._raised = RAISED, OUTLINE
         self.units, self._side = units, side
         self._ctx, self.rims = ctx, ctx.texture((1, 1), 1, dtype="f4")
+        self._no_earth = ctx.texture((1, 1), 4, bytes(4))
         self.stride = COARSE_STRIDE if coarse else 1
         """Grid points from one vertex of the mesh to the next."""
         makes = tile_grid, partial(tile_grid, quads=PIECE), partial(skirted_grid, quads=PIECE)
@@ -286,6 +287,8 @@ class GroundPainter:
             gl = functions_of(self._ctx)
             gl.glActiveTexture(ENUMS["TEXTURE0"] + self.units["earth"])
             gl.glBindTexture(ENUMS["TEXTURE_2D"], self._block.earth)
+        else:  # some drivers compile programs again for another texture, and any might be bound there
+            self._no_earth.use(self.units["earth"])
 
     def draw_bare(self, *, alone: bool) -> int:
         """Draw the bare ground, if `alone` also where carpet will lie; return the number of draw calls."""
@@ -334,4 +337,4 @@ class GroundPainter:
     def release(self) -> None:
         """Release all GL objects."""
         release_all(*(layer.made for layer in self._layers if layer.made is not None))
-        release_all(self.shelves, *self.grids[0], *self.grids[1], *self.skirted[1], self.rims)
+        release_all(self.shelves, *self.grids[0], *self.grids[1], *self.skirted[1], self.rims, self._no_earth)

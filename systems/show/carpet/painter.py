@@ -71,8 +71,6 @@ class CarpetPainter(RepresentationPainter):
         """The next stock and its images, already in GL."""
         self._came: tuple[float, ...] = ()
         self.air = Air(canvas, side)
-        self._deep = False
-        """Whether depth is written only where the carpet covers at least half a pixel."""
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
         """The viewer's cell, the number of the first receiver, and the receivers that `hear` serves."""
         self.ground = GroundPainter(
@@ -163,7 +161,7 @@ class CarpetPainter(RepresentationPainter):
         in_view = patches.near & patches.alive & (shares > 0)
         carpeted = None if cover is None else in_view.reshape(patches.side, patches.side)
         asked = outlook.noted(Asked, Asked())
-        goes_on, self._deep = "beyond" in asked.parts, asked.is_deep
+        goes_on = "beyond" in asked.parts
         mown = outlook.noted(Mown, None)
         made_of = (
             self._ground,
@@ -278,8 +276,6 @@ class CarpetPainter(RepresentationPainter):
 
     def draw(self, target: moderngl.Framebuffer, /) -> int:
         """Draw the carpet; return the number of draw calls."""
-        if self._deep:
-            return self.draw_dense(target) + self.draw_thin(target)
         return self._draw(target, WHOLE)
 
     def draw_dense(self, target: moderngl.Framebuffer, /) -> int:
