@@ -21,4 +21,4 @@ for group in ("tallgrass.wind", "tallgrass.systems"):
     datas += found
     hiddenimports += modules
     for name in {module.partition(".")[0] for module in modules} - {"tallgrass"}:
-        datas += collect_data_files(name, includes=["**/*.glsl"])  # twins of plugins' winds
+        datas += collect_data_files(name)  # twins of plugins' winds, and all else that they read beside their modules

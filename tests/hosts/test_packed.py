@@ -24,11 +24,12 @@ with headless_context() as ctx, stage(ctx, (160, 90)) as made:
     print(made.shot(prairie).mean().round(3), prairie.wind_at([(0, 0)]).round(4).tolist(), wind_kinds().names())
 """
 DRAUGHT = """
+from pathlib import Path
 from typing import Literal
 from tallgrass import Breeze
 class Draught(Breeze):
     kind: Literal["draught"] = "draught"
-    strength: float = 0.3
+    strength: float = float(Path(__file__).with_name("strength.txt").read_text("utf-8"))
 """
 METADATA = "Metadata-Version: 2.1\nName: tallgrass-draught\nVersion: 0.1\n"
 
@@ -41,7 +42,9 @@ def test_d6_a_packed_game_prints_what_python_prints(
     shutil.copytree(ROOT, copy, ignore=ignored)
     pip = (sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-build-isolation", "--no-index")
     run(*pip, "--disable-pip-version-check", "--target", site, copy)
-    (site / "tallgrass_draught.py").write_text(DRAUGHT, "utf-8")
+    (site / "tallgrass_draught").mkdir()
+    (site / "tallgrass_draught" / "__init__.py").write_text(DRAUGHT, "utf-8")
+    (site / "tallgrass_draught" / "strength.txt").write_text("0.3", "utf-8")
     info = site / "tallgrass_draught-0.1.dist-info"
     info.mkdir()
     (info / "METADATA").write_text(METADATA, "utf-8")
