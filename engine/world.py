@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import count
 from operator import itemgetter
 from typing import Any, TypeVar
-from weakref import WeakSet, ref
+from weakref import WeakMethod, WeakSet, ref
 
 import esper
 
@@ -76,7 +76,7 @@ class World:
 
     def __init__(self, advance: Callable[[float], None] | None = None) -> None:
         self.name = esper.current_world
-        self.advance = advance
+        self.advance = None if advance is None else _weakly(advance)
         self.generation = 0
         """Number of times that all our entities were deleted at once, as by `esper.clear_database`."""
         self._home: ref[Resident] | None = None
@@ -304,6 +304,18 @@ def install() -> None:
     """
     if esper.get_processor(Advance) is None:
         esper.add_processor(Advance(), PRIORITY)
+
+
+def _weakly(method: Callable[[float], None]) -> Callable[[float], None]:
+    """Return a function that calls a method unless its owner was dropped: the owner's entities refer to its world."""
+    found = WeakMethod(method)
+
+    def call(dt: float) -> None:
+        kept = found()
+        if kept is not None:
+            kept(dt)
+
+    return call
 
 
 def _deferred() -> Collection[int]:

@@ -208,14 +208,12 @@ class Prairie(Tending):
         self._must_be_there("draw its depth")
         must_be_viewer(viewer)
         seen = view_of(view, projection, self._origin)
-        if viewer not in self.viewers:
-            return
-        outlook = self.viewers[viewer]
-        if outlook.frame is None or outlook.frame.grown is not self.site:
+        before = self.viewers[viewer].frame if viewer in self.viewers else None
+        if before is None or before.grown is not self.site:
             return
         with self._screen.opened(self.site) as painter:
             if painter is not None:
-                painter.cast(guest_view(seen), outlook)
+                painter.cast(guest_view(seen), self.viewers[viewer])
 
     @property
     def origin(self) -> tuple[float, float, float]:
@@ -361,6 +359,11 @@ class Prairie(Tending):
         self.world.release()
         self.systems.close()
         self._built.clear()
+
+    def __del__(self) -> None:
+        """Warn of a prairie that was drawn and then dropped, and have it released when another is drawn."""
+        if "_screen" in vars(self):  # else it could not be loaded
+            self._screen.release_later(self.release, self.path)
 
     def _advance_kinds(self, stage: Stage = lambda *_: True) -> None:
         """Advance changed kinds of grass to the present time; `stage` uploads what has grown anew."""

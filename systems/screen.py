@@ -1,9 +1,12 @@
 """The targets of a prairie's drawing: a painter in each GL context, and groups in pyglet's batches."""
 
 import logging
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING
+from warnings import warn
 
 import moderngl
 import numpy as np
@@ -23,6 +26,9 @@ if TYPE_CHECKING:
     from ..engine.gl.batch import DrawingGroup
 
 log = logging.getLogger("tallgrass")
+
+_dropped: list[Callable[[], None]] = []
+"""Functions that release prairies which a game has dropped. Python drops things amid anything, on any thread."""
 
 
 class Screen:
@@ -96,6 +102,8 @@ class Screen:
                 yield None
                 return
             self._warn_without_depth(state)
+            while _dropped:
+                _dropped.pop()()
             self.painter = self._painters.here(state.gl, self._made)
             sync_framebuffer(self.painter.ctx)
             yield self.painter
@@ -128,6 +136,14 @@ class Screen:
         made = DrawingGroup(draw, batch, order=order, parent=parent)
         self._groups.append(made)
         return made
+
+    def release_later(self, release: Callable[[], None], path: Path | None) -> None:
+        """Warn that a prairie was dropped without `release` if it has GL objects, and release it at the next draw."""
+        if self.painter is not None and not sys.is_finalizing():
+            _dropped.append(release)
+            which = "" if path is None else f" of {path.name}"
+            advice = "call its release() when you are done with it"
+            warn(f"a prairie{which} was dropped and not released: {advice}", ResourceWarning, stacklevel=3)
 
     def release(self) -> None:
         """Remove the groups from their batches, and release the painters in every context."""

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
+from weakref import ref
 
 import esper
 import moderngl
@@ -254,6 +255,28 @@ def test_d6_released_a_prairie_leaves_nothing_behind_in_gl(ctx: moderngl.Context
         ctx.objects.clear()
     assert dropped == [], "everything was released by its owner"
     assert memory[-1] - memory[3] < 25.0, "one prairie of these takes more than 4 MB"
+
+
+def test_d6_a_dropped_prairie_is_reported_and_released_when_another_is_drawn(
+    ctx: moderngl.Context, stage: Stage, load: Load
+) -> None:
+    scene, other = load().loaded, load()
+    prairie = Prairie(scene, ctx=ctx)
+    stage.shot(prairie)
+    (patch,) = prairie.patch_at([(0, 20)])
+    site, painter = ref(prairie.site), ref(prairie.painter)
+    with pytest.warns(ResourceWarning, match=r"a prairie of scene\.yaml was dropped and not released: call its rel"):
+        del prairie
+        assert esper.entity_exists(patch)
+    stage.shot(other)
+    gc.collect()
+    assert (site(), painter()) == (None, None)
+    assert not esper.entity_exists(patch)
+    released = Prairie(scene, ctx=ctx)
+    stage.shot(released)
+    released.release()
+    del released  # which is not reported
+    gc.collect()
 
 
 def test_a_frame_ends_where_a_system_releases_the_prairie(stage: Stage, load: Load, caplog: Any) -> None:
