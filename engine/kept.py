@@ -4,7 +4,7 @@ import json
 import logging
 import os
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from functools import cache
 from hashlib import blake2b
 from importlib.metadata import PackageNotFoundError, version
@@ -106,7 +106,9 @@ def keep(key: str, suffix: str, data: bytes, /, *, most: int) -> None:
 
 def keep_in(folder: Path, key: str, suffix: str, data: bytes, /, *, most: int) -> None:
     """Do what `keep` does in a folder; raises OSError where it cannot be written."""
-    _write_whole(folder / (key + suffix), _checksum(data, key) + data)
+    folder.mkdir(parents=True, exist_ok=True)
+    with replacing(folder / (key + suffix)) as part:
+        part.write_bytes(_checksum(data, key) + data)
     _forget_oldest(folder, suffix, most)
 
 
@@ -115,12 +117,12 @@ def _checksum(data: bytes | memoryview, key: str) -> bytes:
     return blake2b(data, digest_size=DIGEST, key=key.encode()).digest()
 
 
-def _write_whole(path: Path, data: bytes) -> None:
-    """Write a file atomically, so that no reader ever finds half of it; raises OSError."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f"{token_hex(DIGEST // 2)}.part")  # tempfile's would be its owner's alone
+@contextmanager
+def replacing(path: Path, /) -> Iterator[Path]:
+    """Yield a file to write, which takes the place of `path` once it is whole: no reader ever finds half of it."""
+    part = path.with_name(f".{token_hex(DIGEST // 2)}.part")  # tempfile's would be its owner's alone
     try:
-        part.write_bytes(data)
+        yield part
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)

@@ -116,19 +116,21 @@ def next_state(state: GovernorState, seconds: float, /, *, hold: float) -> Gover
     times = (*state.times, seconds)
     if len(times) < FEWEST or sum(times) < WATCHED:
         return replace(state, times=times)
-    state, over = replace(state, times=()), log(max(median(times), 1e-6) / hold)
-    if over > ABOVE:
-        rungs = ceil(EAGER * over / RUNG)
-        return _descended(state, rungs if over > SUDDEN else min(rungs, GENTLE), hold)
-    if over < -BELOW and state.short + 1 < state.patience:
-        return replace(state, short=state.short + 1)
-    return _climbed(state, floor(-over / RUNG), hold) if over < -BELOW else replace(state, short=0)
+    excess = log(max(median(times), 1e-6) / hold)
+    if excess > ABOVE:
+        rungs = ceil(EAGER * excess / RUNG)
+        return _descended(state, rungs if excess > SUDDEN else min(rungs, GENTLE), hold)
+    if excess >= -BELOW:
+        return replace(state, times=(), short=0)
+    if state.short + 1 < state.patience:
+        return replace(state, times=(), short=state.short + 1)
+    return _climbed(state, floor(-excess / RUNG), hold)
 
 
 def _descended(state: GovernorState, rungs: int, hold: float) -> GovernorState:
     rung = min(len(RUNGS) - 1, state.rung + rungs)
     if rung == state.rung:
-        return state
+        return replace(state, times=())
     patience = min(LONGEST_PATIENCE, 2 * state.patience) if state.climbed else 1
     return GovernorState(rung, _frames_of_change(state.rung, rung, hold), patience=patience)
 
@@ -136,7 +138,7 @@ def _descended(state: GovernorState, rungs: int, hold: float) -> GovernorState:
 def _climbed(state: GovernorState, rungs: int, hold: float) -> GovernorState:
     rung = max(0, state.rung - min(rungs, GENTLE))
     if rung == state.rung:
-        return replace(state, short=0)
+        return replace(state, times=(), short=0)
     return GovernorState(rung, _frames_of_change(state.rung, rung, hold), patience=state.patience, climbed=True)
 
 

@@ -14,6 +14,7 @@ from pydantic.fields import FieldInfo
 
 from ..components.arrays import Floats
 from ..components.body import Hover
+from ..components.field import declared
 from ..components.wind import INTERFACE, Grass, WindPrimitive
 from ..engine.complaint import words_of
 from ..engine.plugins import KIND
@@ -173,65 +174,46 @@ def declaration_problems(primitive: type[WindPrimitive], /) -> list[str]:
     """Return the problems of the fields of a class of winds, one sentence each."""
     return [
         f"the field '{name}' {problem}"
-        for name, declared in primitive.model_fields.items()
-        for problem in _of_field(primitive, name, declared)
+        for name, info in primitive.model_fields.items()
+        for problem in _of_field(primitive, name, info)
     ]
 
 
-def _of_field(primitive: type[WindPrimitive], name: str, declared: FieldInfo) -> Iterator[str]:
-    sentence = (declared.description or "").strip()
+def _of_field(primitive: type[WindPrimitive], name: str, info: FieldInfo) -> Iterator[str]:
+    sentence = (info.description or "").strip()
     if not sentence:
         yield "has no sentence: write a docstring below it"
     elif _UNIT_WORD.search(sentence) and not _UNIT.search(sentence):
         yield f"names its unit in words: put it in brackets, like [m], unlike in '{sentence}'"
-    if _is_number(declared.annotation):
-        limits = [*declared.metadata, *_inner_limits(declared.annotation)]
-        missing = [end for end, names in _BOUNDS.items() if not any(_sets(limit, names) for limit in limits)]
+    if _is_number(declared(name, info).annotation):
+        limits = declared(name, info).limits
+        missing = [end for end, names in _BOUNDS.items() if limits.keys().isdisjoint(names)]
         if missing:
             yield f"has no {' and no '.join(missing)} bound: write Field(..., {_bounds_before(primitive, name)})"
-    if declared.is_required():
+    if info.is_required():
         yield "has no default"
     else:
-        yield from _of_default(primitive, name, declared)
+        yield from _of_default(primitive, name, info)
 
 
 def _bounds_before(primitive: type[WindPrimitive], name: str) -> str:
     """Return the bounds that a base gives a field which a class declares again, as they are written."""
     for base in primitive.__mro__[1:]:
-        declared = base.model_fields.get(name) if issubclass(base, WindPrimitive) else None
-        limits = [*declared.metadata, *_inner_limits(declared.annotation)] if declared is not None else []
-        names = [*chain.from_iterable(_BOUNDS.values())]
-        ends = (f"{end}={getattr(limit, end):g}" for limit in limits for end in names if hasattr(limit, end))
-        if found := ", ".join(ends):
+        info = base.model_fields.get(name) if issubclass(base, WindPrimitive) else None
+        limits = declared(name, info).limits if info is not None else {}
+        if found := ", ".join(f"{end}={limits[end]:g}" for end in chain(*_BOUNDS.values()) if end in limits):
             return found
     return "ge=..., le=..."
 
 
 def _is_number(annotation: Any) -> bool:
-    """Return whether a value may be a number itself, as in `float | None`, and not only a list of numbers."""
-    if annotation in {int, float}:
-        return True
-    return not _is_list(annotation) and any(_is_number(one) for one in get_args(annotation))
+    """Return whether a value may be a number itself, as in `int | float`, and not only a list of numbers."""
+    is_union = get_origin(annotation) in (Union, UnionType)
+    return annotation in (int, float) or (is_union and any(map(_is_number, get_args(annotation))))
 
 
-def _is_list(annotation: Any) -> bool:
-    origin = get_origin(annotation)
-    return isinstance(origin, type) and origin not in {Union, UnionType}  # from Python 3.14 on these are classes
-
-
-def _inner_limits(annotation: Any) -> Iterator[Any]:
-    for declared in getattr(annotation, "__metadata__", ()):
-        yield from declared.metadata if isinstance(declared, FieldInfo) else (declared,)
-    for one in get_args(annotation):
-        yield from _inner_limits(one)
-
-
-def _sets(limit: Any, names: tuple[str, str]) -> bool:
-    return any(getattr(limit, name, None) is not None for name in names)
-
-
-def _of_default(primitive: type[WindPrimitive], name: str, declared: FieldInfo) -> Iterator[str]:
-    default = declared.get_default(call_default_factory=True, validated_data={})
+def _of_default(primitive: type[WindPrimitive], name: str, info: FieldInfo) -> Iterator[str]:
+    default = info.get_default(call_default_factory=True, validated_data={})
     try:
         primitive.model_validate({name: default})
     except ValidationError as error:

@@ -10,6 +10,7 @@ from typing import Any
 
 from PIL import Image
 
+from ...engine.kept import replacing
 from ...engine.scene import LoadedScene, bundled_scenes
 from ...engine.scene.compose import decode
 from ...engine.terrain.density import Picture
@@ -122,11 +123,7 @@ def _require(path: Path, data: bytes | None) -> None:
 def _write(path: Path, data: bytes) -> None:
     """Write a file atomically. A link stays a link, and permissions stay."""
     path = path.resolve()
-    part = path.with_name(path.name + ".part")
-    try:
+    with replacing(path) as part:
         part.write_bytes(data)
         if path.exists():
             shutil.copymode(path, part)
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)

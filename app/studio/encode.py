@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from io import BytesIO
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 from PIL import ExifTags, Image
 from PIL.PngImagePlugin import PngInfo
 
+from ...engine.kept import replacing
 from .errors import InputError, needed
 
 Picture = NDArray[np.uint8]
@@ -159,7 +159,7 @@ def at_frame(about: Mapping[str, str], number: int, fps: int, /) -> dict[str, st
 
 
 def _write_bytes(data: bytes, path: Path) -> None:
-    with _whole(path) as part:
+    with replacing(path) as part:
         part.write_bytes(data)
 
 
@@ -173,7 +173,7 @@ def _write_webp(reel: Reel, path: Path) -> None:
     exif = Image.Exif()
     exif[ExifTags.Base.ImageDescription] = _sentence(reel.about)
     duration = 1000.0 / reel.fps
-    with _whole(path) as part:
+    with replacing(path) as part:
         _Animation(reel).save(part, "WEBP", save_all=True, duration=duration, loop=0, quality=80, method=4, exif=exif)
 
 
@@ -181,13 +181,13 @@ def _write_gif(reel: Reel, path: Path) -> None:
     ticks = [round(100.0 * k / reel.fps) for k in range(reel.first, reel.first + reel.count + 1)]
     durations = [10 * (after - before) for before, after in pairwise(ticks)]
     comment = _sentence(reel.about).encode()
-    with _whole(path) as part:
+    with replacing(path) as part:
         _Animation(reel).save(part, "GIF", save_all=True, duration=durations, loop=0, comment=comment)
 
 
 def _write_mp4(reel: Reel, path: Path, size: tuple[int, int], ffmpeg: ModuleType) -> None:
-    about = ["-crf", "20", "-metadata", f"comment={_sentence(reel.about)}"]
-    with _whole(path) as part:
+    about = ["-f", "mp4", "-crf", "20", "-metadata", f"comment={_sentence(reel.about)}"]
+    with replacing(path) as part:
         sink = ffmpeg.write_frames(
             str(part), size, fps=reel.fps, codec="libx264", macro_block_size=1, quality=None, output_params=about
         )
@@ -204,14 +204,3 @@ def write_whole(text: str, path: Path, /) -> None:
 
 def _sentence(about: Mapping[str, str]) -> str:
     return ", ".join(f"{key} {text}" for key, text in about.items())
-
-
-@contextmanager
-def _whole(path: Path) -> Iterator[Path]:
-    """Yield a file to write, which takes the place of `path` only once it is whole."""
-    part = path.with_name(f".{path.stem}.part{path.suffix}")
-    try:
-        yield part
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)

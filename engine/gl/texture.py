@@ -4,6 +4,8 @@ from typing import TypeVar
 
 import moderngl
 
+from .functions import Functions
+
 Texture = TypeVar("Texture", moderngl.Texture, moderngl.TextureArray)
 
 
@@ -18,3 +20,8 @@ def interpolated(texture: Texture, /) -> Texture:
     texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
     texture.repeat_x = texture.repeat_y = False
     return texture
+
+
+def is_released(texture: object, number: int, gl: Functions, /) -> bool:
+    """Return whether a game's texture, or number of one in GL, names nothing that is there any more."""
+    return isinstance(getattr(texture, "mglo", None), moderngl.InvalidObject) or not gl.glIsTexture(number)

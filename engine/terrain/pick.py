@@ -73,28 +73,36 @@ def _met(
     terrain: Terrain, start: Doubles, along: Doubles, begin: Doubles, end: Doubles, crossings: "_Crossings"
 ) -> Doubles:
     """Return the distance along each ray of its first intersection between `begin` and `end` [m], NaN without one."""
-    rows, columns = terrain.heights.shape
-    ray, before = crossings.stretches(begin, end)
-    is_last = np.append(ray[1:] != ray[:-1], True)
-    after = np.where(is_last, np.where(np.isfinite(end)[ray], end[ray], before), np.append(before[1:], 0.0))
+    ray, enters = crossings.stretches(begin, end)
+    leaves = _ends_of_stretches(ray, enters, end)
     at, way = crossings.at[ray], crossings.way[ray]
-    cell = np.floor(at + 0.5 * (before + after)[:, None] * way)
-    near = cell if terrain.mirrored else np.clip(cell, -1, (columns, rows))  # no integer is as large as some places are
-    a, b, c, d = _corners(terrain, near.astype(np.intp))
-    inside = ((cell >= 0) & (cell < np.array([columns - 1, rows - 1]))) | terrain.mirrored
-    u, v = (at - cell + before[:, None] * way).T * inside.T
-    du, dv = way.T * inside.T
-    twist = a - b - c + d
-    right, down = b - a, c - a
-    # Height above the ground along the ray, t from the entry into each cell: low + slope * t + bend * t * t.
-    low = start[ray, 1] + before * along[ray, 1] - (a + right * u + down * v + twist * u * v)
+    cell = np.floor(at + 0.5 * (enters + leaves)[:, None] * way)
+    # With u and v from 0 to 1 across a cell along x and z, the ground's height in it is
+    # far_left + right * u + down * v + twist * u * v. Off the terrain it is as at the edge: there u or v stays 0.
+    far_left, far_right, near_left, near_right = _corners(terrain, cell)
+    right, down, twist = far_right - far_left, near_left - far_left, far_left - far_right - near_left + near_right
+    rows, columns = terrain.heights.shape
+    is_on = ((cell >= 0) & (cell < np.array([columns - 1, rows - 1]))) | terrain.mirrored
+    u, v = (at - cell + enters[:, None] * way).T * is_on.T
+    du, dv = way.T * is_on.T
+    # So the ray's height above the ground is low + slope * t + bend * t * t, t metres after it enters the cell.
+    low = start[ray, 1] + enters * along[ray, 1] - (far_left + right * u + down * v + twist * u * v)
     slope = along[ray, 1] - (right * du + down * dv + twist * (u * dv + v * du))
-    roots = _first_root(low, slope, -twist * du * dv, after - before)
+    roots = _first_root(low, slope, -twist * du * dv, leaves - enters)
     hit = np.flatnonzero(np.isfinite(roots))
     hit = hit[np.diff(ray[hit], prepend=-1) > 0]  # the first one of each ray
     away = np.full(len(begin), np.nan)
-    away[ray[hit]] = before[hit] + roots[hit]
+    away[ray[hit]] = enters[hit] + roots[hit]
     return away
+
+
+def _ends_of_stretches(ray: NDArray[np.intp], enters: Doubles, end: Doubles) -> Doubles:
+    """Return where stretches of rays end [m]: where the next one begins, and the last one of each ray where that ends.
+
+    The last one of a ray without an end has no length.
+    """
+    is_last = np.append(ray[1:] != ray[:-1], True)
+    return np.where(is_last, np.where(np.isfinite(end)[ray], end[ray], enters), np.append(enters[1:], 0.0))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -154,10 +162,11 @@ class _Crossings:
         return ray[order], before[order]
 
 
-def _corners(terrain: Terrain, cell: NDArray[np.intp]) -> Doubles:
+def _corners(terrain: Terrain, cell: Doubles) -> Doubles:
     """Return the heights of the corners of cells (n, 2): far left, far right, near left, near right, shape (4, n)."""
     rows, columns = terrain.heights.shape
-    i, j = cell.T
+    near_by = cell if terrain.mirrored else np.clip(cell, -1, (columns, rows))  # integers cannot be as large as places
+    i, j = near_by.astype(np.intp).T
     on = _in_mirror if terrain.mirrored else _nearest
     left, right = on(i, columns), on(i + 1, columns)
     far, near = on(j, rows), on(j + 1, rows)

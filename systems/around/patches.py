@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.patch import LodTable
+from .changes import Changes
 
 WORD = 8
 """Alignment of columns in memory [bytes]."""
@@ -77,6 +78,15 @@ class PatchTable(LodTable):
 
     entity: NDArray[np.int64]
     """Entity of the patch, 0 for none, shape (rows,)."""
+
+    @property
+    def representations(self) -> Changes:
+        """Changes of representation."""
+        return Changes(self.representation, self.previous, self.progress)
+
+    def sublevels(self, level: int, /) -> Changes:
+        """Return the changes of sub-level of the representation with a number."""
+        return Changes(self.sublevel[level], self.sublevel_before[level], self.sublevel_progress[level])
 
     @property
     def lines(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

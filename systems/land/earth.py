@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ...components.shadow_map import texture_number
 from ...engine.gl.functions import functions_of
+from ...engine.gl.texture import is_released
 from ...engine.handed import NUMBER_TYPES
 from ..frame.block import FrameBlock
 from ..frame.feature import Feature, Part, Start
@@ -70,8 +71,9 @@ class EarthPart(Part):
         if texture is None:
             return 0
         number = texture_number(texture)
-        is_gone = isinstance(getattr(texture, "mglo", None), moderngl.InvalidObject) or not self._gl.glIsTexture(number)
-        if is_gone and self._reported is not texture:
+        if not is_released(texture, number, self._gl):
+            return number
+        if self._reported is not texture:
             self._reported = texture
             log.warning("texture %d of a game's ground has been released: the scene's own ground is drawn", number)
-        return 0 if is_gone else number
+        return 0

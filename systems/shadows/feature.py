@@ -13,6 +13,7 @@ from ...components.arrays import Doubles
 from ...components.shadow_map import ShadowMap, texture_number
 from ...engine.gl.functions import functions_of
 from ...engine.gl.guest import borrow, guest_clip
+from ...engine.gl.texture import is_released
 from ...engine.gl.units import BORROWED
 from ..around.outlook import Outlook
 from ..frame.block import MAPS, FrameBlock
@@ -87,8 +88,8 @@ class ShadowPart(Part):
 
     def _is_there(self, given: ShadowMap) -> bool:
         """Return whether a map's texture exists in GL; log a released one once."""
-        texture, number = given.texture, texture_number(given.texture)
-        is_gone = isinstance(getattr(texture, "mglo", None), moderngl.InvalidObject) or not self._gl.glIsTexture(number)
+        number = texture_number(given.texture)
+        is_gone = is_released(given.texture, number, self._gl)
         if is_gone and number not in self._reported:
             self._reported.add(number)
             log.warning("texture %d of a shadow map has been released: the prairie is drawn without it", number)

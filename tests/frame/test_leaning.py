@@ -85,9 +85,8 @@ def test_f2_from_above_the_carpets_grain_leans_as_the_blades_do(room: Stage, loa
 
 LAID = """\
 tallgrass: 2
-seed: 3
 terrain: { size: [110, 110] }
-grass: { prairie: { height: [0.4, 0.7], width: 0.014 } }
+grass: { prairie: { height: [0.4, 0.7], width: 0.02 } }
 quality: high
 """
 

@@ -99,7 +99,7 @@ HEATH = MEADOW.replace(
 REEDS = MEADOW.replace(
     'tip: "#d8b868", withered: 0',
     'tip: "#b0977a", understorey: 0, height: [0.6, 0.9], head: { form: plume, size: [0.35, 0.35] }',
-)
+).replace("blades: 400", "blades: 100").replace("models: 2", "models: 1")  # plumes take long to grow
 
 
 @pytest.fixture(scope="module")

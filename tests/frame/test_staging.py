@@ -32,6 +32,7 @@ def play_until_staged(stage: Stage, prairie: Prairie, *, wholly: bool = False) -
     pytest.fail("it never comes")
 
 
+@pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize("keys", [{}, {"withered": 0.3}], ids=["same programs", "other programs"])
 def test_f4_grass_that_is_given_up_half_way_leaves_nothing_behind_in_gl(
     ctx: moderngl.Context, stage: Stage, load: Load, keys: dict[str, Any]

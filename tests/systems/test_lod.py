@@ -12,7 +12,7 @@ from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.systems.around.patches import PatchTable
 from tallgrass.systems.lod import SLACK, farthest, wanted_representation
 from tallgrass.systems.show.registry import NAMES, REPRESENTATIONS
-from tallgrass.systems.transition import FADE, change, held, step_of_change, weights
+from tallgrass.systems.transition import FADE, change_representations, due_representations, step_of_change, weights
 
 REACH = (2, 5, 9)
 BLADES, STRIPS, CARPET = range(3)
@@ -36,8 +36,8 @@ class Walk:
         table.visible[:] = visible
         table.wanted[:] = wanted_representation(table.distance, table.representation, reach=self.reach)
         settled = np.array([self.was_visible]) & table.visible
-        due = held(table, reach=self.reach)
-        change(table, due, settled, reach=self.reach, step=dt / FADE if step is None else step)
+        due = due_representations(table, reach=self.reach)
+        change_representations(table, due, settled, reach=self.reach, step=dt / FADE if step is None else step)
         self.was_visible = visible
 
     @property
@@ -78,7 +78,7 @@ def test_x1_pacing_to_and_fro_over_a_limit_leaves_nothing_in_transition(preset: 
     for frame in range(200):
         table.distance[:] = reach[limit] + (frame // 7) % 2
         wanted = wanted_representation(table.distance, table.representation, reach=reach)
-        change(table, wanted, table.visible, reach=reach, step=STEP / FADE)
+        change_representations(table, wanted, table.visible, reach=reach, step=STEP / FADE)
         assert table.progress[0] == 1.0
     assert table.representation[0] == limit
 
@@ -357,4 +357,4 @@ def test_x1_a_held_patch_too_is_never_finer_than_there_is_room_for(story: list[i
 
 def test_where_nothing_is_wanted_a_patch_is_the_coarsest() -> None:
     table = PatchTable.allocate(1, NAMES)
-    assert held(table, reach=REACH).tolist() == [CARPET]
+    assert due_representations(table, reach=REACH).tolist() == [CARPET]

@@ -15,6 +15,7 @@ from tallgrass.engine.schedule import Phase
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.engine.world import World
 from tallgrass.systems.around.appearance import Appearance, appearance, border_width, handed_over, strips_left
+from tallgrass.systems.around.changes import Changes
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.around.transitions import SEAMLESS, Transitions
 from tallgrass.systems.lod import SLACK
@@ -23,7 +24,7 @@ from tallgrass.systems.show.registry import NAMES
 from tallgrass.systems.show.strips.shown import StripsShown
 from tallgrass.systems.site import Site, outlook_on
 from tallgrass.systems.space.window import window_rows
-from tallgrass.systems.transition import FADE, move_on, move_rows, unsettled
+from tallgrass.systems.transition import FADE
 from tallgrass.testing import systems_on
 
 Laid = Callable[..., Site]
@@ -156,12 +157,14 @@ def test_x1_what_is_settled_and_wants_nothing_is_left_alone(
         return tuple(np.array(column, kind) for column, kind in zip(zip(*patches, strict=True), types, strict=True))
 
     now, before, wanted, progress, slowly = columns()
-    move_on(now, before, progress, wanted, slowly, step=step)
-    few_now, few_before, _, few_progress, _ = columns()
-    rows = unsettled(few_now, few_before, few_progress, wanted)
-    move_rows(few_now, few_before, few_progress, rows, wanted[rows], slowly[rows], step=step)
-    for one, other in ((now, few_now), (before, few_before), (progress, few_progress)):
-        np.testing.assert_array_equal(one, other)
+    every = Changes(now, before, progress)
+    every.advance(wanted, slowly, step=step)
+    now, before, _, progress, _ = columns()
+    few = Changes(now, before, progress)
+    rows = few.unsettled(wanted)
+    few.advance_rows(rows, wanted[rows], slowly[rows], step=step)
+    for name in ("now", "before", "progress"):
+        np.testing.assert_array_equal(getattr(every, name), getattr(few, name))
 
 
 # ---- The system ----------------------------------------------------------------------------------

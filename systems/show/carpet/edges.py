@@ -93,8 +93,12 @@ class _PlotEdges:
     def __init__(self, step: float) -> None:
         self._step = step
         self._made_of: tuple[Plots | None, int, float] = None, -1, 0.0
-        self._uneven, self._seen = np.zeros((0, PARTS, PARTS), np.bool_), np.zeros(0, np.int64)
+        self._read = np.zeros(0, np.int64)
+        """Number of the write up to which each page has been read, shape (pages,)."""
+        self._uneven = np.zeros((0, PARTS, PARTS), np.bool_)
+        """Whether each part has an edge inside, shape (pages, PARTS, PARTS)."""
         self._level: Floats = np.zeros((0, PARTS, PARTS, 1), np.float32)
+        """Values of the first cell of each part, and of all others if it is even, shape (pages, PARTS, PARTS, m)."""
         self._blocks: Blocks | None = None
 
     def touch(self, plots: Plots, rectangles: Rectangles, *, most: float = np.inf) -> Mask:
@@ -104,18 +108,19 @@ class _PlotEdges:
         """
         if self._made_of != (plots, plots.count, most):
             if self._made_of[::2] != (plots, most):
-                self._seen = np.zeros(0, np.int64)
-            self._update(plots, most)
+                self._read = np.zeros(0, np.int64)
+            self._blocks = None
+            if plots.any:
+                self._read_pages(plots, most)
+                self._blocks = self._uneven_blocks(plots, most)
             self._made_of = plots, plots.count, most
         return np.zeros((), np.bool_) if self._blocks is None else self._blocks.touch(rectangles)
 
-    def _update(self, plots: Plots, most: float) -> None:
-        self._blocks = None
-        if not plots.any:
-            return
-        known, count = len(self._seen), len(plots.written)
-        stale = np.flatnonzero(plots.written != np.append(self._seen, np.full(count - known, -1)))
-        pages, highest = plots.pages[stale], np.float32(min(most, FARTHEST))
+    def _read_pages(self, plots: Plots, most: float) -> None:
+        """Read the pages that have been written since they were read last."""
+        known, count = len(self._read), len(plots.written)
+        stale = np.flatnonzero(plots.written != np.append(self._read, np.full(count - known, -1)))
+        pages = plots.pages[stale]
         cells = pages if pages.ndim > 3 else pages[..., None]
         uneven = np.zeros((count, PARTS, PARTS), np.bool_)
         level = np.empty((*uneven.shape, cells.shape[-1]), np.float32)
@@ -123,23 +128,25 @@ class _PlotEdges:
             uneven[:known], level[:known] = self._uneven, self._level
         firsts = cells[:, ::PART_CELLS, ::PART_CELLS]
         values = np.stack([_part_extremes(np.minimum, cells), _part_extremes(np.maximum, cells), firsts])
-        low, high, level[stale] = np.minimum(values.astype(np.float32), highest)
+        low, high, level[stale] = np.minimum(values.astype(np.float32), np.float32(min(most, FARTHEST)))
         uneven[stale] = (high - low > self._step).any(axis=-1)
-        self._uneven, self._level = uneven, level
-        self._seen = plots.written.copy()
+        self._uneven, self._level, self._read = uneven, level, plots.written.copy()
+
+    def _uneven_blocks(self, plots: Plots, most: float) -> Blocks | None:
+        """Return the parts of the ground that have an edge, inside or towards an adjacent one; None without plots."""
         top, left, bottom, right = plots.ends
         if bottom < top:
-            return
-        first = np.array([top, left]) - 1
-        page = np.full((bottom - top + 3, right - left + 3), -1, np.int32)
+            return None
+        page = np.full((bottom - top + 3, right - left + 3), -1, np.int32)  # with a frame of ground without plots
         page[1:-1, 1:-1] = plots.index[top : bottom + 1, left : right + 1]
-        none = np.full((1, *level.shape[1:]), most if most < np.inf else np.nan, np.float32)
-        levels = _laid_out(np.append(level, none, axis=0)[page])  # page -1 takes the last entry, `none`
-        corner = (first[::-1] - plots.half) * SIDE
-        inside = np.append(self._uneven, np.zeros((1, PARTS, PARTS), np.bool_), axis=0)
+        # Page -1 is the one added last, of ground without a plot.
+        no_edge = np.zeros((1, PARTS, PARTS), np.bool_)
+        no_plot = np.full((1, *self._level.shape[1:]), most if most < np.inf else np.nan, np.float32)
+        inside = _laid_out(np.append(self._uneven, no_edge, axis=0)[page])
+        levels = _laid_out(np.append(self._level, no_plot, axis=0)[page])
         has_page = np.repeat(np.repeat(page >= 0, PARTS, axis=0), PARTS, axis=1)
-        uneven = _with_steps_between(_laid_out(inside[page]), has_page, levels, self._step)
-        self._blocks = Blocks(uneven, corner, np.full(2, SIDE / PARTS))
+        corner = (np.array([left, top]) - 1 - plots.half) * SIDE
+        return Blocks(_with_steps_between(inside, has_page, levels, self._step), corner, np.full(2, SIDE / PARTS))
 
 
 def _part_extremes(extreme: np.ufunc, cells: Values) -> Values:

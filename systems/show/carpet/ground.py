@@ -28,6 +28,10 @@ from .layer import (
     Grids,
     GroundShelf,
     Layer,
+    Needs,
+    cheapest,
+    chosen,
+    unmet,
 )
 from .pieces import ByLayer
 from .stock import CarpetStock
@@ -108,10 +112,9 @@ class GroundPainter:
         self.restock(stock)
 
     def _list_layers(self) -> None:
-        """List all programs of each pass, by what they draw; they are compiled when first needed.
+        """List all programs of each pass, from the cheapest to the one that meets all needs.
 
-        "uncut" and "cut" draw usual scenes without other lights than sun and sky, "usual" those with them, "untrodden"
-        everything but treading, and "all" everything. Edged ones draw where grass ends or is cut.
+        They are compiled when first needed. Edged ones draw where grass ends or is cut.
         """
         ctx, stock = self._ctx, self.stock
         stack = stack_for(ctx, image_count(stock.growths))
@@ -119,7 +122,7 @@ class GroundPainter:
         litter: Defines = {"ANISOTROPIC": 1} if anisotropy(ctx) > 1.0 else {}
         stacked: Defines = {"STACK": stack, "REPEATED": 1} if stack > 1 else {}
         carpet, ends = heads | stacked | litter, Defines(EDGED=1)
-        every: Variants = {"all": {"TRODDEN": 1}}
+        every: Variants = {"all": {"TRODDEN": 1}}  # meets all needs, see `unmet`
         usual: Variants = {"usual": {"PLAIN": 1}, **every}
         untrodden: Variants = {"untrodden": {}, **every}
         lit: Variants = {"uncut": {"PLAIN": 1, "CUT": 0}, "cut": {"PLAIN": 1, "CUT": 1}}
@@ -141,7 +144,8 @@ class GroundPainter:
         for variant, defines in variants.items():
             given = f"{stem}.vert", f"{stem}.frag", common | defines
             make = partial(joined, self._ctx, self._block, self.units, *given)
-            layers[variant] = Layer(make, partial(self._block.texts, *given), self.shelves, grids or self.grids)
+            texts, lacks = partial(self._block.texts, *given), unmet(defines)
+            layers[variant] = Layer(make, texts, self.shelves, grids or self.grids, lacks)
         return layers
 
     def texts(self) -> Iterator[Texts]:
@@ -167,24 +171,17 @@ class GroundPainter:
         for layer in self._layers:
             layer.set_uniforms({name: value})
 
-    @property
-    def _is_cut(self) -> bool:
-        """Whether any grass has been cut: pixels that need not read the cut are cheaper."""
-        return bool(self._block.record["anything_cut"][0])
+    def _needs(self, *, changes: bool = False) -> Needs:
+        """Return what this frame's pixels have to read, if grass also `changes`."""
+        block, record = self._block, self._block.record[0]
+        return chosen({
+            "cut": record["anything_cut"], "lamps": record["beside_sun"], "changes": changes,
+            "rare": block.casts or block.earth, "trodden": self.is_trodden,
+        })  # fmt: skip
 
-    @property
-    def _cut(self) -> str:
-        """Name of the programs of usual scenes, by whether any grass has been cut."""
-        return "cut" if self._is_cut else "uncut"
-
-    def _used(self, layers: Mapping[str, Layer], name: str) -> Iterable[Layer]:
-        """Return the program of this name, or all where every one is to draw once."""
-        return layers.values() if self._rehearses else [layers[name]]
-
-    @property
-    def _is_rare(self) -> bool:
-        """Whether rare features are in use: shadow maps, shades, or a ground of a game's own."""
-        return bool(self._block.casts or self._block.earth)
+    def _used(self, layers: Mapping[str, Layer], needs: Needs) -> Iterable[Layer]:
+        """Return the program of a pass for these needs, or all where every one is to draw once."""
+        return layers.values() if self._rehearses else [cheapest(layers, needs)]
 
     @property
     def _is_odd(self) -> bool:
@@ -193,11 +190,6 @@ class GroundPainter:
         return self._is_coarse and bool(
             record["over_hosts"] or self._block.earth or record["mesh_high"][0] < EVERYWHERE
         )
-
-    @property
-    def _is_lamplit(self) -> bool:
-        """Whether lights other than sun and sky shine: only then do the carpet's pixels read them."""
-        return bool(self._block.record["beside_sun"][0])
 
     def write(self, tiles: ByLayer) -> None:
         """Upload tiles."""
@@ -293,10 +285,10 @@ class GroundPainter:
     def draw_bare(self, *, alone: bool) -> int:
         """Draw the bare ground, if `alone` also where carpet will lie; return the number of draw calls."""
         self.use()
-        rare = self._is_rare or self.is_trodden
-        bare = self.bare["all" if rare else self._cut]
+        needs = self._needs()
+        bare = cheapest(self.bare, needs)
         calls = bare.draw(BARE, BARE_PIECES, pushed=0.0)
-        for layer in self._used(self.edged_bare, "all" if rare else "usual"):
+        for layer in self._used(self.edged_bare, needs):
             calls += layer.draw(EDGED)
         if alone:
             calls += bare.draw(EVEN, EVEN_PIECES, pushed=PUSHED)
@@ -305,25 +297,20 @@ class GroundPainter:
     def draw_under(self) -> int:
         """Draw the opaque layer under the carpet; return the number of draw calls."""
         self.use()
-        full = "all" if self.is_trodden else "untrodden"
-        special = self._is_rare or self._is_lamplit or self._is_cut or self.is_trodden
-        calls = self.under[full if special else "uncut"].draw(UNDER, UNDER_PIECES)
-        for layer in self._used(self.edged_under, full):
+        needs = self._needs()
+        calls = cheapest(self.under, needs).draw(UNDER, UNDER_PIECES)
+        for layer in self._used(self.edged_under, needs):
             calls += layer.draw(EDGED_CARPET)
         return calls
 
     def draw_carpet(self, part: int) -> int:
         """Draw a part of the carpet, whose outlines are translucent; return the number of draw calls."""
         self.use()
-        rare, changes = self._is_rare or self.is_trodden, any(self._came)
-        special = changes or self._is_lamplit
-        if self._is_coarse and not special and not self._is_odd:
-            even = self.coarse["all" if rare or self._is_cut else "uncut"]
-        else:
-            even = self.carpet["all" if rare or changes else "usual" if special or self._is_coarse else self._cut]
+        needs = self._needs(changes=any(self._came))
+        is_coarse = self._is_coarse and not self._is_odd and not needs & {"lamps", "changes"}
+        even = cheapest(self.coarse if is_coarse else self.carpet, needs)
         calls = even.draw(OUTLINED if part == THIN else EVEN, EVEN_PIECES, part=part)
-        edged = "all" if self.is_trodden else "untrodden" if rare or special else self._cut
-        for layer in self._used(self.edged, edged):
+        for layer in self._used(self.edged, needs):
             calls += layer.draw(EDGED_CARPET, part=part)
         return calls
 

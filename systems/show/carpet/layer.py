@@ -23,6 +23,28 @@ WHOLE = BARE, EVEN, UNDER, OUTLINED
 """The streams of whole tiles."""
 
 
+Needs = frozenset[str]
+"""What the pixels of some frames have to read in addition: a program that reads less of it costs less.
+
+`cut`: some grass has been cut. `lamps`: lights other than sun and sky shine. `changes`: a kind of grass turns into
+another. `rare`: there are shadow maps, shades, or a ground of a game's own. `trodden`: grass has been trodden.
+"""
+
+
+def chosen(needs: Mapping[str, object], /) -> Needs:
+    """Return the needs that are true."""
+    return frozenset(need for need, is_there in needs.items() if is_there)
+
+
+def unmet(defines: Mapping[str, str | int], /) -> Needs:
+    """Return the needs that a program with these preprocessor definitions does not meet."""
+    plain = "PLAIN" in defines
+    return chosen({
+        "cut": defines.get("CUT") == 0, "lamps": "LAMPLESS" in defines, "changes": plain, "rare": plain,
+        "trodden": "TRODDEN" not in defines,
+    })  # fmt: skip
+
+
 Grids = tuple[tuple[moderngl.Buffer, ...], tuple[moderngl.Buffer, ...]]
 """Vertex buffer of a tile's and of a piece's grid, each followed by its index buffers, by stride."""
 
@@ -60,8 +82,11 @@ class Layer:
         texts: Callable[[], Texts],
         shelves: Shelves[GroundShelf],
         grids: Grids,
+        lacks: Needs,
     ) -> None:
         self._make, self.texts, self._shelves, self._grids = make, texts, shelves, grids
+        self.lacks = lacks
+        """What it cannot draw."""
         self._uniforms: dict[str, object] = {}
         self._pending: dict[str, object] = {}
         """Uniforms to be set before the program draws next: a frame draws with few of many programs."""
@@ -111,3 +136,8 @@ class Layer:
             corners = array.vertices // ORDERS
             array.render(moderngl.TRIANGLES, corners, first=shelf.order * corners, instances=count)
         return calls
+
+
+def cheapest(layers: Mapping[str, Layer], needs: Needs, /) -> Layer:
+    """Return the first of these programs, which begin with the cheapest, that meets all needs."""
+    return next(layer for layer in layers.values() if not layer.lacks & needs)
