@@ -267,7 +267,7 @@ def test_d6_a_dropped_prairie_is_reported_and_released_when_another_is_drawn(
     site, painter = ref(prairie.site), ref(prairie.painter)
     with pytest.warns(ResourceWarning, match=r"a prairie of scene\.yaml was dropped and not released: call its rel"):
         del prairie
-        assert esper.entity_exists(patch)
+    assert esper.entity_exists(patch)
     stage.shot(other)
     gc.collect()
     assert (site(), painter()) == (None, None)

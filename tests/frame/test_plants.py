@@ -96,10 +96,15 @@ HEATH = MEADOW.replace(
     'tip: "#b040a0", understorey: 0, plant: shrub, plants: 30, head: { form: spike }',
 )
 
-REEDS = MEADOW.replace(
-    'tip: "#d8b868", withered: 0',
-    'tip: "#b0977a", understorey: 0, height: [0.6, 0.9], head: { form: plume, size: [0.35, 0.35] }',
-).replace("blades: 400", "blades: 100").replace("models: 2", "models: 1")  # plumes take long to grow
+# Plumes take long to grow, so there are few.
+REEDS = (
+    MEADOW.replace(
+        'tip: "#d8b868", withered: 0',
+        'tip: "#b0977a", understorey: 0, height: [0.6, 0.9], head: { form: plume, size: [0.35, 0.35] }',
+    )
+    .replace("blades: 400", "blades: 100")
+    .replace("models: 2", "models: 1")
+)
 
 
 @pytest.fixture(scope="module")

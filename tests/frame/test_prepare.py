@@ -288,8 +288,9 @@ def _compiled_for(program: moderngl.Program) -> tuple[int, ...]:
 
     before, bound = asked("ACTIVE_TEXTURE"), []
     for uniform in map(program.get, program, [None] * len(list(program))):
-        if isinstance(uniform, moderngl.Uniform) and uniform.gl_type in SAMPLERS and uniform.array_length == 1:
+        sort = getattr(uniform, "gl_type", None)  # moderngl's types do not tell of it
+        if isinstance(uniform, moderngl.Uniform) and sort in SAMPLERS and uniform.array_length == 1:
             gl.glActiveTexture(ENUMS["TEXTURE0"] + uniform.value)
-            bound.append(bool(asked(SAMPLERS[uniform.gl_type])))
+            bound.append(bool(asked(SAMPLERS[sort])))
     gl.glActiveTexture(before)
     return program.glo, asked("DEPTH_FUNC"), asked("DEPTH_WRITEMASK"), *bound
