@@ -78,7 +78,7 @@ class Holding:
     def steps(self, site: Site) -> int:
         """Return the maximum number of steps that `preparing` takes."""
         times = 2 if compiles_in_background(self.ctx) else 1
-        return 2 * len(self.parts) + 11 + sum(6 + times * each.programs for each in site.representations)
+        return 2 * len(self.parts) + 12 + sum(6 + times * each.programs for each in site.representations)
 
     def _making_ready(
         self, site: Site, air: CardWinds, painters: Mapping[str, RepresentationPainter]

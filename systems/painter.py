@@ -76,7 +76,7 @@ class Painter(Holding):
         yield from self._rehearsing()
 
     def _rehearsing(self) -> Iterator[None]:
-        """Draw the last frame without pixels, a step each: parts of it, with more content than it has, and scaled."""
+        """Draw the last frame without pixels, a step each: parts of it, with more than it has, scaled, and cast."""
         every: list[Part] = [*self.parts, *self.painters.values()]
         single = [[part] for part in overriding(Part, "rehearse", every)]
         deep = Asked(is_deep=True)
@@ -93,6 +93,8 @@ class Painter(Holding):
             self.draw(self._outlook.view, asked, scale=scale, hidden=True)
             self.record[:] = before
             yield
+        self.cast(self._outlook.view, self._outlook, hidden=True)
+        yield
 
     def blade_painter(self, segments: int) -> BladeDrawing:
         """Return a painter of opaque blades with a number of segments, which may come in any order."""
@@ -190,13 +192,17 @@ class Painter(Holding):
             self.ctx.enable_only(moderngl.DEPTH_TEST)
             self.draw_calls += sum(painter.draw() for painter in blades)
 
-    def cast(self, view: View, outlook: Outlook) -> None:
+    def cast(self, view: View, outlook: Outlook, *, hidden: bool = False) -> None:
         """Write the depth of what a viewer was shown last, as seen from a light, into the host's bound framebuffer.
 
-        Coverage is computed as seen from the light: strips block as much of it as their blades do.
+        Coverage is computed as seen from the light: strips block as much of it as their blades do. If it is `hidden`,
+        what was uploaded last is drawn without pixels.
         """
-        self.write(outlook)
+        if not hidden:
+            self.write(outlook)
         with guest(self.ctx, view) as target:
+            if hidden:
+                target.scissor = 0, 0, 0, 0
             self._write_block(view, target, WHOLE)
             self.draw_calls = self._hear(target, WHOLE)
             self.record["eye"] = outlook.viewer.eye  # the carpet's mesh depends on the viewer's eye

@@ -36,6 +36,9 @@ Stage = Any
 Load = Callable[..., Prairie]
 Aim = Callable[..., Camera]
 
+SAMPLERS = {0x8B5E: "TEXTURE_BINDING_2D", 0x8DC1: "TEXTURE_BINDING_2D_ARRAY", 0x8B5F: "TEXTURE_BINDING_3D"}
+"""Textures' bindings by the types of GLSL's samplers."""
+
 MADE = "program", "buffer", "texture", "texture_array", "depth_texture"
 
 FRONT = """
@@ -266,16 +269,13 @@ def test_a_frame_is_rehearsed_with_all_that_may_come_and_no_pixel_changes(
     changed = stage.shot(prairie, aim)
     assert (changed != before).any()
     prairie.draw(*stage.matrices(aim), depth="all")
+    prairie.draw_depth(*stage.matrices(aim))
     stage.begin()
     with prairie._screen.opened(prairie.site) as painter:  # noqa: SLF001
         assert painter is not None
         painter.draw(View(*stage.matrices(aim)), scale=0.5)
     assert (stage.read() != empty).any()
     assert rendered <= rendered_before
-
-
-SAMPLERS = {0x8B5E: "TEXTURE_BINDING_2D", 0x8DC1: "TEXTURE_BINDING_2D_ARRAY", 0x8B5F: "TEXTURE_BINDING_3D"}
-"""Textures' bindings by the types of GLSL's samplers."""
 
 
 def _compiled_for(program: moderngl.Program) -> tuple[int, ...]:
@@ -287,10 +287,10 @@ def _compiled_for(program: moderngl.Program) -> tuple[int, ...]:
         return found.value
 
     before, bound = asked("ACTIVE_TEXTURE"), []
-    for uniform in map(program.get, program, [None] * len(list(program))):
-        sort = getattr(uniform, "gl_type", None)  # moderngl's types do not tell of it
-        if isinstance(uniform, moderngl.Uniform) and sort in SAMPLERS and uniform.array_length == 1:
+    for uniform in (program[name] for name in program):
+        kind = SAMPLERS.get(getattr(uniform, "gl_type", 0))
+        if isinstance(uniform, moderngl.Uniform) and kind is not None and uniform.array_length == 1:
             gl.glActiveTexture(ENUMS["TEXTURE0"] + uniform.value)
-            bound.append(bool(asked(SAMPLERS[sort])))
+            bound.append(bool(asked(kind)))
     gl.glActiveTexture(before)
     return program.glo, asked("DEPTH_FUNC"), asked("DEPTH_WRITEMASK"), *bound
