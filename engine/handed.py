@@ -74,7 +74,7 @@ def as_rays(origin: object, direction: object, /) -> tuple[Doubles, Doubles]:
         raise ValueError(f"{due}, not {len(each[0])} and {len(each[1])} of them")
     if not np.abs(each[1]).max(axis=1, initial=0.0).all():
         raise ValueError(f"{due}, and a direction has a length above 0")
-    start, way = np.broadcast_arrays(*each)
+    start, way = each if len(each[0]) == len(each[1]) else np.broadcast_arrays(*each)
     return start, way
 
 

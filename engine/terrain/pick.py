@@ -16,6 +16,9 @@ _SAME = 1e-12
 _MARGIN = 1.0
 """Margin above the highest and below the lowest ground in which rays are followed [m], against rounding errors."""
 
+_RIGHT, _DOWN = np.array([[0], [1], [0], [1]]), np.array([[0], [0], [1], [1]])
+"""Samples from the far left corner of a cell to the far left, far right, near left and near right one."""
+
 _STRETCHES = 2**16
 """Number of stretches of rays, one in each cell, that are computed together: 2 MB for each of their numbers."""
 
@@ -36,11 +39,11 @@ def pick(terrain: Terrain, origin: Doubles, direction: Doubles, /, *, farthest: 
             begin, end = _over_mirrored(terrain, origin, along, begin, end)
         end = np.minimum(end, farthest)
         rays = np.flatnonzero(end >= begin)
-        crossings = _Crossings.of(terrain, origin[rays], along[rays], begin[rays], end[rays])
+        start, along, begin, end = (each[rays] for each in (origin, along, begin, end))
+        crossings = _Crossings.of(terrain, start, along, begin, end)
     for part in crossings.parts():
-        which = rays[part]
-        away = _met(terrain, origin[which], along[which], begin[which], end[which], crossings.of_rays(part))
-        found[which] = origin[which] + away[:, None] * along[which]
+        away = _met(terrain, start[part], along[part], begin[part], end[part], crossings.of_rays(part))
+        found[rays[part]] = start[part] + away[:, None] * along[part]
     return found
 
 
@@ -89,8 +92,7 @@ def _met(
     low = start[ray, 1] + enters * along[ray, 1] - (far_left + right * u + down * v + twist * u * v)
     slope = along[ray, 1] - (right * du + down * dv + twist * (u * dv + v * du))
     roots = _first_root(low, slope, -twist * du * dv, leaves - enters)
-    hit = np.flatnonzero(np.isfinite(roots))
-    hit = hit[np.diff(ray[hit], prepend=-1) > 0]  # the first one of each ray
+    hit = np.flatnonzero(np.isfinite(roots))[::-1]  # of each ray the first one is written last
     away = np.full(len(begin), np.nan)
     away[ray[hit]] = enters[hit] + roots[hit]
     return away
@@ -149,15 +151,12 @@ class _Crossings:
 
     def stretches(self, begin: Doubles, end: Doubles) -> tuple[NDArray[np.intp], Doubles]:
         """Return the ray of each stretch within a cell, and the distance at which it begins [m], in their order."""
-        rays, away = [np.arange(len(begin))], [begin]
-        for axis in (0, 1):
-            count = self.count[:, axis]
-            ray = np.repeat(rays[0], count)
-            number = np.arange(len(ray)) - np.repeat(np.cumsum(count) - count, count)
-            crossed = (self.first[ray, axis] + number - self.at[ray, axis]) / self.way[ray, axis]
-            rays.append(ray)
-            away.append(np.clip(crossed, begin[ray], end[ray]))  # against rounding errors
-        ray, before = np.concatenate(rays), np.concatenate(away)
+        count, (first, at, way) = self.count.reshape(-1), (each.reshape(-1) for each in (self.first, self.at, self.way))
+        line = np.repeat(np.arange(len(count)), count)  # of ray 0 along x and along z, of ray 1 along x, and so on
+        number = np.arange(len(line)) - np.repeat(np.cumsum(count) - count, count)
+        crossed, ray = (first[line] + number - at[line]) / way[line], line // 2
+        inside = np.minimum(np.maximum(crossed, begin[ray]), end[ray])  # against rounding errors
+        ray, before = np.concatenate([np.arange(len(begin)), ray]), np.concatenate([begin, inside])
         order = np.lexsort((before, ray))
         return ray[order], before[order]
 
@@ -168,14 +167,11 @@ def _corners(terrain: Terrain, cell: Doubles) -> Doubles:
     near_by = cell if terrain.mirrored else np.clip(cell, -1, (columns, rows))  # integers cannot be as large as places
     i, j = near_by.astype(np.intp).T
     on = _in_mirror if terrain.mirrored else _nearest
-    left, right = on(i, columns), on(i + 1, columns)
-    far, near = on(j, rows), on(j + 1, rows)
-    heights = terrain.heights
-    return np.array([heights[far, left], heights[far, right], heights[near, left], heights[near, right]], np.float64)
+    return terrain.heights[on(j + _DOWN, rows), on(i + _RIGHT, columns)].astype(np.float64)
 
 
 def _nearest(sample: NDArray[np.intp], count: int) -> NDArray[np.intp]:
-    return np.clip(sample, 0, count - 1)
+    return np.asarray(np.minimum(np.maximum(sample, 0), count - 1))
 
 
 def _in_mirror(sample: NDArray[np.intp], count: int) -> NDArray[np.intp]:
