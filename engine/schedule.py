@@ -10,7 +10,7 @@ from inspect import isasyncgenfunction, iscoroutinefunction, isgeneratorfunction
 from itertools import count
 from reprlib import repr as shortened
 from time import perf_counter, thread_time
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 from ..components.words import guess
 from .complaint import said
@@ -22,7 +22,9 @@ IDLE = 10.0
 """Ratio of waiting to working time from which a turn counts as a wait: on a busy machine threads wait for a CPU."""
 
 PATIENCE, WINDOW = 3, 16
-"""Number of waits for which a system is left out, among this many of its latest turns."""
+"""Number of waits that are often, among this many of the latest turns; a single one may import something."""
+
+Key = TypeVar("Key")
 
 log = logging.getLogger("tallgrass")
 
@@ -88,6 +90,17 @@ def has_waited(took: float, busy: float, /) -> bool:
     return took - busy > max(WAITED, IDLE * busy)
 
 
+def is_often(latest: dict[Key, int], key: Key, /, *, is_long: bool) -> bool:
+    """Note whether a turn was long; return whether it was, and `PATIENCE` of the latest `WINDOW` turns were.
+
+    `latest` has bits for each key that has had a long turn: 1 for a long one, the lowest bit for the last turn.
+    """
+    bits = (latest.pop(key, 0) << 1 | is_long) & ((1 << WINDOW) - 1)
+    if bits:
+        latest[key] = bits
+    return is_long and bits.bit_count() >= PATIENCE
+
+
 class UnknownSystemError(KeyError):
     """No system of a schedule has this name; the message is one sentence, and names the one it resembles."""
 
@@ -119,7 +132,7 @@ class Schedule:
     """Systems by name, in running order."""
 
     _waits: dict[str, int] = field(init=False, default_factory=dict)
-    """Bits of the latest `WINDOW` turns of each system that has waited: 1 for a wait, the lowest bit for the last."""
+    """Waits in the latest turns of each system, as `is_often` notes them."""
 
     _logged: set[str] = field(init=False, default_factory=set)
     """Names of the systems whose waits have been logged."""
@@ -287,16 +300,12 @@ class Schedule:
 
     def _judge(self, system: System, took: float, busy: float) -> None:
         """Log a system that waits, and in a live schedule leave it out when it waits often."""
-        name, waits = system.name, has_waited(took, busy)
-        if not waits and name not in self._waits:
-            return
-        self._waits[name] = (self._waits.get(name, 0) << 1 | waits) & ((1 << WINDOW) - 1)
-        what = f"run waits: for {took - busy:.1f} s, and every frame with it"
-        if self.live and waits and self._waits[name].bit_count() >= PATIENCE:
+        waits, what = has_waited(took, busy), f"run waits: for {took - busy:.1f} s, and every frame with it"
+        if is_often(self._waits, system.name, is_long=waits) and self.live:
             self._leave_out(system, what)
-        elif waits and name not in self._logged:
-            self._logged.add(name)
-            log.warning("system '%s' of %s: %s", name, system.origin, what)
+        elif waits and system.name not in self._logged:
+            self._logged.add(system.name)
+            log.warning("system '%s' of %s: %s", system.name, system.origin, what)
 
     def _leave_out(self, system: System, what: str) -> None:
         why = f"system '{system.name}' of {system.origin}: {what}"

@@ -110,8 +110,7 @@ class Pressers(Feature):
         self._place_declared(time)
         found = self._world.both(Presser, Pose)
         if len(found) < len(self._world.rows(Presser)):
-            bare = (entity for entity, _ in self._world.all(Presser) if self._world.find(entity, Pose) is None)
-            self._world.standing([(entity, None) for entity in bare], "the presser")  # logs them
+            self._log_without_pose()
         if not found and not self._scene_walk.pressers and not self._game_walk.pressers and not self.trodden:
             return self.trodden
         wearing = [row for row in found if row[1].wear and row[0] not in self._declared and is_somewhere(row[2])]
@@ -123,6 +122,11 @@ class Pressers(Feature):
         if self._walk_declared(declared, poses[is_declared], time) or is_new:
             self.trodden = self._memory.at(time)
         return self.trodden
+
+    def _log_without_pose(self) -> None:
+        """Log the pressers that have no pose, each once."""
+        bare = (entity for entity, _ in self._world.all(Presser) if self._world.find(entity, Pose) is None)
+        self._world.standing([(entity, None) for entity in bare], "the presser")
 
     def _posed(self, found: list[tuple[int, Presser, Pose]]) -> tuple[list[EntityPresser], Doubles]:
         """Return the pressers whose pose is finite, and their poses (x, z, yaw), shape (n, 3)."""

@@ -1,12 +1,14 @@
 """The page of public names: what each is, read from the source, in an order to read them in."""
 
-import ast
 import inspect
 import re
+import sys
 from collections.abc import Iterator
-from importlib import import_module
+from functools import cache
 from pathlib import Path
 from types import ModuleType
+
+import griffe
 
 import tallgrass
 import tallgrass.testing
@@ -18,7 +20,7 @@ BESIDE_WINDS = ("Extent", "Grass", "Hover", "Pose", "Shape", "TwinValues", "wind
 LONGEST = 100
 """Characters of a signature on one line; longer ones have a line for each parameter."""
 
-Part = ast.ClassDef | ast.FunctionDef | ast.AnnAssign | ast.Assign
+Part = griffe.Object | griffe.Alias
 
 
 def api() -> str:
@@ -43,70 +45,51 @@ def _is_wind(thing: type) -> bool:
 
 
 def _page(title: str, face: ModuleType, names: list[str]) -> str:
-    homes = dict(_homes(face))
-    entries = [line for name in names for line in _entry(name, *_found(name, homes[name]))]
+    entries = [line for name in names for line in _entry(name, _found(_home(face, name), name))]
     return "\n\n".join([title, *entries]) + "\n"
 
 
-def _homes(face: ModuleType) -> Iterator[tuple[str, ModuleType]]:
-    """Yield the names that a package brings from its modules, and the modules."""
-    for node in ast.walk(_parsed(face)):
-        if isinstance(node, ast.ImportFrom) and node.level:
-            for name in node.names:
-                inside = "." * node.level + (node.module or "")
-                yield name.name, import_module(inside, face.__name__)
+def _home(face: ModuleType, name: str) -> str:
+    """Return the module that defines a name which a package brings."""
+    thing = getattr(face, name)
+    inside = (each for each in sys.modules if each.startswith(face.__name__ + "."))
+    return getattr(thing, "__module__", None) or next(each for each in inside if hasattr(sys.modules[each], name))
 
 
-def _parsed(module: ModuleType) -> ast.Module:
-    return ast.parse(Path(str(module.__file__)).read_text("utf-8"))
+def _found(module: str, name: str) -> Part:
+    """Return what the source of a module says of a name."""
+    return _read(module).members[name]
 
 
-def _found(name: str, home: ModuleType) -> tuple[Part, str]:
-    """Return where a module defines a name, or the module that it has it from, and what is said of it."""
-    for part, told in _parts(_parsed(home).body):
-        if name == _name(part):
-            return part, told
-    return _found(name, dict(_homes(home))[name])
+@cache
+def _read(module: str) -> griffe.Module:
+    file = Path(str(sys.modules[module].__file__))
+    return griffe.visit(module, file, file.read_text("utf-8"))
 
 
-def _parts(body: list[ast.stmt]) -> Iterator[tuple[Part, str]]:
-    """Yield the public definitions in a body that have docstrings, with these."""
-    for node, after in zip(body, [*body[1:], ast.Pass()], strict=True):
-        told = ""
-        if isinstance(node, ast.ClassDef | ast.FunctionDef):
-            told = ast.get_docstring(node) or ""
-        elif isinstance(node, ast.AnnAssign | ast.Assign) and isinstance(after, ast.Expr):
-            told = inspect.cleandoc(str(ast.literal_eval(after.value)))
-        if told and isinstance(node, Part) and not _name(node).startswith("_"):
-            yield node, told
-
-
-def _name(part: Part) -> str:
-    if isinstance(part, ast.ClassDef | ast.FunctionDef):
-        return part.name
-    return ast.unparse(part.target if isinstance(part, ast.AnnAssign) else part.targets[0])
-
-
-def _entry(name: str, part: Part, told: str) -> Iterator[str]:
+def _entry(name: str, part: Part) -> Iterator[str]:
     """Yield the paragraphs of a public name."""
     yield f"### {name}"
-    if isinstance(part, ast.FunctionDef):
-        yield _signature(part, name)
-    yield told
-    if isinstance(part, ast.ClassDef):
-        bases = [each for each in map(ast.unparse, part.bases) if each in tallgrass.__all__]
+    if isinstance(part, griffe.Function):
+        yield _signature(part)
+    yield _told(part)
+    if isinstance(part, griffe.Class):
+        bases = [each for each in map(str, part.bases) if each in tallgrass.__all__]
         if bases:
             yield f"It derives from {', '.join(f'[`{each}`](#{each.lower()})' for each in bases)}."
         yield from _members(name, [part, *_hidden_bases(getattr(tallgrass, name, object))])
 
 
-def _hidden_bases(thing: type) -> Iterator[ast.ClassDef]:
+def _told(part: Part) -> str:
+    return part.docstring.value if part.docstring else ""
+
+
+def _hidden_bases(thing: type) -> Iterator[Part]:
     """Yield the bases that are ours and that no entry tells of: their members are the class's."""
     told = [base for base in thing.__mro__[1:] if base.__name__ in tallgrass.__all__]
     for base in thing.__mro__[1:]:
         if base.__module__.startswith("tallgrass.") and not any(issubclass(each, base) for each in told):
-            parsed = _parsed(import_module(base.__module__))
-            yield from (each for each in parsed.body if isinstance(each, ast.ClassDef) and each.name == base.__name__)
+            yield _found(base.__module__, base.__name__)
 
 
 def told_of_bases(thing: type, /) -> set[str]:
@@ -114,82 +97,37 @@ def told_of_bases(thing: type, /) -> set[str]:
     return {name for base in thing.__mro__[1:] if base.__name__ in tallgrass.__all__ for name in vars(base)}
 
 
-def _members(owner: str, parts: list[ast.ClassDef]) -> Iterator[str]:
+def _members(owner: str, parts: list[Part]) -> Iterator[str]:
     """Yield the paragraphs of a class, in as many parts as it has: fields and properties, and then methods."""
-    members = [each for part in parts for each in _parts(part.body) if not isinstance(each[0], ast.ClassDef)]
-    values = [_value(each, told) for each, told in members if _is_value(each)]
+    members = [each for part in parts for each in part.members.values() if each.name[0] != "_" and each.docstring]
+    values = [_value(each) for each in members if isinstance(each, griffe.Attribute)]
     if values:
         yield "\n".join(values)
     inherited = told_of_bases(getattr(tallgrass, owner, object))
-    for each, told in members:
-        if isinstance(each, ast.FunctionDef) and not _is_value(each) and each.name not in inherited:
+    for each in members:
+        if isinstance(each, griffe.Function) and each.name not in inherited:
             yield f"#### {owner}.{each.name}"
-            yield _signature(each, each.name, method=True)
-            yield told
+            yield _signature(each)
+            yield _told(each)
 
 
-def _is_value(part: Part) -> bool:
-    return not isinstance(part, ast.FunctionDef) or any("property" in ast.unparse(each) for each in part.decorator_list)
+def _value(part: griffe.Attribute) -> str:
+    """Return a field or property as an item of a list; the default of a declared field is without its bounds."""
+    default = part.value if "class-attribute" in part.labels else None
+    if isinstance(default, griffe.ExprCall) and str(default.function) in {"Field", "field"}:
+        keywords = [each for each in default.arguments if isinstance(each, griffe.ExprKeyword)]
+        default = next((each.value for each in keywords if each.name == "default"), None)
+    kind = f": {part.annotation}" if part.annotation else ""
+    value = f" = {default}" if default is not None else ""
+    return f"- `{part.name}{kind}{value}`: " + re.sub(r"\n(?=.)", "\n  ", _told(part))
 
 
-def _value(part: Part, told: str) -> str:
-    """Return a field or property as an item of a list."""
-    kind, default = "", ""
-    if isinstance(part, ast.FunctionDef):
-        kind = _kind(part.returns) if part.returns else ""
-    elif isinstance(part, ast.AnnAssign):
-        kind, default = _kind(part.annotation), _default(part.value)
-    elif isinstance(part, ast.Assign):
-        default = _default(part.value)
-    declared = f"{_name(part)}{f': {kind}' if kind else ''}{f' = {default}' if default else ''}"
-    return f"- `{declared}`: {_indented(told)}"
-
-
-def _default(value: ast.expr | None) -> str:
-    """Return a default as it is written, that of a declared field without its bounds; nothing where it is made."""
-    if isinstance(value, ast.Call) and ast.unparse(value.func) in {"Field", "field"}:
-        value = next((each.value for each in value.keywords if each.arg == "default"), None)
-    return "" if value is None else ast.unparse(value)
-
-
-def _indented(told: str) -> str:
-    return re.sub(r"\n(?=.)", "\n  ", told)
-
-
-def _signature(part: ast.FunctionDef, name: str, *, method: bool = False) -> str:
+def _signature(part: griffe.Function) -> str:
     """Return how a function is called, as a block of code."""
-    arguments = part.args
-    if method and not any(ast.unparse(each) == "staticmethod" for each in part.decorator_list):
-        (arguments.posonlyargs or arguments.args).pop(0)
-    taken = list(_arguments(arguments))
-    result = f" -> {_kind(part.returns)}" if part.returns else ""
-    line = f"{name}({', '.join(taken)}){result}"
+    line = part.signature()
     if len(line) > LONGEST:
-        line = f"{name}(\n{''.join(f'    {each},{chr(10)}' for each in taken)}){result}"
+        name, _, rest = line.partition("(")
+        taken, _, result = rest.rpartition(")")
+        lines = re.split(r", (?=\w+:|[*/])", taken)
+        line = f"{name}(\n{''.join(f'    {each},{chr(10)}' for each in lines)}){result}"
     return f"```python\n{line}\n```"
-
-
-def _arguments(arguments: ast.arguments) -> Iterator[str]:
-    """Yield the parameters of a signature, as they are written."""
-    positional = [*arguments.posonlyargs, *arguments.args]
-    defaults = [None] * (len(positional) - len(arguments.defaults)) + list(arguments.defaults)
-    for number, (each, default) in enumerate(zip(positional, defaults, strict=True), 1):
-        yield _argument(each, default)
-        if number == len(arguments.posonlyargs):
-            yield "/"
-    if arguments.vararg:
-        yield f"*{_argument(arguments.vararg, None)}"
-    elif arguments.kwonlyargs:
-        yield "*"
-    for each, default in zip(arguments.kwonlyargs, arguments.kw_defaults, strict=True):
-        yield _argument(each, default)
-
-
-def _argument(each: ast.arg, default: ast.expr | None) -> str:
-    kind = f": {_kind(each.annotation)}" if each.annotation else ""
-    return f"{each.arg}{kind}" + (f" = {ast.unparse(default)}" if default is not None else "")
-
-
-def _kind(annotation: ast.expr) -> str:
-    """Return an annotation as it is written, without the quotes of one that names what comes later."""
-    return ast.unparse(annotation).strip("'")

@@ -13,7 +13,8 @@ from ...components.pose import Pose
 from ...engine.handed import SOMEWHERE, is_somewhere
 from ...engine.terrain.plots import CELL, CELLS, SIDE, Plots, Untouched, Values, ends_of, middles
 from ...engine.terrain.rectangle import Rectangle
-from ..space.polygon import in_polygon
+from ..space import polygon
+from ..space.polygon import line_distances
 
 Area = Footprint | Road
 """The area of a stroke."""
@@ -56,11 +57,10 @@ def signed_distances(area: Area, pose: Pose, place: Floats, /, *, least: float =
     """
     local = pose.inside(place)
     if isinstance(area, Road):
-        return _line_distances(np.array(area.line, np.float32), local, near) - np.float32(max(area.width / 2.0, least))
+        line = np.array(area.line, np.float32)
+        return line_distances(local, line, near=near) - np.float32(max(area.width / 2.0, least))
     if area.corners:
-        corners = np.array(area.corners, np.float32)
-        edge = _line_distances(np.concatenate([corners, corners[:1]]), local)
-        return np.asarray(np.where(in_polygon(local, corners), -edge, edge), np.float32)
+        return polygon.signed_distances(local, np.array(area.corners, np.float32))
     half = np.float32(area.length / 2)
     distance = np.hypot(local[:, 0], local[:, 1] - np.clip(local[:, 1], -half, half))
     return np.asarray(distance - np.float32(max(area.radius, least)), np.float32)
@@ -138,7 +138,7 @@ def _cell_distances(area: Footprint, pose: Pose, part: Rectangle, *, beyond: flo
     # Outside a corner, the lines are nearer than the polygon.
     row, column = np.nonzero((distances > 0.0) & (distances <= beyond))
     outline, outside = np.concatenate([corner, corner[:1]]), np.stack([x[column], z[row]], axis=1)
-    distances[row, column] = _line_distances(outline, outside)
+    distances[row, column] = line_distances(outside, outline)
     return distances
 
 
@@ -193,21 +193,7 @@ def _reached_parts(plots: Plots, area: Area, pose: Pose, beyond: float) -> list[
     kept = list[tuple[Rectangle, Segments]]()
     for part, numbers in numbers_by_part.items():
         middle, half = np.add(ends_of(part)[0], SIDE / 2.0)[None], SIDE / np.sqrt(2.0)
-        near = [n for n in sorted(numbers) if _line_distances(places[n : n + 2], middle)[0] <= reach + half]
+        near = [n for n in sorted(numbers) if line_distances(middle, places[n : n + 2])[0] <= reach + half]
         if near:
             kept.append((part, near))
     return kept
-
-
-def _line_distances(line: Floats, place: Floats, near: Segments = None) -> Floats:
-    """Return distances of places (n, 2) from the nearest of some segments of a polyline (m, 2), shape (n,)."""
-    least = np.full(len(place), np.inf, np.float32)
-    right, ahead = np.ascontiguousarray(place.T)
-    for number in range(len(line) - 1) if near is None else near:
-        x, z, (dx, dz) = right - line[number, 0], ahead - line[number, 1], line[number + 1] - line[number]
-        along = (x * dx + z * dz) / np.float32(max(float(dx * dx + dz * dz), 1e-12))
-        np.clip(along, 0.0, 1.0, out=along)
-        x -= along * dx
-        z -= along * dz
-        np.minimum(least, x * x + z * z, out=least)
-    return np.asarray(np.sqrt(least), np.float32)

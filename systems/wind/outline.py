@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Doubles, Floats, Mask
-from ..space.polygon import in_polygon
+from ..space.polygon import signed_distances
 
 FINE = 96
 """Number of samples along the longer side of an outline."""
@@ -80,8 +80,8 @@ def outline_of_polygon(corners: tuple[tuple[float, float], ...], /) -> Outline:
     corner = (low + high) / 2 - step * (np.array([columns, rows]) - 1) / 2
     x, z = corner[0] + step * np.arange(columns), corner[1] + step * np.arange(rows)
     place = np.stack(np.meshgrid(x, z), axis=-1)
-    away, holds = _to_edges(place, points)
-    return _outline(np.where(holds, away, -away), (float(corner[0]), float(corner[1])), step)
+    depth = -signed_distances(place.reshape(-1, 2), points).reshape(rows, columns)
+    return _outline(depth, (float(corner[0]), float(corner[1])), step)
 
 
 def outline_of_picture(holds: Mask, /, *, width: float) -> Outline:
@@ -104,16 +104,6 @@ def _outline(depth: Doubles, corner: tuple[float, float], step: float) -> Outlin
     outward *= np.clip(length * 2.0, 0.0, 1.0)
     field = np.concatenate([depth[..., None], outward], axis=2).astype(np.float32)
     return Outline(corner, step, field, float(field[..., 0].max()))
-
-
-def _to_edges(place: Doubles, points: Doubles) -> tuple[Doubles, Mask]:
-    """Return the distances of places (..., 2) to a closed polygon's edges, and which lie inside (even-odd rule)."""
-    away = np.full(place.shape[:-1], np.inf)
-    for a, b in zip(points, np.roll(points, -1, axis=0), strict=True):
-        edge, to = b - a, place - a
-        fraction = np.clip(to @ edge / max(float(edge @ edge), 1e-12), 0.0, 1.0)
-        away = np.minimum(away, np.linalg.norm(to - fraction[..., None] * edge, axis=-1))
-    return away, in_polygon(place, points)
 
 
 def _signed(holds: Mask) -> Doubles:

@@ -20,7 +20,7 @@ from ...components.pose import Pose
 from ...components.wind import Extent, WindPrimitive, WindSource
 from ...engine.complaint import said
 from ...engine.plugins import wind_kinds
-from ...engine.schedule import PATIENCE, WINDOW, has_waited
+from ...engine.schedule import has_waited, is_often
 
 Answer = TypeVar("Answer")
 Called = tuple[str, type[WindPrimitive]]
@@ -89,7 +89,7 @@ class Quarantine:
     """Time that a wind will be left out when it is slow the next time [s]."""
 
     _slow: dict[tuple[Called, str, str], int] = field(default_factory=dict)
-    """Bit mask of a method's latest calls that took long, by wind, method and verdict; 0 is left out."""
+    """Latest calls that took long, as `is_often` notes them, by wind, method and verdict."""
 
     _warned: set[tuple[str, str]] = field(default_factory=set)
     """Warnings logged so far: a name, and the sort of warning."""
@@ -216,8 +216,9 @@ class Quarantine:
     def _judge(self, source: WindSource, what: str, took: float, receivers: int) -> None:
         """Warn of a wind that often takes long; raises QuarantinedError where that is too long for a game."""
         extra = SLOW_EACH * receivers
-        is_noticed = self._is_often(source, what, "noticed", is_long=took > max(NOTICED, extra))
-        is_slow = self._is_often(source, what, "slow", is_long=took > SLOW + extra) or took > STALLED
+        call = _called(source), what
+        is_noticed = is_often(self._slow, (*call, "noticed"), is_long=took > max(NOTICED, extra))
+        is_slow = is_often(self._slow, (*call, "slow"), is_long=took > SLOW + extra) or took > STALLED
         duration = f"{1000.0 * took:.0f} ms of processor time"
         if is_slow and self.live:
             raise self._leave_out_for_now(source, f"{what} takes too long: {duration}")
@@ -232,19 +233,11 @@ class Quarantine:
         `took` is the call's elapsed time and `busy` its processor time [s].
         """
         waits, waited = has_waited(took, busy), took - busy
-        is_often = self._is_often(source, what, "waits", is_long=waits)
+        is_too_often = is_often(self._slow, (_called(source), what, "waits"), is_long=waits)
         if waits:
             self._say_once((source.name, "waits"), source, f"{what} waits: for {waited:.1f} s, and the game with it")
-        if is_often and self.live:
+        if is_too_often and self.live:
             raise self._leave_out_for_now(source, f"{what} waits for {waited:.1f} s at a time")
-
-    def _is_often(self, source: WindSource, what: str, verdict: str, *, is_long: bool) -> bool:
-        """Return whether this call took long, and enough of the latest ones too: a single one may import something."""
-        call = _called(source), what, verdict
-        latest = (self._slow.pop(call, 0) << 1 | is_long) & ((1 << WINDOW) - 1)
-        if latest:
-            self._slow[call] = latest
-        return is_long and latest.bit_count() >= PATIENCE
 
     def _leave_out_for_now(self, source: WindSource, why: str) -> QuarantinedError:
         """Leave a slow wind out for a while, warn once of it, and return the error to raise."""

@@ -221,23 +221,27 @@ class BladesPainter(RepresentationPainter):
     def _gather(self, outlook: Outlook, pool: BladePool, shown: BladesShown, left: Floats) -> _Order:
         """Return the blades in drawing order; those that are almost home are sorted into the last group."""
         eye, moving = (outlook.viewer.eye[0], outlook.viewer.eye[2]), shown.morphing
-        away = distances(pool, moving.slots, eye)
+        away, due = distances(pool, moving.slots, eye), self._of_form(outlook, moving)
         home = at_home(outlook, moving, away)
         groups = [together(rings) for rings in self._grouped(shown.rings)]
-        of_form = partial(self._of_form, outlook)
+        masks = self._may_be_seen(outlook, pool, groups)
+        if home.any():
+            groups[-1], masks[-1] = together([groups[-1], moving]), np.concatenate([masks[-1], home & due])
+        numbers = [
+            gather_morph(outlook, pool, self._strips, moving, away=away, left=left, home=home | ~due),
+            *(gather_blades(pool, group, eye=eye, stand=mask) for group, mask in zip(groups, masks, strict=True)),
+        ]
+        return _Order(np.concatenate(numbers), [len(part) for part in numbers])
+
+    def _may_be_seen(self, outlook: Outlook, pool: BladePool, groups: list[Standing]) -> list[NDArray[np.bool_]]:
+        """Return a mask of the blades of each group that may be in the picture, of the form that they have now."""
         slots = np.concatenate([group.slots for group in groups])
         ends = np.cumsum([len(group.slots) for group in groups])
         seen = may_be_seen(pool, slots, outlook.viewer.sides, reach=self._stock.reach, patch=self._patch)
         masks = np.split(seen, ends[:-1])
-        if self._came:
-            masks = [mask & of_form(group) for mask, group in zip(masks, groups, strict=True)]
-        if home.any():
-            groups[-1], masks[-1] = together([groups[-1], moving]), np.concatenate([masks[-1], home & of_form(moving)])
-        numbers = [
-            gather_morph(outlook, pool, self._strips, moving, away=away, left=left, home=home | ~of_form(moving)),
-            *(gather_blades(pool, group, eye=eye, stand=mask) for group, mask in zip(groups, masks, strict=True)),
-        ]
-        return _Order(np.concatenate(numbers), [len(part) for part in numbers])
+        if not self._came:
+            return masks
+        return [mask & self._of_form(outlook, group) for mask, group in zip(masks, groups, strict=True)]
 
     def _of_form(self, outlook: Outlook, shown: Standing) -> NDArray[np.bool_]:
         """Return a mask of the blades of the form that plants of their rank have now, shape (m, blades)."""

@@ -30,7 +30,7 @@ from .layer import (
     Layer,
     Needs,
     cheapest,
-    chosen,
+    needs_of,
     unmet,
 )
 from .pieces import ByLayer
@@ -174,10 +174,10 @@ class GroundPainter:
     def _needs(self, *, changes: bool = False) -> Needs:
         """Return what this frame's pixels have to read, if grass also `changes`."""
         block, record = self._block, self._block.record[0]
-        return chosen({
-            "cut": record["anything_cut"], "lamps": record["beside_sun"], "changes": changes,
-            "rare": block.casts or block.earth, "trodden": self.is_trodden,
-        })  # fmt: skip
+        return needs_of(
+            cut=record["anything_cut"] != 0, lamps=record["beside_sun"] != 0, changes=changes,
+            rare=(block.casts or block.earth) != 0, trodden=self.is_trodden,
+        )  # fmt: skip
 
     def _used(self, layers: Mapping[str, Layer], needs: Needs) -> Iterable[Layer]:
         """Return the program of a pass for these needs, or all where every one is to draw once."""

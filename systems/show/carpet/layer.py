@@ -1,6 +1,7 @@
 """Programs that draw tiles of the ground, and the streams of tiles that each viewer sees."""
 
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 
 import moderngl
 
@@ -31,18 +32,19 @@ another. `rare`: there are shadow maps, shades, or a ground of a game's own. `tr
 """
 
 
-def chosen(needs: Mapping[str, object], /) -> Needs:
-    """Return the needs that are true."""
-    return frozenset(need for need, is_there in needs.items() if is_there)
+@lru_cache(maxsize=64)
+def needs_of(**present: object) -> Needs:
+    """Return the needs that are `present`."""
+    return frozenset(need for need, is_present in present.items() if is_present)
 
 
 def unmet(defines: Mapping[str, str | int], /) -> Needs:
     """Return the needs that a program with these preprocessor definitions does not meet."""
     plain = "PLAIN" in defines
-    return chosen({
-        "cut": defines.get("CUT") == 0, "lamps": "LAMPLESS" in defines, "changes": plain, "rare": plain,
-        "trodden": "TRODDEN" not in defines,
-    })  # fmt: skip
+    return needs_of(
+        cut=defines.get("CUT") == 0, lamps="LAMPLESS" in defines, changes=plain, rare=plain,
+        trodden="TRODDEN" not in defines,
+    )  # fmt: skip
 
 
 Grids = tuple[tuple[moderngl.Buffer, ...], tuple[moderngl.Buffer, ...]]
@@ -140,4 +142,7 @@ class Layer:
 
 def cheapest(layers: Mapping[str, Layer], needs: Needs, /) -> Layer:
     """Return the first of these programs, which begin with the cheapest, that meets all needs."""
-    return next(layer for layer in layers.values() if not layer.lacks & needs)
+    for layer in layers.values():  # `next` would make many calls a frame
+        if not layer.lacks & needs:
+            return layer
+    raise LookupError(needs)
