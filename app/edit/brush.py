@@ -6,9 +6,8 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
-from ...engine.terrain.density import CHANNELS, Picture
+from ...engine.terrain.density import CHANNELS, Picture, read_channels
 from ...engine.terrain.record import Density
 from ...engine.terrain.sample import painted_at
 
@@ -117,9 +116,4 @@ def new_picture(density: Density, number: int, /) -> Picture:
 
 def read_picture(path: Path, /) -> Picture:
     """Return the pixels of a density map that has been read before, shape (rows, columns, 3 or 4)."""
-    with Image.open(path) as image:
-        if image.mode in ("I;16", "I;16B", "I;16L"):
-            grey = np.rint(np.asarray(image).astype(np.float64) / 257.0).astype(np.uint8)
-            return np.repeat(grey[..., None], 3, axis=2)
-        clear = image.mode in ("LA", "PA", "RGBA") or "transparency" in image.info
-        return np.asarray(image.convert("RGBA" if clear else "RGB")).copy()
+    return np.asarray(np.rint(255.0 * np.stack([*read_channels(path).values()], axis=-1)), np.uint8)

@@ -1,7 +1,8 @@
 """Writing changed values back into a YAML text, without touching any other character."""
 
 from collections.abc import Iterator, Sequence
-from itertools import compress, groupby
+from itertools import compress, groupby, takewhile
+from operator import eq, le
 from typing import Any
 
 from ...engine.scene import SceneError
@@ -160,25 +161,22 @@ def _staying(before: Sequence[Any], after: Sequence[Any], /) -> list[bool]:
     this one has the least cost of changes (dynamic programming over both lists).
     """
     texts, others = [yaml_text(item) for item in before], [yaml_text(item) for item in after]
-    same = next((n for n, pair in enumerate(zip(texts, others, strict=False)) if pair[0] != pair[1]), len(after))
-    same = min(same, len(before))
-    costs, ways = [[0.0]], list[list[bool]]()
-    for item, text in zip(before[same:], texts[same:], strict=True):
-        above, row, way = costs[-1], [costs[-1][0] + GONE], [False]
-        for number in range(1, min(len(above), len(after) - same) + 1):
-            there = same + number - 1
-            stays = above[number - 1] + (0.0 if text == others[there] else _difference(item, after[there]))
-            goes = above[number] + GONE if number < len(above) else stays + GONE
-            row.append(min(stays, goes))
-            way.append(stays <= goes)
-        costs.append(row)
-        ways.append(way)
-    kept = min(range(len(costs[-1])), key=lambda number: costs[-1][number] - NEW * number)
-    stay = []
-    for way in reversed(ways):
-        stay.append(way[kept])
-        kept -= way[kept]
-    return [True] * same + stay[::-1]
+    same = sum(takewhile(bool, map(eq, texts, others)))
+    # Least costs of making the rest of `before`, at first nothing, into the rest of `after` from each place on.
+    costs, stays_at = [NEW * new for new in range(len(after) - same, -1, -1)], list[list[bool]]()
+    for item, text in zip(reversed(before[same:]), reversed(texts[same:]), strict=True):
+        stays = [
+            cost + (0.0 if text == other else _difference(item, new))
+            for cost, other, new in zip(costs[1:], others[same:], after[same:], strict=True)
+        ]
+        goes = [cost + GONE for cost in costs]
+        costs = [*map(min, stays, goes), goes[-1]]
+        stays_at.append([*map(le, stays, goes), False])
+    found, there = [True] * same, 0
+    for stays_by_place in reversed(stays_at):
+        found.append(stays_by_place[there])
+        there += found[-1]
+    return found
 
 
 def _difference(one: Any, other: Any) -> float:

@@ -91,7 +91,7 @@ def _channel(folder: Path, place: Place, pictures: Mapping[str | MapArray, Chann
 def _channels_in(each: str | MapArray, folder: Path, given: Mapping[str, Picture]) -> Channels:
     if isinstance(each, MapArray):
         return _channels_of(each.values)
-    return _channels_of(given[each]) if each in given else _read_picture(folder / each)
+    return _channels_of(given[each]) if each in given else read_channels(folder / each)
 
 
 def _channels_of(values: NDArray[Any]) -> Channels:
@@ -113,7 +113,8 @@ def _channels_of(values: NDArray[Any]) -> Channels:
     return {name: numbers[..., number] for number, name in enumerate(CHANNELS[: numbers.shape[2]])}
 
 
-def _read_picture(path: Path) -> Channels:
+def read_channels(path: Path, /) -> Channels:
+    """Return the densities in a picture by channel; raises `MapError`."""
     with reading(path, "a picture"):
         if not path.is_file():
             raise MapError(path, "there is no such file")
