@@ -9,10 +9,12 @@ import pytest
 from tallgrass.components.arrays import Floats
 from tallgrass.components.footprint import Footprint
 from tallgrass.engine.scene import SceneError
+from tallgrass.engine.scene.read import parse_scene
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
-from tallgrass.testing import watch
+from tallgrass.testing import LITTLE, watch
 
+QUALITY = parse_scene(LITTLE).numbers().model_dump()
 Load = Callable[..., Prairie]
 
 
@@ -27,7 +29,7 @@ def scene(heights: Floats, **terrain: object) -> dict[str, Any]:
         "tallgrass": 2,
         "terrain": {"heights": heights, "cell": 1.0, **terrain},
         "grass": {"low": {"height": [0.2, 0.3], "slope": 30.0}, "high": {"height": [0.4, 0.6]}},
-        "quality": "low",
+        "quality": QUALITY,
     }
 
 

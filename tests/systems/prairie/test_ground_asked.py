@@ -11,11 +11,13 @@ from tallgrass.components.footprint import Footprint
 from tallgrass.components.patch import Patch
 from tallgrass.components.pose import Pose
 from tallgrass.components.presser import Presser
+from tallgrass.engine.scene.read import parse_scene
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.breeze import Breeze
-from tallgrass.testing import watch
+from tallgrass.testing import LITTLE, watch
 
+QUALITY = parse_scene(LITTLE).numbers().model_dump()
 Load = Callable[..., Prairie]
 
 FIELD = np.zeros((4, 4, 2), np.float32)
@@ -38,7 +40,7 @@ def prairie(world: World) -> Iterator[Prairie]:
             "tall": {"height": [0.8, 1.0], "lean": 0.0, "place": {"map": FIELD}},
             "rushes": {"height": [0.4, 0.5], "lean": 0.0, "place": {"map": FIELD, "channel": "green"}},
         },
-        "quality": "low",
+        "quality": QUALITY,
     }
     made = Prairie.load(scene)
     yield made

@@ -8,12 +8,14 @@ import pytest
 
 from tallgrass.components.arrays import Floats
 from tallgrass.components.pose import Pose
+from tallgrass.engine.scene.read import parse_scene
 from tallgrass.engine.terrain import rectangle
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.whirlwind import Whirlwind
-from tallgrass.testing import watch
+from tallgrass.testing import LITTLE, watch
 
+QUALITY = parse_scene(LITTLE).numbers().model_dump()
 CORNER, PIT = (-6.0, 4.0), np.array([[1.0, -2.0, 0.5], [0.0, -3.0, 7.0]], np.float32)
 
 
@@ -22,7 +24,7 @@ def scene(heights: Floats) -> dict[str, Any]:
         "tallgrass": 2,
         "terrain": {"heights": heights, "cell": 2.0},
         "grass": {"green": {"height": [0.3, 0.5]}},
-        "quality": "low",
+        "quality": QUALITY,
     }
 
 

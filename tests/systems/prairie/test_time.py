@@ -9,10 +9,12 @@ import pytest
 from tallgrass.components.footprint import Footprint
 from tallgrass.components.pose import Pose
 from tallgrass.components.presser import Presser
+from tallgrass.engine.scene.read import parse_scene
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
-from tallgrass.testing import watch
+from tallgrass.testing import LITTLE, watch
 
+QUALITY = parse_scene(LITTLE).numbers().model_dump()
 SCENE = {
     "tallgrass": 2,
     "terrain": {"size": [60, 60], "cell": 5.0},
@@ -24,7 +26,7 @@ SCENE = {
     ],
     "pressers": [{"path": [{"at": 0, "position": [-20, 3]}, {"at": 20, "position": [20, 3]}]}],
     "light": {"hour": 8.0, "hours_per_minute": 60.0},
-    "quality": "low",
+    "quality": QUALITY,
 }
 PLACES = np.random.default_rng(0).uniform((-25.0, 0.0), (25.0, 6.0), (400, 2)).astype(np.float32)
 
