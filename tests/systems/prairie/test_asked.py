@@ -8,13 +8,14 @@ from typing import Literal
 import esper
 import numpy as np
 import pytest
+from yaml import safe_load
 
 from tallgrass.components.arrays import Floats
 from tallgrass.components.wind import Grass, WindPrimitive, WindSource
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.flutter import flutter
-from tallgrass.testing import watch
+from tallgrass.testing import LITTLE, watch
 
 Load = Callable[..., Prairie]
 
@@ -147,8 +148,9 @@ def test_d2_released_a_prairie_leaves_the_world_as_it_was(world: World, load: Lo
 def test_d4_a_prairie_of_values_has_no_file_and_goes_on_in_others(world: World) -> None:
     del world
     heights = np.linspace(0.0, 6.0, 61 * 61, dtype=np.float32).reshape(61, 61)
-    keys = {"tallgrass": 2, "terrain": {"heights": heights}, "grass": {"green": {"height": [0.3, 0.5]}}}
-    made = Prairie.load(keys, preset="low")
+    little = {"tallgrass": 2, "grass": {"green": {"height": [0.3, 0.5]}}, "quality": safe_load(LITTLE)["quality"]}
+    keys = little | {"terrain": {"heights": heights}}
+    made = Prairie.load(keys)
     other = made.reseeded(9)
     assert (made.path, made.files, other.scene.seed) == (None, {}, 9)
     assert made.height_at([(0.0, 0.0)]) == pytest.approx(3.0)

@@ -5,16 +5,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+from yaml import safe_load
 
 from tallgrass.components.arrays import Floats
 from tallgrass.components.footprint import Footprint
 from tallgrass.engine.scene import SceneError
-from tallgrass.engine.scene.read import parse_scene
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import LITTLE, watch
 
-QUALITY = parse_scene(LITTLE).numbers().model_dump()
+QUALITY = safe_load(LITTLE)["quality"]
 Load = Callable[..., Prairie]
 
 

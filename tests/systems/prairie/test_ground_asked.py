@@ -6,18 +6,18 @@ from typing import Any
 import esper
 import numpy as np
 import pytest
+from yaml import safe_load
 
 from tallgrass.components.footprint import Footprint
 from tallgrass.components.patch import Patch
 from tallgrass.components.pose import Pose
 from tallgrass.components.presser import Presser
-from tallgrass.engine.scene.read import parse_scene
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.testing import LITTLE, watch
 
-QUALITY = parse_scene(LITTLE).numbers().model_dump()
+QUALITY = safe_load(LITTLE)["quality"]
 Load = Callable[..., Prairie]
 
 FIELD = np.zeros((4, 4, 2), np.float32)

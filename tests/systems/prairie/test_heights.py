@@ -5,17 +5,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+from yaml import safe_load
 
 from tallgrass.components.arrays import Floats
 from tallgrass.components.pose import Pose
-from tallgrass.engine.scene.read import parse_scene
 from tallgrass.engine.terrain import rectangle
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.whirlwind import Whirlwind
 from tallgrass.testing import LITTLE, watch
 
-QUALITY = parse_scene(LITTLE).numbers().model_dump()
+QUALITY = safe_load(LITTLE)["quality"]
 CORNER, PIT = (-6.0, 4.0), np.array([[1.0, -2.0, 0.5], [0.0, -3.0, 7.0]], np.float32)
 
 

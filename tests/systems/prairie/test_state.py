@@ -10,6 +10,7 @@ from zlib import compress, decompress
 import esper
 import numpy as np
 import pytest
+from yaml import safe_load
 
 from tallgrass import Lamp, Shade, Tree
 from tallgrass.components.arrays import Floats
@@ -26,7 +27,7 @@ from tallgrass.systems.wind.blast import Blast
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.systems.wind.turbulence import Turbulence
-from tallgrass.testing import watch
+from tallgrass.testing import LITTLE, watch
 
 SCENE: dict[str, Any] = {
     "tallgrass": 2,
@@ -40,7 +41,7 @@ SCENE: dict[str, Any] = {
     "mixing": "weight",
     "pressers": [{"path": [{"at": 0, "position": [-20, 3]}, {"at": 30, "position": [20, 3]}]}],
     "light": {"hour": 9.0, "hours_per_minute": 6.0},
-    "quality": "low",
+    "quality": safe_load(LITTLE)["quality"],
 }
 PLACES = np.random.default_rng(0).uniform(-25.0, 25.0, (600, 2)).astype(np.float32)
 TREES = {"quality": "minimal", "trees": {"oak": {"habit": "oak", "positions": [[0, -10], [5, 8]]}}}

@@ -5,16 +5,16 @@ from collections.abc import Iterator
 import esper
 import numpy as np
 import pytest
+from yaml import safe_load
 
 from tallgrass.components.footprint import Footprint
 from tallgrass.components.pose import Pose
 from tallgrass.components.presser import Presser
-from tallgrass.engine.scene.read import parse_scene
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.testing import LITTLE, watch
 
-QUALITY = parse_scene(LITTLE).numbers().model_dump()
+QUALITY = safe_load(LITTLE)["quality"]
 SCENE = {
     "tallgrass": 2,
     "terrain": {"size": [60, 60], "cell": 5.0},
