@@ -70,6 +70,8 @@ class Painter(Holding):
         yield from self._settling(site)
         if before is self.painters:
             yield from self._making_ready(site, self.air, self.painters)
+        else:
+            self._outlook = None  # other painters have not drawn it
         if self._outlook is None:
             look()
             yield

@@ -218,6 +218,20 @@ def test_a_scene_read_again_is_as_ready_as_before(stage: Stage, load: Load, came
     assert made == []
 
 
+@pytest.mark.usefixtures("undrawn")
+def test_a_scene_read_again_with_another_kind_of_grass_is_prepared_before_it_is_drawn(
+    stage: Stage, load: Load, camera: Aim, made: list[str]
+) -> None:
+    prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0, pitch=-10)
+    stage.shot(prairie, aim)
+    prairie.loaded.file.write_text(LITTLE.replace("  short:", "  third: {}\n  short:"), "utf-8")
+    prairie.reload()
+    prairie.prepare()
+    made.clear()
+    stage.shot(prairie, aim)
+    assert made == []
+
+
 def test_a_prairie_is_loaded_on_another_thread_while_one_is_drawn(stage: Stage, load: Load, camera: Aim) -> None:
     shown, aim = load(), camera(0.0, 2.0, 20.0, pitch=-10)
     found: list[Prairie] = []
