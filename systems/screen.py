@@ -1,5 +1,6 @@
 """The targets of a prairie's drawing: a painter in each GL context, and groups in pyglet's batches."""
 
+import itertools
 import logging
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -63,7 +64,7 @@ class Screen:
                 painter.settle(site)
             yield painter
 
-    def preparing(self, site: Site, look: Callable[[], None]) -> Iterator[tuple[int, int]]:
+    def preparing(self, site: Callable[[], Site], look: Callable[[], None]) -> Iterator[tuple[int, int]]:
         """Make everything in the current context that may be needed; yield the numbers of steps done and in total.
 
         `look` uploads a frame to rehearse, and is called if no viewer has looked yet. Between steps the host has its
@@ -73,16 +74,16 @@ class Screen:
         with self._entered() as painter:
             if painter is None:
                 return
-            steps, count = painter.preparing(site, look), painter.steps(site)
+            steps, count = painter.preparing(site, look), painter.steps(site())
         yield 0, count
-        for done in range(1, count):
+        for step in itertools.count(1):
             with self._entered() as here:
                 if here is not painter:
                     raise RuntimeError("a prairie is prepared in one GL context: make that current before each step")
                 with guest(painter.ctx):
                     if next(steps, "over") == "over":
                         break
-            yield done, count
+            yield min(step, count - 1), count
         yield count, count
 
     def stage(self, site: Site) -> bool:

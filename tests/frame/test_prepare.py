@@ -219,14 +219,21 @@ def test_a_scene_read_again_is_as_ready_as_before(stage: Stage, load: Load, came
 
 
 @pytest.mark.usefixtures("undrawn")
+@pytest.mark.parametrize("steps", [0, 12, 30])
 def test_a_scene_read_again_with_another_kind_of_grass_is_prepared_before_it_is_drawn(
-    stage: Stage, load: Load, camera: Aim, made: list[str]
+    stage: Stage, load: Load, camera: Aim, made: list[str], steps: int
 ) -> None:
     prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0, pitch=-10)
     stage.shot(prairie, aim)
+    left = prairie.preparing()
+    for _ in range(steps):
+        next(left)
     prairie.loaded.file.write_text(LITTLE.replace("  short:", "  third: {}\n  short:"), "utf-8")
     prairie.reload()
-    prairie.prepare()
+    if steps:
+        stage.shot(prairie, aim)  # amid the steps of a loading screen
+    *_, (done, of) = left
+    assert done == of
     made.clear()
     stage.shot(prairie, aim)
     assert made == []
