@@ -205,6 +205,19 @@ def test_large_programs_are_made_one_a_step_for_a_loading_screen_to_go_on_betwee
 
 
 @pytest.mark.usefixtures("undrawn")
+def test_a_loading_screen_waits_while_its_window_is_minimised(stage: Stage, load: Load, made: list[str]) -> None:
+    stage.begin()
+    left = load(LITTLE).preparing()
+    before = [next(left) for _ in range(15)]
+    made.clear()
+    stage.target.viewport = (0, 0, 0, 0)
+    assert [next(left) for _ in range(3)] == before[-1:] * 3
+    assert made == []
+    stage.target.viewport = (0, 0, *stage.size)
+    assert next(left)[0] == before[-1][0] + 1
+
+
+@pytest.mark.usefixtures("undrawn")
 def test_a_scene_read_again_is_as_ready_as_before(stage: Stage, load: Load, camera: Aim, made: list[str]) -> None:
     prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0, pitch=-10)
     prairie.prepare()
