@@ -212,6 +212,8 @@ class Holding:
         """Release everything that draws grass; some of it is missing before the first frame, and where that failed."""
         self._compiler.release()
         self._deferred = iter(())
+        release_all(self._staged)
+        self._staged = None  # the painters held what they had staged
         grass, self.painters = [*self.painters.values()], {}
         release_all(*grass, *([vars(self).pop("air")] if "air" in vars(self) else []))
 
@@ -241,4 +243,4 @@ class Holding:
     def release(self) -> None:
         """Release all GL objects."""
         self._release_grass()
-        release_all(*self.parts, self.received, self.block, self._staged)
+        release_all(*self.parts, self.received, self.block)

@@ -53,27 +53,40 @@ class Painter(Holding):
         self._first: dict[str, list[int]] = {}
         """Indices of the first receivers of each representation's pools, by its name."""
 
-    def preparing(self, site: Site, look: Callable[[], None], /) -> Iterator[None]:
+    def preparing(self, site: Callable[[], Site], look: Callable[[], None], /) -> Iterator[None]:
         """Make everything that a game may need, with winds of all kinds, and rehearse a frame, in up to `steps` steps.
 
-        `look` uploads a frame to rehearse, and is called if no viewer has looked yet.
+        `site` returns the present site. `look` uploads a frame to rehearse, and is called if no viewer has looked yet.
+        If other grass is drawn between steps, they begin again.
         """
+        steps = self._preparing(site, look)
+        while next(steps, "over") != "over":
+            before = self.painters
+            yield
+            if self.painters is not before:
+                steps = self._preparing(site, look)
+
+    def _preparing(self, site: Callable[[], Site], look: Callable[[], None]) -> Iterator[None]:
         for part in self.parts:
-            part.settle(site, self.record)
-            part.make_ready(site)
+            part.settle(site(), self.record)
+            part.make_ready(site())
             yield
         self._prepared_winds = self.winds.samples()
         self.smaller.make_ready()
         self.received.reserve(READY_ROWS)
         yield
         before = self.painters
-        yield from self._settling(site)
+        yield from self._settling(site())
         if before is self.painters:
-            yield from self._making_ready(site, self.air, self.painters)
+            yield from self._making_ready(site(), self.air, self.painters)
         if self._outlook is None:
             look()
             yield
         yield from self._rehearsing()
+
+    def _release_grass(self) -> None:
+        super()._release_grass()
+        self._outlook = None  # the next painters have not uploaded it
 
     def _rehearsing(self) -> Iterator[None]:
         """Draw the last frame without pixels, a step each: parts of it, with more than it has, scaled, and cast."""

@@ -236,7 +236,7 @@ class Prairie(Tending):
         Between steps GL state is yours. Keep the same context current. Raises the errors of `draw`.
         """
         self._must_be_there("prepare it")
-        return self._screen.preparing(self.site, self._upload_rehearsal)
+        return self._screen.preparing(lambda: self.site, self._upload_rehearsal)
 
     def prepare(self, *, on_progress: Callable[[int, int], object] | None = None) -> None:
         """Upload and compile in the current context all that the scene and a game may need, so that no frame waits.

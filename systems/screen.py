@@ -63,27 +63,28 @@ class Screen:
                 painter.settle(site)
             yield painter
 
-    def preparing(self, site: Site, look: Callable[[], None]) -> Iterator[tuple[int, int]]:
+    def preparing(self, site: Callable[[], Site], look: Callable[[], None]) -> Iterator[tuple[int, int]]:
         """Make everything in the current context that may be needed; yield the numbers of steps done and in total.
 
         `look` uploads a frame to rehearse, and is called if no viewer has looked yet. Between steps the host has its
-        own GL state. There are no steps if the viewport has no pixels. Raises RuntimeError as `opened` does, and if
-        another context has become current.
+        own GL state. Without pixels in the viewport there are no steps at first, and later ones wait for them. Raises
+        RuntimeError as `opened` does, and if another context has become current.
         """
         with self._entered() as painter:
             if painter is None:
                 return
-            steps, count = painter.preparing(site, look), painter.steps(site)
-        yield 0, count
-        for done in range(1, count):
+            steps, count = painter.preparing(site, look), painter.steps(site())
+        done = 0
+        yield done, count
+        while done < count:
             with self._entered() as here:
-                if here is not painter:
+                if here not in (painter, None):
                     raise RuntimeError("a prairie is prepared in one GL context: make that current before each step")
-                with guest(painter.ctx):
-                    if next(steps, "over") == "over":
-                        break
+                if here is not None:
+                    with guest(painter.ctx):
+                        over = next(steps, "over") == "over"
+                    done = count if over else min(done + 1, count - 1)
             yield done, count
-        yield count, count
 
     def stage(self, site: Site) -> bool:
         """Upload a piece of another site into the host's context; return whether all of it is there."""

@@ -277,7 +277,8 @@ def settle_on(outlook: Outlook, site: Site, before: Site, world: World, /) -> No
         outlook.heights = site.ground.terrain.changes.count
     outlook.sown = site.ground.density.sown.count
     keep_room(outlook, site.representations, site.reach)
-    rows = np.flatnonzero(outlook.patches.entity).tolist()
+    entities = outlook.patches.entity
+    rows = [row for row in np.flatnonzero(entities).tolist() if world.has(int(entities[row]))]  # a game deletes some
     for row, parts in zip(rows, components(outlook, site.representations, rows), strict=True):
         for part in parts:
-            world.add(int(outlook.patches.entity[row]), part)
+            world.add(int(entities[row]), part)

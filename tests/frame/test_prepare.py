@@ -205,6 +205,19 @@ def test_large_programs_are_made_one_a_step_for_a_loading_screen_to_go_on_betwee
 
 
 @pytest.mark.usefixtures("undrawn")
+def test_a_loading_screen_waits_while_its_window_is_minimised(stage: Stage, load: Load, made: list[str]) -> None:
+    stage.begin()
+    left = load(LITTLE).preparing()
+    before = [next(left) for _ in range(15)]
+    made.clear()
+    stage.target.viewport = (0, 0, 0, 0)
+    assert [next(left) for _ in range(3)] == before[-1:] * 3
+    assert made == []
+    stage.target.viewport = (0, 0, *stage.size)
+    assert next(left)[0] == before[-1][0] + 1
+
+
+@pytest.mark.usefixtures("undrawn")
 def test_a_scene_read_again_is_as_ready_as_before(stage: Stage, load: Load, camera: Aim, made: list[str]) -> None:
     prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0, pitch=-10)
     prairie.prepare()
@@ -214,6 +227,27 @@ def test_a_scene_read_again_is_as_ready_as_before(stage: Stage, load: Load, came
     made.clear()
     prairie.add(Whirlwind())
     prairie.cut(Footprint(radius=1.0), 0.05)
+    stage.shot(prairie, aim)
+    assert made == []
+
+
+@pytest.mark.usefixtures("undrawn")
+@pytest.mark.parametrize("steps", [0, 12, 30])
+def test_a_scene_read_again_with_another_kind_of_grass_is_prepared_before_it_is_drawn(
+    stage: Stage, load: Load, camera: Aim, made: list[str], steps: int
+) -> None:
+    prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0, pitch=-10)
+    stage.shot(prairie, aim)
+    left = prairie.preparing()
+    for _ in range(steps):
+        next(left)
+    prairie.loaded.file.write_text(LITTLE.replace("  short:", "  third: {}\n  short:"), "utf-8")
+    prairie.reload()
+    if steps:
+        stage.shot(prairie, aim)  # amid the steps of a loading screen
+    *_, (done, of) = left
+    assert done == of
+    made.clear()
     stage.shot(prairie, aim)
     assert made == []
 

@@ -3,12 +3,15 @@
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
+import esper
 import numpy as np
 import pytest
 
 from tallgrass.components.footprint import Footprint
+from tallgrass.components.receivers import Receivers
 from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.systems.prairie import Prairie
+from tallgrass.testing import watch
 
 PLACES = np.random.default_rng(2).uniform(-25.0, 25.0, (50, 2)).astype(np.float32)
 
@@ -67,3 +70,15 @@ def test_what_was_sown_stays_where_a_scene_that_is_read_again_has_another_kind_f
     sown, else_where = prairie.grass_at([(0.0, 0.0), (0.0, 5.0)]).density
     assert sown.tolist() == pytest.approx([0.0, 0.8])
     assert else_where.tolist() == pytest.approx([0.5, 0.5], abs=0.01)
+
+
+def test_a_patch_that_a_game_has_deleted_is_not_missed_when_the_scene_gets_another_kind(prairie: Prairie) -> None:
+    watch(prairie)
+    patch, stays = prairie.patch_at([(0, 0), (5, 5)]).tolist()
+    esper.delete_entity(patch, immediate=True)
+    assert prairie.path is not None
+    text = prairie.path.read_text("utf-8")
+    prairie.path.write_text(text.replace("grass: { green", "grass: { brown: {}, green"), "utf-8")
+    prairie.reload()
+    assert not esper.entity_exists(patch)
+    assert esper.component_for_entity(stays, Receivers).representation == "carpet"
