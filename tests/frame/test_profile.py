@@ -8,9 +8,11 @@ import pytest
 from numpy.typing import NDArray
 
 from tallgrass.engine.camera import Camera, view_of
+from tallgrass.engine.gl.stream import release_all
+from tallgrass.systems.frame.block import FrameBlock
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_truth
-from tallgrass.systems.show.blades.draw import own_segment_defines
+from tallgrass.systems.show.blades.draw import Ribbons, own_segment_defines
 from tallgrass.systems.show.blades.painter import BladesPainter
 from tallgrass.systems.show.blades.pool import BLADE
 from tallgrass.testing import Stage
@@ -137,6 +139,19 @@ def test_g5_blades_of_a_farther_ring_have_as_many_segments_as_it_says(stage: Sta
     apart = np.abs(shown(1) - shown(4)).mean(axis=(1, 2))
     assert apart.max() > 2.0
     assert not apart[-len(apart) // 4 :].any()  # nearer ones have as many as before
+
+
+@pytest.mark.parametrize(
+    ("rings", "own", "slide"), [((3,), 5, False), ((3, 3), 0, False), ((6, 4), 0, True), ((3, 3), 5, True)]
+)
+def test_g5_joints_slide_only_between_rings_whose_blades_have_other_segments(
+    ctx: moderngl.Context, rings: tuple[int, ...], own: int, *, slide: bool
+) -> None:
+    block = FrameBlock(ctx)
+    block.defines.update(own_segment_defines([own or None]))
+    ribbons = Ribbons(ctx, block, rings, {}, soft=True, parted=True)
+    assert all(("#define SLIDES" in each.vertex) is slide for each in ribbons.texts())
+    release_all(ribbons, block)
 
 
 @pytest.mark.slow

@@ -68,6 +68,8 @@ def own_segment_defines(own: Sequence[int | None], /) -> dict[str, str | int]:
 class Ribbons:
     """A stream of ribbons of one or several sub-levels: joints slide between those of a sub-level and of the next.
 
+    Where all sub-levels have as many segments, joints stay, and no shader computes how they would slide.
+
     `counts` has the segments of each sub-level. Soft ribbons have antialiased edges and must come from far to near;
     others are opaque and may come in any order. Parted ribbons are soft too, but drawn in two passes, `CORES` and
     `EDGES`, so that depth sorts them. Parted and opaque ribbons include the finest sub-level.
@@ -92,6 +94,7 @@ class Ribbons:
         shaded = {
             "SUBLEVELS": room_for(len(counts)), **({"SOFT": 1} if soft else {}), **({"PARTED": 1} if parted else {}),
             **({"FINEST": 1} if finest else {}), **(defines or {}),
+            **({"SLIDES": 1} if len(counts) > 1 and (own or len(set(counts)) > 1) else {}),
         }  # fmt: skip
         plain = {**shaded, "PLAIN": 1}
         deep = {name: value for name, value in plain.items() if name != "PARTED"} | {"DEEP": 1}

@@ -291,11 +291,11 @@ float hidden_part() {
 
 // Place of a vertex along the blade, and the relative width there.
 vec2 along_blade(int k) {
-    int level = min(int(level_kind.x), counts - 1);
-    int fine = segments_on(level, k), coarse = segments_on(min(level + 1, counts - 1), k);
+    int level = min(int(level_kind.x), counts - 1), fine = segments_on(level, k);
     float t = float(gl_VertexID / 2) / float(segments), left = 1.0 - cut_off(), taper = kinds[k].taper;
     float place = max(left * joint_at(t, fine), hidden_part()), broad = profile(place, taper, float(fine));
-#ifndef MORPH
+#ifdef SLIDES
+    int coarse = segments_on(min(level + 1, counts - 1), k);
     float slide = fract(level_kind.x), coarse_place = max(left * joint_at(t, coarse), hidden_part());
     // The width slides along with the joint: with the width of the place in between, a tip would be far too broad.
     if (slide > 0.0) {

@@ -12,18 +12,13 @@
 out vec4 pixel;
 
 uniform int part;  // pixels to draw: 0, all; 1, those with a coverage of at least half; 2, the others
-const int ROW_BITS = 12;  // patches whose numbers are as many apart as this has numbers, some 10 km, look alike
-const uint LOW_24 = 0xFFFFFFu;
-const uvec2 SCRAMBLES = uvec2(0x7FEB35u, 0x6CA68Bu);  // odd numbers of 23 bits
-const uint HALF_WAY = 15u;
+const int ROWS = 40503;  // numbers of cells from one row to the next
 const float BITS = 16.0;  // in each half of the random bits of a patch
 const uint LOWER_HALF = 0xFFFFu;
 
-// Random bits of a patch. Cards multiply 24 bits four times as fast as 32.
+// Random bits of a patch.
 uint bits_of(ivec2 cell) {
-    uint x = (uint(cell.y << ROW_BITS ^ cell.x ^ stock.y) & LOW_24) * SCRAMBLES.x;
-    x = ((x ^ x >> HALF_WAY) & LOW_24) * SCRAMBLES.y;
-    return x ^ x >> UPPER_HALF;
+    return scramble(uint(cell.x * ROWS + cell.y ^ stock.y));
 }
 
 // Texture coordinates and image that a pixel reads of each kind.
@@ -97,8 +92,7 @@ Grass grass_seen(vec2 heading, uint random_bits) {
 // Opacity of the grass along an outline, that of a crest or of a rim, for plants taller than the mean by a fraction `taller`. One image
 // has twice the variance of two that are mixed, hence the root of their factor.
 float hides_behind(float slope, float taller, float share) {
-    float by_root = inversesqrt(crest);
-    vec2 path = max(slope * abs(slope) * (by_root * by_root) + in_pixel, 0.0), leaves = crest_leaves * by_root * path * sqrt(path);
+    vec2 path = max(slope * abs(slope) / crest + in_pixel, 0.0), leaves = crest_leaves * inversesqrt(crest) * path * sqrt(path);
     if (rim_path < NO_RIM)
         leaves = vec2(rim_leaves * rim_path * rim_path);
     return 1.0 - dot(transmittance(leaves * sqrt(spike_factor(taller, share))), vec2(HALF));
@@ -106,8 +100,9 @@ float hides_behind(float slope, float taller, float share) {
 
 // Brightness of the litter on a patch, of which little is seen between the grass: each patch shows another part of the texture.
 float litter_on_patch(uint random_bits) {
-    float part = float(random_bits & LOWER_HALF) * exp2(-BITS);  // from where on in the patch: places may be endless, as for tiled_place
-    return textureLod(repeating, fract(place.xz * patches_per_metre) * (patch_side / LITTER_SIDE) + part, litter_level).g;
+    vec2 part = vec2(random_bits & LOWER_HALF, random_bits >> UPPER_HALF) * exp2(-BITS);
+    vec2 in_patch = fract(place.xz * patches_per_metre) * patch_side;
+    return litter_between(in_patch / LITTER_SIDE + part, dFdx(place.xz), dFdy(place.xz)).x;
 }
 
 void main() {
@@ -124,7 +119,7 @@ void main() {
         vec3 leaves = tone_mapped(grass.pigment * grass.pigment * light + air_light);
         float square = max(facing, 0.0) * max(facing, 0.0), covers = grass.covers;
         if (square < outlined_to || rim_path < NO_RIM) {
-            float ends = smoothstep(ENDS.x, ENDS.y, square / (crest_deep * share));
+            float ends = smoothstep(ENDS.x * share, ENDS.y * share, square / crest_deep);
             covers = mix(min(covers / LEAST_COVER, 1.0), covers, ends);
             covered = mix(1.0, hides_behind(facing, grass.taller, share), min(share / SHOWN_FROM, 1.0));
         }
