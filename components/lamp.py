@@ -20,7 +20,7 @@ class Lamp:
 
     It shines in all directions, or within a `cone` ahead of its pose. Its light falls off with the inverse square of
     the distance, and a little faster towards its `range`. If more than 256 are in view, the brightest count. Raises
-    ValueError for an impossible lamp. A pose without a height `y` is an error when the prairie is next drawn.
+    ValueError for an impossible lamp. An entity whose pose has no height `y` is left out, and the log says so.
     """
 
     colour: str = "#ffd9a6"

@@ -222,15 +222,18 @@ class World:
         """Return whether an entity has a usable pose; if not, log once that its `what` is left out."""
         return self.standing([(entity, pose)], what)[0]
 
-    def standing(self, poses: Sequence[tuple[int, Pose | None]], what: str) -> list[bool]:
-        """Return whether each entity has a usable pose; log in one message the `what` of those newly left out."""
-        usable = [pose is not None and is_somewhere(pose) for _, pose in poses]
+    def standing(self, poses: Sequence[tuple[int, Pose | None]], what: str, *, high: bool = False) -> list[bool]:
+        """Return whether each entity has a usable pose; log in one message the `what` of those newly left out.
+
+        If they are `high`, as lamps are, a pose needs a height, too.
+        """
+        usable = [pose is not None and is_somewhere(pose) and not (high and pose.y is None) for _, pose in poses]
         lost = [row for row, there in zip(poses, usable, strict=True) if not there and row[0] not in self._logged]
         if lost:
             self._logged.update(entity for entity, _ in lost)
             (entity, pose), more = lost[0], f", and {len(lost) - 1} more likewise" if len(lost) > 1 else ""
-            have = pose or "no Pose"
-            log.warning("%s of entity %d is left out while it has %s%s: %s", what, entity, have, more, SOMEWHERE)
+            have, due = pose or "no Pose", f"{SOMEWHERE}, and a lamp's pose has a height y" if high else SOMEWHERE
+            log.warning("%s of entity %d is left out while it has %s%s: %s", what, entity, have, more, due)
         return usable
 
     def _owner(self, entity: int) -> Residents | None:

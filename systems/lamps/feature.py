@@ -33,18 +33,15 @@ class Lamps(Feature):
         self._grown = grown
 
     def step(self, viewer: str, eye: Point, /, *, time: float) -> None:
-        """Collect all lamps with their poses at a time [s]; raise ValueError for one without a position."""
+        """Collect all lamps with their poses at a time [s]."""
         declared = self._grown.scene.lamps
         self.shining = self._games() + (self._scenes(declared, time) if declared else [])
 
     def _games(self) -> list[Lit]:
         """Return the lamps of a game's entities."""
-        lamps = self._world.all(Lamp)
-        placed = [(entity, _placed(entity, self._world.find(entity, Pose))) for entity, _ in lamps]
-        present = self._world.standing(placed, "the lamp")
-        return [
-            (lamp, pose) for (_, lamp), (_, pose), is_present in zip(lamps, placed, present, strict=True) if is_present
-        ]
+        lamps = [(entity, lamp, self._world.find(entity, Pose)) for entity, lamp in self._world.all(Lamp)]
+        stands = self._world.standing([(entity, pose) for entity, _, pose in lamps], "the lamp", high=True)
+        return [(lamp, pose) for (_, lamp, pose), is_there in zip(lamps, stands, strict=True) if pose and is_there]
 
     def _scenes(self, declared: Sequence[LampOnPath], time: float) -> list[Lit]:
         """Return the scene's lamps at a time [s], at their heights above the ground."""
@@ -63,11 +60,3 @@ class Lamps(Feature):
         """Return a game's shades, and the height of the lowest ground [m]."""
         shades = [shade for _, shade in self._world.all(Shade)]
         return shades, self._grown.ground.terrain.span[0] if shades else 0.0
-
-
-def _placed(entity: int, pose: Pose | None) -> Pose:
-    """Return the pose of a lamp's entity; raise ValueError if it has none, or no height."""
-    if pose is None or pose.y is None:
-        have = "no Pose" if pose is None else f"{pose}, which has no height"
-        raise ValueError(f"the lamp of entity {entity} has {have}: give it a Pose(x, z, y=...)")
-    return pose

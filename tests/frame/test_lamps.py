@@ -168,15 +168,18 @@ def test_of_more_lamps_than_there_is_room_for_the_brightest_count(stage: Stage, 
     assert len(visible_lamps(behind, sides, (0.0, 2.0, 20.0))) == 0
 
 
-@pytest.mark.parametrize("pose", [None, Pose(1.0, 2.0)])
-def test_a_lamp_without_a_place_is_told_before_anything_is_drawn(
-    stage: Stage, load: Load, camera: Aim, pose: Pose | None
+@pytest.mark.parametrize("pose", [None, Pose(0.0, 0.0)])
+def test_a_lamp_without_a_place_is_left_out_until_it_has_one_and_told_once(
+    stage: Stage, load: Load, camera: Aim, caplog: pytest.LogCaptureFixture, pose: Pose | None
 ) -> None:
     prairie, aim = load(LITTLE), camera(0.0, 2.0, 20.0)
-    stage.shot(prairie, aim)
-    entity = esper.create_entity(Lamp(), *([] if pose is None else [pose]))
-    stage.begin()
-    with pytest.raises(ValueError, match=rf"^the lamp of entity {entity} has .*: give it a Pose\(x, z, y=\.\.\.\)$"):
-        prairie.draw(*stage.matrices(aim))
-    assert (stage.read() == 0.0).all()
+    dark = stage.shot(prairie, aim)
+    entity = esper.create_entity(Lamp(candela=1e4), *([] if pose is None else [pose]))
+    for _ in range(2):
+        assert np.array_equal(stage.shot(prairie, aim), dark)
+    (told,) = caplog.messages
+    assert told.startswith(f"the lamp of entity {entity} is left out while it has {pose or 'no Pose'}: ")
+    assert told.endswith("and a lamp's pose has a height y")
+    esper.add_component(entity, Pose(0.0, 0.0, y=2.0))
+    assert (stage.shot(prairie, aim) > dark).any()
     esper.delete_entity(entity, immediate=True)
