@@ -112,6 +112,10 @@ class Choice:
         It is the same object while it serves other pictures, with other trees of it and another level of detail.
         """
         shown = self.shown
+        if shown is not None and look.held and shown.look.live:
+            self._set_detail(look, shown.trees, shown.number)
+            shown.show(look, held=True)
+            return shown
         if shown is not None and _serves(shown.look, look):
             self._set_detail(look, shown.trees, shown.number)
         else:

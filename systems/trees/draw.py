@@ -42,7 +42,9 @@ class TreePart(Part):
         shading: Callable[[], Standing], *, live: bool,
     ) -> None:  # fmt: skip
         self._ctx, self._block, self._units, self._standing, self._shading = ctx, block, units, standing, shading
-        self._live = live
+        self.stay = live
+        """Whether trees stay chosen while a viewer hardly moves, as in a game; else a picture does not depend on those
+        before it."""
         self._kinds: list[GpuKind] = []
         self._models: list[tuple[GpuKind, GpuModel]] = []
         self._declared: object = None
@@ -205,6 +207,11 @@ class TreePart(Part):
                 segment.count = len(rows)
             yield segment, place or 0, rows
 
+    def choose_anew(self) -> None:
+        """Choose trees in the next frame as if it were the first."""
+        self._choices.clear()
+        self._inputs = None
+
     def _choice(self, standing: Standing, viewer: str) -> Choice:
         """Return the trees to choose from for a viewer."""
         known = self._choices.pop(viewer, None)
@@ -227,7 +234,7 @@ class TreePart(Part):
         patch, centre = float(record["patch_side"]), outlook.viewer.centre
         reach = self._reach(outlook)
         sides, leaves_from = outlook.viewer.sides, self.leaves_from
-        return Look(eye, sides, clip, focal, reach, patch, centre, detail_eyes, leaves_from, self._live)
+        return Look(eye, sides, clip, focal, reach, patch, centre, detail_eyes, leaves_from, self.stay, self.held)
 
     def _send(self, batches: Sequence[Batch]) -> None:
         """Send instances, and where they stand."""

@@ -49,8 +49,11 @@ class Shown:
         self._inside: Mask | None = None
         """Which trees are in the picture."""
 
-    def show(self, look: Look, /) -> None:
-        """Choose the instances in a picture, and write their level of detail from that of the trees."""
+    def show(self, look: Look, /, *, held: bool = False) -> None:
+        """Choose the instances in a picture, and write their level of detail from that of the trees.
+
+        If `held`, their wood stays as it is.
+        """
         inside = outside_picture(self._extents, look.sides) <= 0.0
         kept = inside.take(self._tree) | self._pictured
         kept[self._blocks] &= outside_planes(self._balls.middle, look.sides) <= self._balls.radius
@@ -60,7 +63,7 @@ class Shown:
             rows[name] = self.trees[name].take(tree)
         ends = number.searchsorted(self._ends).tolist()
         self.rows = [rows[first:end] for first, end in zip([0, *ends], ends, strict=False)]
-        if self._inside is None or not np.array_equal(inside, self._inside):
+        if not held and (self._inside is None or not np.array_equal(inside, self._inside)):
             self._inside = inside
             self._show_wood(inside)
 

@@ -264,6 +264,24 @@ def test_on_a_walk_all_that_is_seen_is_drawn_and_most_is_not_chosen_anew_in_each
     assert kept > 0.5 * len(STEPS)
 
 
+def test_n3_held_what_was_chosen_last_is_drawn_as_it_was_and_leaves_no_trace(models: list[Model]) -> None:
+    rows = a_wood(models, count=60)
+    walked, another = all_of(rows, models), all_of(rows, models)
+    before, eye, kept = None, np.zeros(3), 0
+    for at, yaw in STEPS:
+        look = looking_from(at, yaw=yaw)
+        if before is not None:
+            was = drawn_of(in_picture(before), models)
+            held = walked.choose(look._replace(held=True, detail_eyes=(eye,)))
+            drawn = drawn_of(in_picture(held), models)
+            assert held is before
+            assert all(drawn[each] == was[each] for each in {*was} & {*drawn})
+        shown = walked.choose(look)
+        assert in_order(in_picture(shown)) == in_order(in_picture(another.choose(look)))
+        kept, before, eye = kept + (shown is before), shown, look.eye
+    assert kept
+
+
 def test_in_a_film_it_does_not_matter_which_pictures_were_drawn_before(models: list[Model]) -> None:
     rows = a_wood(models, count=60)
     walked = all_of(rows, models)
