@@ -154,6 +154,7 @@ class _Judge:
 
 def _steps(studio: Studio, prairie: Prairie, frames: Iterable[list[Moment]]) -> Iterator[Step]:
     for leg in frames:
+        let_trees_stay(prairie)
         _settle(studio, prairie, leg[0])
         _draw(studio, prairie, leg[0], time=leg[0].time - REST / 2)
         earlier, before = leg[0], _draw(studio, prairie, leg[0])
@@ -186,6 +187,14 @@ def _draw(studio: Studio, prairie: Prairie, moment: Moment, *, time: float | Non
     studio.begin()
     prairie.draw(*studio.matrices(moment.camera))
     return studio.read()
+
+
+def let_trees_stay(prairie: Prairie, /) -> None:
+    """Choose trees anew, and let them stay chosen from then on as in a game: what a leg shows begins with it."""
+    if prairie.painter is not None:
+        trees = prairie.painter.part(TreePart)
+        trees.stay = True
+        trees.choose_anew()
 
 
 @contextmanager

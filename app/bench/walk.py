@@ -11,6 +11,7 @@ from ..studio.take import Take
 from ..studio.timing import spread, timed
 from .machine import head, resident_mb, yardstick_ms
 from .processor import on_processor
+from .steps import let_trees_stay
 from .stroll import REST, Leg, Moment, advance_to, legs, moments, raise_gusts
 
 PARTS = {"drawing": 10.0, "without drawing": 1.0}
@@ -71,6 +72,7 @@ def paces(studio: Studio, /) -> Iterator[Pace]:
 def paced(studio: Studio, leg: Leg, /) -> Iterator[Pace]:
     """Yield the pace of each frame of a leg, without the first, to which the viewer leaps."""
     prairie = studio.prairie
+    let_trees_stay(prairie)
     first, *others = moments(prairie, leg)
     _draw(studio, first, time=first.time - REST / 2)
     _draw(studio, first)

@@ -38,9 +38,6 @@ class Batch(NamedTuple):
     foliage: float = 1.0
     """Least share of its leaves that a tree has; of wood alone."""
 
-    beside: float = 0.0
-    """How far beside the picture what is in it may be, as long as the batch serves [m]; of wood alone."""
-
     @property
     def size(self) -> int:
         """Number of instances."""

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles
+from ...components.arrays import Doubles, Indices
 from .bark import MOST_OUTSET, Faces, Wood
 from .grow import POINTS
 from .habit import Habit
@@ -46,6 +46,10 @@ class Balls(NamedTuple):
 
     radius: Doubles
     """(n,) [m]."""
+
+    def take(self, number: Indices, /) -> "Balls":
+        """Return some of the spheres."""
+        return Balls(self.middle.take(number, axis=0), self.radius.take(number))
 
 
 def twig_balls(twigs: NDArray[np.void], height: float, habit: Habit, /) -> Balls:
@@ -110,13 +114,13 @@ def near_wood(wood: Wood, vertices: NDArray[np.void], balls: Balls, /) -> tuple[
     return Wood(whole, edges), (of_whole, of_edges)
 
 
-def blocks_inside(blocks: Balls, trees: NDArray[np.void], sides: Doubles, beside: float, /) -> tuple[int, int]:
+def blocks_inside(blocks: Balls, trees: NDArray[np.void], sides: Doubles, /) -> tuple[int, int]:
     """Return the first block in the picture of any of some trees, and the one after the last; 0 and 0 if there is none.
 
-    `trees` are records of `INSTANCE`, `sides` planes of the frustum, and up to `beside` them is in the picture [m].
+    `trees` are records of `INSTANCE`, and `sides` planes of the frustum.
     """
     inside = inside_picture(blocks.middle.T, sides @ matrices_of(trees))
-    number = np.flatnonzero((inside >= trees["scale"][:, None] * -blocks.radius - beside).any(axis=0))
+    number = np.flatnonzero((inside >= trees["scale"][:, None] * -blocks.radius).any(axis=0))
     return (int(number[0]), int(number[-1]) + 1) if len(number) else (0, 0)
 
 

@@ -38,6 +38,26 @@ class Pass(NamedTuple):
     """Whether some trees stand for rows of trees."""
 
 
+class WoodPart(NamedTuple):
+    """What a pass draws of the wood of a stream."""
+
+    model: GpuModel
+    name: str
+    """Name of the stream."""
+
+    soft: bool
+    whole: bool
+    """Whether all of it is drawn, for a shadow map or a reference."""
+
+    def vertices(self) -> tuple[int, int]:
+        """Return the first vertex and the number of vertices in this frame."""
+        drawn, wood_class = self.model.wood[self.name], self.model.wood_class[self.name]
+        first, end = (drawn.soft_from, drawn.soft) if self.soft else (drawn.solid_from, drawn.solid)
+        if self.whole:
+            first, end = 0, len(self.model.model.wood[wood_class].whole.triangles)
+        return 3 * (self.model.first_triangle[2 * wood_class + self.soft] + first), 3 * (end - first)
+
+
 class State(NamedTuple):
     """Draw state of a model's stream, whichever trees are in it."""
 
@@ -45,14 +65,14 @@ class State(NamedTuple):
     instances: Stream | Segment
     """The stream's instances, or what `hang.vert` made of them."""
 
-    wood: GpuModel | None
-    """The model whose wood it draws, if any."""
+    wood: WoodPart | None
+    """The wood that it draws, if any."""
 
     mode: int
     """How vertices make triangles."""
 
     vertices: int
-    """Number of vertices of an instance; of wood, each draw call has its own."""
+    """Number of vertices of an instance, but for wood."""
 
     uniforms: PackedUniforms
     """Uniforms of its kind, its model and its own."""
@@ -73,9 +93,6 @@ class DrawCall(NamedTuple):
     as most are hidden by those of other models; for soft edges the negative mean distance [m]."""
 
     state: State
-    first: int
-    vertices: int
-    instances: int
 
 
 States = dict[tuple[int, str], State | None]
@@ -130,9 +147,12 @@ class Calls:
                 continue
             model = self._models[batch.model][1]
             hung, each = model.hung[batch.name], model.twigs_of_leaves if batch.name == LEAVES else BLOCK
-            hung.room(batch.size * each)
+            instances = model.streams[batch.name].count
+            hung.room(instances * each)
+            if not instances:
+                continue
             bound.use(state := self._hanging_state(batch.model, batch.name))
-            state.array.transform(hung.buffer, moderngl.POINTS, vertices=each, instances=batch.size)
+            state.array.transform(hung.buffer, moderngl.POINTS, vertices=each, instances=instances)
             calls += 1
         return calls
 
@@ -162,12 +182,9 @@ class Calls:
         state = states[key]
         if state is None:
             return None
-        first, vertices, instances = 0, state.vertices, state.instances.count
-        if state.wood is not None:
-            first, vertices = wood_vertices(state.wood, batch.name, soft=soft, whole=how.casts or how.sampled)
         order = self._order(batch) if soft else batch.mean if batch.name == FAR else batch.nearest
         far = -order if soft and batch.far == inf else batch.far
-        return DrawCall(far, order, state, first, vertices, instances) if vertices and instances else None
+        return DrawCall(far, order, state) if state.wood is not None or state.vertices else None
 
     def _order(self, batch: Batch) -> float:
         """Return the order of a batch's soft edges: the farthest come first, and stems before the needles on them.
@@ -207,7 +224,7 @@ class Calls:
         return State(
             array,
             stream,
-            model if sort == WOOD else None,
+            WoodPart(model, name, soft, how.casts or how.sampled) if sort == WOOD else None,
             moderngl.TRIANGLE_STRIP if sort in (NEAR, FAR) else moderngl.TRIANGLES,
             of_leaves + len(corners) + (0 if outline is None else 2 * len(outline.high)),
             [*uniforms.values()],
@@ -217,11 +234,15 @@ class Calls:
 
 def draw(calls: Sequence[DrawCall], numbers: Uniforms, /) -> int:
     """Make draw calls one after another; return their number."""
-    bound = Bound(numbers)
+    bound, drawn = Bound(numbers), 0
     for call in calls:
-        bound.use(state := call.state)
-        state.array.render(state.mode, first=call.first, vertices=call.vertices, instances=call.instances)
-    return len(calls)
+        state = call.state
+        first, vertices = (0, state.vertices) if state.wood is None else state.wood.vertices()
+        if vertices and state.instances.count:
+            bound.use(state)
+            state.array.render(state.mode, first=first, vertices=vertices, instances=state.instances.count)
+            drawn += 1
+    return drawn
 
 
 def uniforms_of(
@@ -242,12 +263,3 @@ def uniforms_of(
     if outline is not None and outline.high:  # else nothing in its pictures is so dense, and nothing is drawn
         uniforms += pack(program, {"high": outline.high}) + pack_array(program, "reaches", outline.reaches)
     return uniforms
-
-
-def wood_vertices(model: GpuModel, name: str, *, soft: bool, whole: bool) -> tuple[int, int]:
-    """Return the first vertex and the number of vertices that are drawn of a stream's wood."""
-    drawn, wood_class = model.wood[name], model.wood_class[name]
-    first, end = (drawn.soft_from, drawn.soft) if soft else (drawn.solid_from, drawn.solid)
-    if whole:
-        first, end = 0, len(model.model.wood[wood_class].whole.triangles)
-    return 3 * (model.first_triangle[2 * wood_class + soft] + first), 3 * (end - first)

@@ -11,13 +11,14 @@ from ...components.arrays import Doubles, Indices
 from ..space.cone import distance_in_order
 from ..space.window import cell_of
 from .batch import Batch, joined
-from .bounds import matrices_of, outside_picture
+from .bounds import Balls, matrices_of, outside_picture
 from .distant import Distant
 from .habit import NEEDLES
-from .leafy import blocks_in_sight, blocks_of_models, blocks_shown, blocks_within, near_twigs
+from .leafy import balls_shown, blocks_in_sight, blocks_of_models, blocks_shown, blocks_within, near_twigs
 from .look import Look, Slack
 from .model import MARGIN, Model
 from .shells import SHELLS, farthest_of, rings_of, shells_of
+from .shown import Shown
 from .standing import (
     BAREST,
     WIDEST_ROW,
@@ -38,9 +39,6 @@ NEAREST = 0.1
 
 ANY_HEIGHT = 1e6
 """Height in the picture that stands for full detail [pixels]."""
-
-DETAIL = "twig_share", "far_fade", "opacity"
-"""Fields of `INSTANCE` that change with every step."""
 
 SLACK = Slack(moves=0.25, shifts=0.16, turns=0.02, zooms=0.001)
 """Changes within which trees stay chosen, but for their level of detail: about ten frames of a walk."""
@@ -74,22 +72,6 @@ class _Seen(NamedTuple):
     smaller: Doubles
     """Least height of each one's picture within the slack [pixels]."""
 
-    beside: Doubles
-    """How far beside the picture what is in it may be within the slack [m]."""
-
-
-class _Chosen(NamedTuple):
-    """What was chosen for a viewpoint, and serves others within the slack."""
-
-    look: Look
-    batches: list[Batch]
-    seen: _Seen
-    tree: Indices
-    """Tree of each of the instances, as an index into those seen."""
-
-    instances: NDArray[np.void]
-    """Instances of the batches, but for distant trees."""
-
 
 class Choice:
     """All trees of a frame, to choose from; `variety` is the spread of brightness within each model."""
@@ -120,29 +102,29 @@ class Choice:
         self.extents = np.column_stack([self._middle, high, aside])
         """Middle of each tree, and its half extents up and aside with the row that it stands for [m], shape (n, 5)."""
         pictured = np.where(self._ring > 1, 0.0, self._height * self._pictured)
-        self._chosen: _Chosen | None = None
+        self.shown: Shown | None = None
+        """What was chosen last."""
         self._distant = Distant(self._model, self.extents, self._instances, self._ring, pictured, self._needles)
 
-    def choose(self, look: Look, /) -> Sequence[Batch]:
+    def choose(self, look: Look, /) -> Shown:
         """Return what is drawn of the trees in a picture.
 
-        It is the same object while it serves other pictures, with another level of detail.
+        It is the same object while it serves other pictures, with other trees of it and another level of detail.
         """
-        if self._chosen is not None and _serves(self._chosen.look, look):
-            self._update(self._chosen, look)
+        shown = self.shown
+        if shown is not None and look.held and shown.look.live:
+            self._set_detail(look, shown.trees, shown.number)
+            shown.show(look, held=True)
+            return shown
+        if shown is not None and _serves(shown.look, look):
+            self._set_detail(look, shown.trees, shown.number)
         else:
             self._distant.follow(look)
-            self._chosen = self._nearer(look)
-        return self._chosen.batches
+            self.shown = shown = self._nearer(look)
+        shown.show(look)
+        return shown
 
-    def _update(self, chosen: _Chosen, look: Look) -> None:
-        """Write the level of detail of the trees in a new picture."""
-        seen = chosen.seen
-        self._set_detail(look, seen.instances, seen.number)
-        for name in DETAIL:
-            chosen.instances[name] = seen.instances[name].take(chosen.tree)
-
-    def _nearer(self, look: Look) -> _Chosen:
+    def _nearer(self, look: Look) -> Shown:
         """Return what is drawn of all trees, those anew that are not distant."""
         number, slack = self._distant.others, _slack_of(look)
         extents = self.extents.take(number, axis=0)
@@ -152,18 +134,23 @@ class Choice:
         order = np.argsort(distance)
         order = order[_stable_order(self._model[number[order]])]
         seen = self._seen(look, number[order])
-        leafy, cards = self._twigs(look, seen)
+        leafy, cards, balls = self._twigs(look, seen)
         shell, ring = shells_of(seen.along, look.reach), rings_of(seen.along, look.reach)
         back = np.where(self._needles[seen.model] & (shell == 0) & (ring > 0), SHELLS + ring, shell)
-        stream, tree, first = _by_stream(seen, shell, back, leafy, cards)
+        stream, entry, tree, first = _by_stream(seen, shell, back, leafy, cards)
+        card = entry - len(leafy[0])
+        blocks = np.flatnonzero((card >= 0) & (card < len(cards[0])))
         instances = seen.instances.take(tree)  # thirty times as fast as fancy indexing on structured arrays
         instances["first"] = first
-        near_batches = _batches(stream, tree, instances, seen, distance[order])
+        near_batches, ends = _batches(stream, tree, instances, seen, distance[order])
         batches = {(batch.model, batch.name): batch for batch in near_batches}
         for beyond in self._distant.pictures:
             near = batches.get(key := (beyond.model, beyond.name))
             batches[key] = beyond if near is None else joined(near, beyond)
-        return _Chosen(look, [*batches.values()], seen, tree, instances)
+        return Shown(
+            look, [*batches.values()], seen.instances, seen.number, self.extents.take(seen.number, axis=0),
+            seen.pixel_radius, tree, instances, blocks, balls.take(card.take(blocks)), ends,
+        )  # fmt: skip
 
     def _set_detail(self, look: Look, instances: NDArray[np.void], number: Indices) -> Doubles:
         """Write trees' level of detail into records of `INSTANCE`; return the height of their pictures [pixels]."""
@@ -189,11 +176,10 @@ class Choice:
         in_order = look.patch * distance_in_order(cell_of(middle[:, ::2], patch=look.patch), look.centre)
         ahead = nearest_ahead(look.clip, middle, look.eye, self._reach.take(number, axis=0)) - slack.moves
         pixel_radius = THINNEST * np.maximum(ahead, AWAY) / (look.focal * scale)
-        beside = slack.beside(distance + scale * self._ball[number])
-        return _Seen(number, self._model[number], instances, along, in_order, pixel_radius, larger, smaller, beside)
+        return _Seen(number, self._model[number], instances, along, in_order, pixel_radius, larger, smaller)
 
-    def _twigs(self, look: Look, seen: _Seen) -> tuple[Twigs, Twigs]:
-        """Return the twigs drawn leaf by leaf, and the blocks of twigs drawn on cards."""
+    def _twigs(self, look: Look, seen: _Seen) -> tuple[Twigs, Twigs, Balls]:
+        """Return the twigs drawn leaf by leaf, the blocks of twigs drawn on cards, and the bounds of these."""
         near = np.flatnonzero(has_twigs(seen.larger))
         model, number, slack = seen.model[near], seen.number[near], _slack_of(look)
         instances = seen.instances.take(near)
@@ -202,9 +188,9 @@ class Choice:
         share = instances["twig_share"] * (1.0 - instances["far_fade"]) * instances["foliage"]
         sight = blocks_in_sight(self._blocks, model, matrix, look, slack)
         tree, first = blocks_shown(self._blocks, model, share, sight)
-        on_cards = near[tree], first
+        on_cards, balls = (near[tree], first), balls_shown(self._blocks, model[tree], matrix[tree], first)
         if look.leaves_from is not None:
-            return (near, np.zeros(len(near))), on_cards
+            return (near, np.zeros(len(near))), on_cards, balls
         within = look.focal * self._scale[number] * self._leaf[number] / LEAF_PIXELS[0] + slack.moves
         blocks = blocks_within(sight, within)
         leafy = np.flatnonzero(blocks.any(axis=1))
@@ -212,7 +198,7 @@ class Choice:
             near_twigs(self._models[model[n]], np.flatnonzero(blocks[n]), share[n], matrix[n], look, slack, within[n])
             for n in leafy.tolist()
         ]
-        return (near[leafy].repeat([*map(len, twigs)]), np.concatenate([np.zeros(0), *twigs])), on_cards
+        return (near[leafy].repeat([*map(len, twigs)]), np.concatenate([np.zeros(0), *twigs])), on_cards, balls
 
 
 def _serves(before: Look, now: Look) -> bool:
@@ -244,11 +230,11 @@ def _stable_order(number: Indices) -> Indices:
 
 def _by_stream(
     seen: _Seen, shell: Indices, back: Indices, leafy: Twigs, cards: Twigs
-) -> tuple[Indices, Indices, Doubles]:
-    """Sort trees into streams; return the stream of each entry, its tree and its `first`, ordered by stream.
+) -> tuple[Indices, Indices, Indices, Doubles]:
+    """Sort trees into streams; return the stream of each entry, its number, its tree and its `first`, by stream.
 
     Streams are numbered through all models. A tree has an entry in each stream that draws it, or one for each of its
-    twigs drawn leaf by leaf, and of its blocks of twigs drawn on cards.
+    twigs drawn leaf by leaf, and of its blocks of twigs drawn on cards. Entries are numbered with these first.
     """
     (leafy_tree, twig), (card_tree, block) = leafy, cards
     near, far = np.flatnonzero(has_twigs(seen.larger)), np.flatnonzero(has_picture(seen.smaller))
@@ -262,7 +248,7 @@ def _by_stream(
     stream = seen.model[tree] * len(STREAMS) + stream_of_model
     order = _stable_order(stream)
     of_trees = np.zeros(len(near) + 2 * len(far))
-    return stream[order], tree[order], np.concatenate([twig, block, of_trees])[order]
+    return stream[order], order, tree[order], np.concatenate([twig, block, of_trees])[order]
 
 
 def _wood_stream(seen: _Seen, near: Indices, shell: Indices) -> Indices:
@@ -274,19 +260,21 @@ def _wood_stream(seen: _Seen, near: Indices, shell: Indices) -> Indices:
 
 def _batches(
     stream: Indices, tree: Indices, instances: NDArray[np.void], seen: _Seen, distance: Doubles
-) -> list[Batch]:  # fmt: skip
-    """Return a batch for each run of equal `stream`; `distance` is that of each tree's crown [m]."""
+) -> tuple[list[Batch], Indices]:  # fmt: skip
+    """Return a batch for each run of equal `stream`, and its end; `distance` is that of each tree's crown [m]."""
     begin = np.flatnonzero(np.append(True, stream[1:] != stream[:-1])[: len(stream)])
     low, high, total = np.minimum.reduceat, np.maximum.reduceat, np.add.reduceat
     new = np.append(True, tree[1:] != tree[:-1])[: len(tree)]  # else another block of twigs of the same tree
     new[begin] = True
+    ends = np.append(begin, len(stream))[1:]
     columns = (
-        *divmod(stream[begin], len(STREAMS)), begin, np.append(begin, len(stream))[1:], low(distance[tree], begin),
+        *divmod(stream[begin], len(STREAMS)), begin, ends, low(distance[tree], begin),
         total(distance[tree] * new, begin) / total(new, begin, dtype=np.intp), high(seen.in_order[tree], begin),
-        low(seen.pixel_radius[tree], begin), low(instances["foliage"], begin), high(seen.beside[tree], begin),
+        low(seen.pixel_radius[tree], begin), low(instances["foliage"], begin),
     )  # fmt: skip
-    return [
+    batches = [
         Batch(model, name, (instances[start:end],), nearest, mean, farthest_of(SHELL_OF[name], far), *rest)
         for model, index, start, end, nearest, mean, far, *rest in zip(*map(np.ndarray.tolist, columns), strict=True)
         for name in (STREAMS[index],)
     ]
+    return batches, ends

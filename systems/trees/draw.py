@@ -22,8 +22,9 @@ from .kind import GpuKind
 from .look import Look
 from .motion import PERIOD
 from .programs import HARD, SOFT, STAND, Programs
-from .segments import Segments
+from .segments import Segment, Segments
 from .shade import ShadeMap
+from .shown import Shown
 from .standing import Standing
 from .stream import ALONE, CAST, LEAVES, GpuModel, Uniforms
 from .twig import LEAF_PIXELS
@@ -41,7 +42,9 @@ class TreePart(Part):
         shading: Callable[[], Standing], *, live: bool,
     ) -> None:  # fmt: skip
         self._ctx, self._block, self._units, self._standing, self._shading = ctx, block, units, standing, shading
-        self._live = live
+        self.stay = live
+        """Whether trees stay chosen while a viewer hardly moves, as in a game; else a picture does not depend on those
+        before it."""
         self._kinds: list[GpuKind] = []
         self._models: list[tuple[GpuKind, GpuModel]] = []
         self._declared: object = None
@@ -56,6 +59,12 @@ class TreePart(Part):
         """The trees of a frame to choose from, by viewer."""
         self._batches: Sequence[Batch] = []
         """Batches that are drawn."""
+        self._filled: Sequence[Segment] = []
+        """Segments of these."""
+        self._shown: Shown | None = None
+        """What these were chosen as."""
+        self._woods = 0
+        """Its number of changes of wood that has been chosen for."""
         self._calls: Calls | None = None
         self._soft_left: list[DrawCall] = []
         """Draw calls of soft edges that this frame has still to make."""
@@ -110,7 +119,7 @@ class TreePart(Part):
         self._rehearsing = True
 
     def _forget(self) -> None:
-        self._inputs, self._batches, self._calls = None, [], None
+        self._inputs, self._batches, self._shown, self._calls = None, [], None, None
         if self._programs is not None:
             self._programs.release()
             self._programs = None
@@ -182,13 +191,26 @@ class TreePart(Part):
         if self._inputs == inputs:
             return
         self._inputs = inputs
-        batches = self._choice(standing, viewer.name).choose(self._look(outlook))
-        if batches is self._batches:
-            assert self._segments is not None
-            self._segments.write_again()
-        else:
-            self._send(batches)
-            self._show_wood(viewer.sides)
+        shown = self._choice(standing, viewer.name).choose(self._look(outlook))
+        if shown is not self._shown:
+            self._send(shown.batches)
+            self._shown, self._woods = shown, 0
+        assert self._segments is not None
+        self._segments.write_again(self._changed(shown))
+        self._show_wood(shown, viewer.sides, anew=shown.woods != self._woods)
+        self._woods = shown.woods
+
+    def _changed(self, shown: Shown) -> Iterator[tuple[Segment, int, NDArray[np.void]]]:
+        """Yield the trees in the picture that are not distant, and where in their streams they are to be written."""
+        for segment, rows, place in zip(self._filled, shown.rows, shown.places, strict=False):
+            if place is None:
+                segment.count = len(rows)
+            yield segment, place or 0, rows
+
+    def choose_anew(self) -> None:
+        """Choose trees in the next frame as if it were the first."""
+        self._choices.clear()
+        self._inputs = None
 
     def _choice(self, standing: Standing, viewer: str) -> Choice:
         """Return the trees to choose from for a viewer."""
@@ -212,26 +234,28 @@ class TreePart(Part):
         patch, centre = float(record["patch_side"]), outlook.viewer.centre
         reach = self._reach(outlook)
         sides, leaves_from = outlook.viewer.sides, self.leaves_from
-        return Look(eye, sides, clip, focal, reach, patch, centre, detail_eyes, leaves_from, self._live)
+        return Look(eye, sides, clip, focal, reach, patch, centre, detail_eyes, leaves_from, self.stay, self.held)
 
     def _send(self, batches: Sequence[Batch]) -> None:
         """Send instances, and where they stand."""
         assert self._segments is not None
         assert self._calls is not None
-        self._batches = batches
-        filled = [self._models[batch.model][1].streams[batch.name] for batch in batches]
-        self._segments.write(filled, [batch.parts for batch in batches])
+        self._batches, self._shown = batches, None
+        self._filled = [self._models[batch.model][1].streams[batch.name] for batch in batches]
+        self._segments.write(self._filled, [batch.parts for batch in batches])
+        for batch in batches:
+            if batch.name == LEAVES:
+                model = self._models[batch.model][1]
+                model.twigs_of_leaves = 1 if self.leaves_from is None else len(model.model.twigs)
         self._calls.choose(batches)
 
-    def _show_wood(self, sides: Doubles) -> None:
-        """Choose what is drawn of wood and of single leaves; `sides` are planes of the frustum."""
-        for batch in self._batches:
-            _, model = self._models[batch.model]
-            if batch.name in model.wood:
-                (rows,) = batch.parts
-                model.show_wood(batch.name, batch.pixel_radius, batch.foliage, rows, sides, batch.beside)
-            elif batch.name == LEAVES:
-                model.twigs_of_leaves = 1 if self.leaves_from is None else len(model.model.twigs)
+    def _show_wood(self, shown: Shown, sides: Doubles, *, anew: bool) -> None:
+        """Choose what is drawn of wood next to the eye, and if `anew` of all; `sides` are planes of the frustum."""
+        for number in shown.wood:
+            batch = shown.batches[number]
+            model = self._models[batch.model][1]
+            if anew or model.wood_class[batch.name] == 0:
+                model.show_wood(batch.name, batch.pixel_radius, batch.foliage, shown.rows[number], sides)
 
     def _reach(self, outlook: Outlook) -> float:
         """Return the distance up to which grass is drawn from far to near [m]."""
@@ -291,7 +315,8 @@ class TreePart(Part):
         """Return the draw calls of the pass with these edges."""
         if self._calls is None or self.hidden:
             return []
-        return self._calls.of_pass(Pass(edges, casts, self.leaves_from is not None, self._standing().in_rows))
+        calls = self._calls.of_pass(Pass(edges, casts, self.leaves_from is not None, self._standing().in_rows))
+        return [call for call in calls if call.state.instances.count]
 
     def release(self) -> None:
         """Release all GL objects."""

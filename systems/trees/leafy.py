@@ -7,7 +7,7 @@ import numpy as np
 
 from ...components.arrays import Doubles, Indices, Mask
 from ..space.frustum import outside_planes
-from .bounds import inside_picture
+from .bounds import Balls, inside_picture
 from .look import Look, Slack
 from .model import Model
 from .twig import BLOCK, RANKS
@@ -85,6 +85,17 @@ def blocks_shown(blocks: Blocks, model: Indices, share: Doubles, sight: InSight,
     first = np.concatenate([BLOCK * number, -1 - BLOCK * block[order]]).astype(np.float64)
     order = np.argsort(tree, kind="stable")
     return tree[order], first[order]
+
+
+def balls_shown(blocks: Blocks, model: Indices, matrix: Doubles, first: Doubles, /) -> Balls:
+    """Return the bounding spheres in the world of what `blocks_shown` returns, blocks of trees of models (n,).
+
+    Those that are not of neighbours have an infinite radius.
+    """
+    block = np.maximum(-1.0 - first, 0.0).astype(np.intp) // BLOCK
+    middle, scale = blocks.middle[model, :, block], matrix[:, 1, 1]
+    place = (matrix[:, :3, :3] @ middle[:, :, None])[:, :, 0] + matrix[:, :3, 3]
+    return Balls(place, np.where(first < 0.0, scale * blocks.radius[model, block], np.inf))
 
 
 def blocks_within(sight: InSight, within: Doubles, /) -> Mask:

@@ -44,6 +44,9 @@ class Look(NamedTuple):
     live: bool = True
     """Whether what was chosen for a viewpoint near by may serve; else a picture does not depend on those before it."""
 
+    held: bool = False
+    """Whether what was chosen last serves, as it was drawn then."""
+
     @property
     def is_usual(self) -> bool:
         """Whether level of detail is that of this viewpoint and trees may stay chosen: not in films and references."""

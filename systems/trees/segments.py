@@ -1,6 +1,6 @@
 """Trees of all streams in the same few vertex buffers, each stream in a segment of its own."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import moderngl
 import numpy as np
@@ -56,8 +56,6 @@ class Segments:
         self._rows = np.zeros(0, INSTANCE)
         """Scratch array of the first buffer's records."""
         self._filled: Sequence[Segment] = []
-        self._parts: list[tuple[NDArray[np.uint64], NDArray[np.uint64]]] = []
-        """Places in the scratch array, and what is written there."""
         self._roomy = set[Segment]()
         """Segments that have room."""
         self._end = 0
@@ -79,18 +77,22 @@ class Segments:
             self._close_gaps()
         if self._end > len(self._rows):
             self._rows = np.zeros(2 * self._end, INSTANCE)
-        words, self._parts = self._rows.view(np.uint64), []
+        words = self._rows.view(np.uint64)
         for segment, parts in zip(filled, trees, strict=True):
             first = WORDS * segment.first
             for rows in parts:
-                place = words[first : (first := first + WORDS * len(rows))]
-                self._parts.append((place, rows.view(np.uint64)))
-        self.write_again()
+                words[first : (first := first + WORDS * len(rows))] = rows.view(np.uint64)
+        self._upload()
 
-    def write_again(self) -> None:
-        """Write what is by now in the arrays that were written last."""
-        for place, numbers in self._parts:
-            place[:] = numbers
+    def write_again(self, changed: Iterable[tuple[Segment, int, NDArray[np.void]]], /) -> None:
+        """Write other trees over some in segments, from a place on in each, as many or fewer."""
+        words = self._rows.view(np.uint64)
+        for segment, place, rows in changed:
+            first = WORDS * (segment.first + place)
+            words[first : first + WORDS * len(rows)] = rows.view(np.uint64)
+        self._upload()
+
+    def _upload(self) -> None:
         self.instances.write(self._rows[: self._end])
         self.stood.room(self._end)
 

@@ -124,19 +124,17 @@ class GpuModel:
         ]
         return self.vertices, " ".join(kept), *(name for name in names if name in program)
 
-    def show_wood(
-        self, name: str, pixel_radius: float, foliage: float, rows: NDArray[np.void], sides: Doubles, beside: float
-    ) -> None:  # fmt: skip
+    def show_wood(self, name: str, pixel_radius: float, foliage: float, rows: NDArray[np.void], sides: Doubles) -> None:
         """Choose the triangles that a stream of wood draws, as `parts` returns them.
 
         Next to the eye, those outside the picture are left out before the first and after the last one inside. `rows`
-        are the stream's instances, `sides` planes of the frustum, up to `beside` them is in the picture [m].
+        are the stream's instances, and `sides` planes of the frustum.
         """
         self.wood_class[name] = wood_class = bisect_left(PIXEL_RADII, pixel_radius)
         wood = self.model.wood[wood_class]
         drawn = self.wood[name] = parts(wood.whole.radii, wood.edges.radii, pixel_radius, foliage)
         if wood_class == 0:
-            inside = np.array([blocks_inside(blocks, rows, sides, beside) for blocks in self.model.near_blocks])
+            inside = np.array([blocks_inside(blocks, rows, sides) for blocks in self.model.near_blocks])
             self.wood[name] = Parts(*np.minimum(BLOCK * inside.T, drawn[:2])[::-1].reshape(-1).tolist())
 
     def rehearse(self) -> None:

@@ -58,13 +58,13 @@ def test_next_to_the_eye_all_wood_in_the_picture_is_drawn_and_little_of_a_tree_b
     for near, blocks in zip(model.wood[0], model.near_blocks, strict=True):
         drawn = []
         for tree in trees:
-            first, end = (BLOCK * each for each in blocks_inside(blocks, tree[None], SIDES, 0.0))
+            first, end = (BLOCK * each for each in blocks_inside(blocks, tree[None], SIDES))
             left_out = np.concatenate([near.triangles[:first], near.triangles[end:]])
             assert not inside(places[left_out.reshape(-1)], tree).any()
             drawn.append(1.0 - len(left_out) / len(near.triangles))
         assert min(drawn) == 0.0  # behind the eye
         assert sum(0.0 < each < 0.5 for each in drawn) > 2  # at the picture's edge
-        both = blocks_inside(blocks, trees[np.argsort(drawn)[-2:]], SIDES, 0.0)
+        both = blocks_inside(blocks, trees[np.argsort(drawn)[-2:]], SIDES)
         assert both[1] - both[0] >= max(drawn) * len(blocks.radius) - 1.0
 
 

@@ -75,6 +75,7 @@ def test_what_has_changed_in_the_trees_is_written_again(ctx: moderngl.Context, s
     reader = Reader(ctx, streams)
     segments.write(streams, [[trees[:10]], [trees[10:20], trees[20:]]])
     trees["hertz"] = np.arange(30)
-    segments.write_again()
-    assert np.concatenate([*map(reader.read, streams)]).tolist() == list(range(30))
+    streams[0].count = 4
+    segments.write_again([(streams[0], 0, trees[6:10]), (streams[1], 10, trees[20:])])
+    assert np.concatenate([*map(reader.read, streams)]).tolist() == [6, 7, 8, 9, *[0] * 10, *range(20, 30)]
     release_all(*reader.arrays.values(), reader.program, reader.result)
