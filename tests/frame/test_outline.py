@@ -215,16 +215,16 @@ def partly_covered(picture: Doubles) -> float:
     return float(((part > 0.2) & (part < 0.8)).any(axis=0).mean())
 
 
-@pytest.mark.parametrize("preset", [None, "low"])
-def test_g4_an_outline_far_off_is_soft(ctx: moderngl.Context, hills: Prairie, preset: str | None) -> None:
-    """Hills some 300 m away, where all grass is as high as a pixel."""
+@pytest.mark.parametrize(("preset", "least"), [(None, 0.5), ("low", 0.3)])
+def test_g4_an_outline_far_off_is_soft(ctx: moderngl.Context, hills: Prairie, preset: str | None, least: float) -> None:
+    """Hills some 300 m away, where all grass is as high as a pixel: the layer under the carpet stands out nowhere."""
     seen = hills if preset is None else Prairie.load(SCENES / "hills.yaml", ctx=ctx, preset=preset, live=False)
     at = camera_at(hills.scene.camera, None, hills.height_at).position
     with testing.stage(ctx, (280, 60)) as stage:
         picture = stage.shot(seen, Camera(at, *np.radians([-67.2, 1.2, 5.27]).tolist()))
     if preset is not None:
         seen.release()
-    assert partly_covered(picture) > 0.3
+    assert partly_covered(picture) > least
 
 
 def test_x5_no_light_line_parts_strips_from_the_crest_they_stand_behind(ctx: moderngl.Context) -> None:

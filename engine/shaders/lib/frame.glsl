@@ -8,6 +8,11 @@ float pixels_per_metre() {
     return half_screen.y * length(vec3(clip[0].y, clip[1].y, clip[2].y));
 }
 
+// Height of a pixel at a place [m].
+float pixel_height(vec3 place) {
+    return distance(place, eye) / pixels_per_metre();
+}
+
 // Offset of z / w that moves something back by `depth`, which is given for the usual clip range of -1 to 1.
 float depth_offset(float depth) {
     return 0.5 * (depth_ends.y - depth_ends.x) * depth;

@@ -38,6 +38,9 @@ void main() {
     sunward = trees_sunward(place);
 #endif
 #endif
-    gl_Position = clip * vec4(place, 1.0);
+    vec3 lower = place;
+    if (pushed > 0.0)  // under a carpet, whose outlines fade above this hard one
+        lower.y -= 0.5 * pixel_height(place);
+    gl_Position = clip * vec4(lower, 1.0);
     gl_Position.z += depth_offset(pushed) * gl_Position.w;
 }

@@ -8,7 +8,6 @@ const float NOTHING = 0.004;  // coverage below which a pixel shows nothing, in 
 const float LEAST_COVER = 0.05;  // least coverage of grass over a crest whose colour stands for all of it
 const float HALF = 0.5;
 
-const vec4 IN_PIXEL = vec4(-0.375, -0.125, 0.125, 0.375);  // lines of sight that sample a pixel, as fractions of its height
 const float LINES_IN_PIXEL = 4.0;  // their number
 const float ENOUGH = 2.8;  // mean optical depth at which taller plants make no difference
 

@@ -21,7 +21,8 @@ const float LEAST_HEADS = 1e-3;  // least share of heads, and of other leaves, i
 const float LOWEST_GRASS = 0.01;  // least height of grass [m]
 
 const float OPAQUE = 12.0;  // optical depth of bare ground, which is its own outline
-const float HIGHER = 0.4;  // raise of an outline, which is thin in its last pixels; the mesh is raised by half a pixel [pixels]
+const float HIGHER = 0.3;  // depth of an outline below the mesh, which is raised by half a pixel [pixels]: as high as that of every blade
+const vec4 IN_PIXEL = vec4(-0.375, -0.125, 0.125, 0.375);  // lines of sight that sample a pixel, as fractions of its height
 
 const float SPIKES = 18.0;  // exponential growth of the leaves met along an outline, for each 1 of `taller`
 const float TALLER = 0.05;  // largest relative height of taller plants that counts
@@ -37,11 +38,6 @@ float deepest(float slope, float curvature, float tall) {
     return slope * slope / (2.0 * max(curvature, LEAST_CURVATURE) * max(tall, LOWEST_GRASS));
 }
 
-// Height of a pixel at a place [m].
-float pixel_height(vec3 place) {
-    return distance(place, eye) / pixels_per_metre();
-}
-
 // Degree to which ground of this curvature counts as a crest, in [0, 1].
 float crest_amount(float curvature) {
     return clamp(curvature / CREST_CURVATURE, 0.0, 1.0);
@@ -54,6 +50,11 @@ float outline_raise(float curvature, float pixel) {
 #else
     return over_hosts > 0.0 ? 0.0 : HIGHER * crest_amount(curvature) * pixel;
 #endif
+}
+
+// Depth below the mesh, not raised, from which on all lines of sight of a pixel of this height [m] pass below an outline [m].
+float outline_fade(float pixel) {
+    return (IN_PIXEL.w - (0.5 - HIGHER)) * pixel;
 }
 
 // Degree to which a line of sight with this greatest depth passes over a crest, in [0, 1].

@@ -66,7 +66,11 @@ void main() {
     vec3 place = on_ground(on_mesh());
     Laid laid = laid_on(place);
     float sunk = sink_depth(laid, place);
-    place.y -= laid.share * laid.tall * laid.trodden_height * sunk;
+    float below = laid.tall * laid.trodden_height * sunk;
+#ifndef EDGED  // its own edge is hard: the carpet's fades above it
+    below += laid.crest_weight * outline_fade(pixel_height(place));
+#endif
+    place.y -= laid.share * below;
     if (laid.rim_path < NO_RIM)  // over a rim grass is seen through down to the ground
         place.y = laid.ground;
     float sight = viewing_slope(laid.rise, place), from_above = max(sight, FLATTEST);
