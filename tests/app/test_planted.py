@@ -3,13 +3,12 @@
 import json
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from tallgrass.app.bench import pop, stroll
 from tallgrass.app.bench.steps import Record
@@ -19,6 +18,7 @@ from tallgrass.app.studio.studio import Studio
 from tallgrass.components.arrays import Floats
 from tallgrass.engine.gl import shaders
 from tallgrass.systems.around.appearance import Appearance, appearance
+from tallgrass.systems.around.patches import PatchTable
 from tallgrass.systems.show.blades import painter as blades
 from tallgrass.systems.show.strips import gather as strips
 from tallgrass.systems.transition import weights
@@ -110,25 +110,15 @@ def test_n3_strips_that_are_too_bright_are_named_as_drift(
     assert rows["strips to blades"]["mean_drift"] == told["drift"]["mean"]
 
 
-@dataclass(frozen=True)
-class _Late:
-    """Patch table for `weights` whose patches change at 0.98 of the progress, all at once."""
-
-    representation: NDArray[np.int8]
-    previous: NDArray[np.int8]
-    progress: Floats
-    names: tuple[str, ...]
-
-
 @pytest.mark.slow
 def test_n3_a_jump_at_the_end_of_a_change_is_named_as_flicker(
     sound: Told, measure: Callable[[], Told], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     real = weights
 
-    def waited(patches: Any, rows: Any) -> Floats:
+    def waited(patches: PatchTable, rows: Any) -> Floats:
         progress = np.where(patches.progress < 0.98, np.float32(0.02) * patches.progress, np.float32(1.0))
-        return real(_Late(patches.representation, patches.previous, progress, patches.names), rows)  # type: ignore[arg-type]
+        return real(replace(patches, progress=progress), rows)
 
     monkeypatch.setattr("tallgrass.systems.see.weights", waited)
     told = measure()

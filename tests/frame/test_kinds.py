@@ -202,7 +202,7 @@ def test_kinds_that_grow_nowhere_change_nothing(ctx: moderngl.Context, stage: St
         prairie.release()
     difference = np.abs(pictures[1] - pictures[0])
     assert difference.mean() < 0.12
-    assert np.quantile(difference, 0.99) < 2.0
+    assert np.quantile(difference, 0.99) < 2.5
 
 
 @pytest.mark.slow
