@@ -169,7 +169,9 @@ class TreePart(Part):
 
     def _rehearse(self, programs: Programs) -> None:
         """Let each stream draw a tree."""
-        self._send(one_of_each(len(self._models), ALONE))
+        self._fill(one_of_each(len(self._models), ALONE))
+        assert self._segments is not None
+        self._segments.upload()
         for _, model in self._models:
             programs.array(CAST, model.bare)
             model.rehearse()
@@ -193,10 +195,11 @@ class TreePart(Part):
         self._inputs = inputs
         shown = self._choice(standing, viewer.name).choose(self._look(outlook))
         if shown is not self._shown:
-            self._send(shown.batches)
+            self._fill(shown.batches)
             self._shown, self._woods = shown, 0
         assert self._segments is not None
-        self._segments.write_again(self._changed(shown))
+        self._segments.overwrite(self._changed(shown))
+        self._segments.upload()
         self._show_wood(shown, viewer.sides, anew=shown.woods != self._woods)
         self._woods = shown.woods
 
@@ -236,8 +239,8 @@ class TreePart(Part):
         sides, leaves_from = outlook.viewer.sides, self.leaves_from
         return Look(eye, sides, clip, focal, reach, patch, centre, detail_eyes, leaves_from, self.stay, self.held)
 
-    def _send(self, batches: Sequence[Batch]) -> None:
-        """Send instances, and where they stand."""
+    def _fill(self, batches: Sequence[Batch]) -> None:
+        """Write instances to be uploaded, and say where they stand."""
         assert self._segments is not None
         assert self._calls is not None
         self._batches, self._shown = batches, None

@@ -65,7 +65,10 @@ class Segments:
         return Segment((self.instances, self.stood))
 
     def write(self, filled: Sequence[Segment], trees: Sequence[Sequence[NDArray[np.void]]], /) -> None:
-        """Fill segments with records of `INSTANCE` each, one array after another, and empty all others."""
+        """Fill segments with records of `INSTANCE` each, one array after another, and empty all others.
+
+        `upload` brings them to the card.
+        """
         for segment in self._filled:
             segment.count = 0
         self._filled = filled
@@ -82,17 +85,16 @@ class Segments:
             first = WORDS * segment.first
             for rows in parts:
                 words[first : (first := first + WORDS * len(rows))] = rows.view(np.uint64)
-        self._upload()
 
-    def write_again(self, changed: Iterable[tuple[Segment, int, NDArray[np.void]]], /) -> None:
+    def overwrite(self, changed: Iterable[tuple[Segment, int, NDArray[np.void]]], /) -> None:
         """Write other trees over some in segments, from a place on in each, as many or fewer."""
         words = self._rows.view(np.uint64)
         for segment, place, rows in changed:
             first = WORDS * (segment.first + place)
             words[first : first + WORDS * len(rows)] = rows.view(np.uint64)
-        self._upload()
 
-    def _upload(self) -> None:
+    def upload(self) -> None:
+        """Upload what was written."""
         self.instances.write(self._rows[: self._end])
         self.stood.room(self._end)
 

@@ -52,6 +52,7 @@ def test_each_stream_reads_its_own_trees_however_many_come_and_go(ctx: moderngl.
         trees["root"][:, 1], trees["hertz"] = np.arange(len(trees)), step
         one_by_one = np.split(trees, np.cumsum(count)[:-1]) if count else []
         segments.write(filled, [np.split(each, [step % (1 + len(each))]) for each in one_by_one])
+        segments.upload()
         moved += sum(each.first != first for each, first in zip(filled, before, strict=True))
         told = np.concatenate([np.zeros(0, np.float32), *(reader.read(each) for each in filled)])
         assert np.array_equal(told, trees["root"][:, 1] + trees["hertz"])
@@ -76,6 +77,7 @@ def test_what_has_changed_in_the_trees_is_written_again(ctx: moderngl.Context, s
     segments.write(streams, [[trees[:10]], [trees[10:20], trees[20:]]])
     trees["hertz"] = np.arange(30)
     streams[0].count = 4
-    segments.write_again([(streams[0], 0, trees[6:10]), (streams[1], 10, trees[20:])])
+    segments.overwrite([(streams[0], 0, trees[6:10]), (streams[1], 10, trees[20:])])
+    segments.upload()
     assert np.concatenate([*map(reader.read, streams)]).tolist() == [6, 7, 8, 9, *[0] * 10, *range(20, 30)]
     release_all(*reader.arrays.values(), reader.program, reader.result)
