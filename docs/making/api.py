@@ -117,7 +117,8 @@ def _value(part: griffe.Attribute) -> str:
     if isinstance(default, griffe.ExprCall) and str(default.function) in {"Field", "field"}:
         keywords = [each for each in default.arguments if isinstance(each, griffe.ExprKeyword)]
         default = next((each.value for each in keywords if each.name == "default"), None)
-    kind = f": {part.annotation}" if part.annotation else ""
+    of_class = default is not None and "instance-attribute" not in part.labels  # griffe takes ClassVar off
+    kind = f": ClassVar[{part.annotation}]" if of_class else f": {part.annotation}" if part.annotation else ""
     value = f" = {default}" if default is not None else ""
     return f"- `{part.name}{kind}{value}`: " + re.sub(r"\n(?=.)", "\n  ", _told(part))
 
