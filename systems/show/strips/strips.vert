@@ -141,11 +141,14 @@ float last_unmixed(float ends, float side, float texel) {
     return max(ceil(min(ends - 1.0 + SPARE, side) / ALIGNMENT) * ALIGNMENT - 0.5 * texel, ends);
 }
 
-// Part of an edge that is hidden, from its root on.
-float hidden_part(Column column, Edge edge) {
+// Part of the vertex's edge that is hidden, from its root on; `a` and `b` are the edges of its column.
+float hidden_part(Column column, Edge a, Edge b) {
 #if defined(DEEP) || defined(EDGED)
     return 0.0;
 #else
+    Edge edge = a;
+    if ((gl_VertexID & 1) == 1)
+        edge = b;
     float tall = sizes[column.form].y * column.placement.growth;
     return hidden_height(edge.rooted, tall, lodged(edge.bend)) / max(tall, LOWEST_CROWN);
 #endif
@@ -272,6 +275,7 @@ void main() {
     ivec4 stack = stacks[column.ring];
     vec2 foot_a = foot_of(column, 0), foot_b = foot_of(column, 1), way = foot_b - foot_a, run = normalize(way);
     Edge a = edge_of(column, 0, foot_a, way), b = edge_of(column, 1, foot_b, way);
+    float hidden = hidden_part(column, a, b);  // first, as it takes the most registers while few are taken yet
     vec3 rooted = 0.5 * (a.rooted + b.rooted), middle = 0.5 * (a.foot + b.foot), top = 0.5 * (a.top + b.top);
     vec2 bend = 0.5 * (a.bend + b.bend), back = 0.5 * (a.back + b.back);
 
@@ -286,10 +290,7 @@ void main() {
     level += log2(heads / boost);  // heads that cover more than is painted have to spread
 #endif
     vec2 pixel = 1.0 / (pixels * vec2(distance(a.foot.xz, b.foot.xz), tall));
-    Edge edge = a;
-    if ((gl_VertexID & 1) == 1)
-        edge = b;
-    vec2 corner = corner_of(column, extent, pixel, level, side, hidden_part(column, edge));
+    vec2 corner = corner_of(column, extent, pixel, level, side, hidden);
     vec4 point = mix(on_edge(column, a, corner.y, sections), on_edge(column, b, corner.y, sections), corner.x);
     gl_Position = clip * vec4(point.xyz, 1.0);
     vec2 at = picture.xy + vec2((float(column.number) + corner.x) / float(stack.x), corner.y) * picture.zw;
