@@ -11,7 +11,6 @@ from ..engine.terrain.change import Squares, must_be_squares
 from ..engine.terrain.density import load_density
 from ..engine.terrain.plots import Plots
 from ..engine.terrain.record import Density, Terrain
-from .fitting import kinds_of
 from .mow.sown import carried
 from .press.footprint import discs_of
 from .press.trail import BEGUN, FIRST, LAST, LEFT, REACH, Stretches
@@ -55,16 +54,14 @@ def mown_of(state: State, plots: Plots, /) -> tuple[Ints, Floats]:
 def sown_of(state: State, density: Density, loaded: LoadedScene, /) -> tuple[Ints, Bytes]:
     """Return the plots that are sown, (n, 3), and the densities on their pages of the scene's kinds.
 
-    Kinds that the state does not have keep the densities of their maps. Raises ValueError for what cannot be, and for
-    kinds that the scene does not have.
+    Kinds that the state does not have keep the densities of their maps. The scene has all kinds of the state. Raises
+    ValueError for what cannot be.
     """
     found, plots, kinds = state.sown_densities, density.sown, loaded.scene.grass
     where = _plots(state.sown, plots, len(found))
     if not len(found):
         return where, plots.pages[:0]
-    then = kinds_of(state, list(kinds))
-    if found.shape[-1] != len(then):
-        refuse("its sown densities are not those of its scene's kinds")
+    then = state.scene.grass
     if then == list(kinds):
         return where, found
     land = cast(Terrain, density.land)

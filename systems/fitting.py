@@ -1,6 +1,4 @@
-"""The check that a saved state fits a scene: only what the state depends on has to be the same."""
-
-from collections.abc import Sequence
+"""The check that a saved state is one of a scene: that it has this seed and this ground."""
 
 import numpy as np
 
@@ -42,43 +40,24 @@ def lie_of(ground: Ground, /) -> Floats:
     return np.concatenate(found)
 
 
-def must_fit(state: State, site: Site, lie: Floats, /) -> None:
-    """Raise ValueError if a state does not fit a site; `lie` are the samples of the site's ground."""
-    scene = site.scene
-    _must_be_alike(state.scene, scene_of(site), cleared=len(state.cleared))
-    if state.lie.shape != lie.shape:
-        refuse("it has too few samples of its ground, or too many")
-    if not np.allclose(state.lie, lie, rtol=0.0, atol=SAME, equal_nan=True):
-        unfit("its ground has other heights or holes")
-    if len(state.declared) != len(scene.wind):
-        unfit(f"its scene declares {len(state.declared)} winds, and this one {len(scene.wind)}")
-    if len(state.treading.declared) != len(scene.pressers):
-        unfit(f"its scene declares {len(state.treading.declared)} pressers, and this one {len(scene.pressers)}")
-    for season in state.seasons:
-        if season.name not in scene.grass:
-            unfit(f"the grass '{season.name}' is changed in it, which this scene does not have")
-
-
-def _must_be_alike(then: SavedScene, now: SavedScene, /, *, cleared: int) -> None:
+def must_be_of(state: State, site: Site, lie: Floats, /) -> None:
+    """Raise ValueError for a state of another scene: another seed or ground; `lie` are samples of the site's ground."""
+    then, now = state.scene, scene_of(site)
     if then.seed != now.seed:
         unfit(f"its seed is {then.seed}, and this one's {now.seed}")
     if (then.size, then.cell) != (now.size, now.cell):
         unfit(f"its ground is {_ground_text(then)}, and this one's {_ground_text(now)}")
-    if then.wind != now.wind:
-        unfit(f"its scene declares {_listed(then.wind, 'wind')}, and this one {_listed(now.wind, 'wind')}")
-    if cleared and then.patch != now.patch:
-        unfit(f"patches of {then.patch:g} m are cleared in it, and here they have {now.patch:g} m")
+    if state.lie.shape != lie.shape:
+        refuse("it has too few samples of its ground, or too many")
+    if not lies_alike(state, site, lie):
+        unfit("its ground has other heights or holes")
 
 
-def kinds_of(state: State, names: Sequence[str], /) -> list[str]:
-    """Return the names of the kinds with which a state's ground is sown, in its order.
-
-    `names` are those of the scene; raises ValueError if any are missing there.
-    """
-    gone = [name for name in state.scene.grass if name not in names]
-    if gone:
-        unfit(f"ground is sown or cleared in it with {_listed(gone, 'grass')}, which this scene does not have")
-    return state.scene.grass
+def lies_alike(state: State, site: Site, lie: Floats, /) -> bool:
+    """Return whether a state's ground is that of a site, of which `lie` are samples."""
+    then, now = state.scene, scene_of(site)
+    same = (then.size, then.cell) == (now.size, now.cell) and state.lie.shape == lie.shape
+    return same and np.allclose(state.lie, lie, rtol=0.0, atol=SAME, equal_nan=True)
 
 
 def _open(heights: Floats, holes: Mask) -> Floats:
@@ -87,7 +66,3 @@ def _open(heights: Floats, holes: Mask) -> Floats:
 
 def _ground_text(scene: SavedScene) -> str:
     return f"{scene.size[0]:g} by {scene.size[1]:g} m with a sample every {scene.cell:g} m"
-
-
-def _listed(names: Sequence[str], what: str) -> str:
-    return f"the {what} {', '.join(names)}" if names else f"no {what}"

@@ -329,14 +329,17 @@ class Prairie(Tending):
         self._must_be_there("save it")
         return self._saving.state(self.site, time=self._clock)  # exactly, or sums of steps would differ later
 
-    def restore(self, state: bytes, entities: Mapping[int, int] | None = None) -> dict[int, int]:
+    def restore(
+        self, state: bytes, entities: Mapping[int, int] | None = None, *, partly: bool = False
+    ) -> dict[int, int]:
         """Restore what `state` returned, and return a mapping from each of your entities in it to its entity now.
 
         These are entities with a wind, presser, lamp, shade or tree. `entities` maps those that exist already in the
-        same way. Raises ValueError, and changes nothing, for a state that is damaged or does not fit the scene.
+        same way. Raises ValueError, and changes nothing, for a state that is damaged or does not fit the scene. If
+        `partly`, what fits of a state of another version of the scene is restored, and the log says what does not.
         """
         self._must_be_there("restore a state")
-        self._clock, became, kinds = self._saving.restore(state, self.site, self.loaded, entities)
+        self._clock, became, kinds = self._saving.restore(state, self.site, self.loaded, entities, partly=partly)
         self.viewers.begin_anew()
         self._replace_site(self._ripening.resume(self.site, kinds))  # last, so that entities keep their winds
         self._advance_kinds()

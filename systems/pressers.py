@@ -165,6 +165,12 @@ class Pressers(Feature):
             declared=[there.get(entity) for entity in self._declared], worn=self._wearing.worn,
         )  # fmt: skip
 
+    def begun_anew(self, treading: Treading) -> Treading:
+        """Return a state in which the scene's pressers are as it declares them, and their ways still to be replayed."""
+        declared, walks = [path.footprint() for path in self._grown.scene.pressers], treading.walks
+        anew = {"declared": declared, "walks": (_walk_of_scene().state(), walks[1]), "anew": True}
+        return treading.model_copy(update=anew)
+
     def resume(self, treading: Treading, entities: Mapping[int, int]) -> None:
         """Continue from a state of the same scene; `entities` maps the game's entities in it to those of now."""
         self._wearing = Wearing({entities.get(entity, entity): place for entity, place in treading.worn.items()})

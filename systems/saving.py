@@ -1,20 +1,17 @@
 """Saving and restoring the changes that a game has made to a prairie."""
 
-import json
+import logging
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 
 from ..components.arrays import Bytes, Floats, Ints
 from ..components.patch import Clearings
 from ..components.pose import Pose
 from ..components.presser import Presser
 from ..components.tree import Tree
-from ..components.wind import WindPrimitive, WindSource, with_course
-from ..components.words import errors_in_words
+from ..components.wind import WindPrimitive, WindSource
 from ..engine.declared.scene import Reading
 from ..engine.handed import is_somewhere, must_be_a, to_microseconds
 from ..engine.plugins import wind_kinds
@@ -24,17 +21,24 @@ from ..engine.terrain.change import Squares, changed_squares, restore_squares
 from ..engine.world import World
 from .brought import Brought
 from .examine import ground_of, mown_of, must_be_trodden, sown_of
-from .fitting import lie_of, must_fit, scene_of
+from .fitting import lie_of, must_be_of, scene_of
 from .light.shining import Shining
 from .mow.mown import Mown
 from .pressers import Pressers
+from .refit import felled_in_words, refit, without_unknown_winds
 from .saved import THINGS, SavedThing, SavedWind, State, packed, unpacked
 from .seasons import Kinds, Seasons
 from .site import Site
 from .space.ground import Ground
+from .stowed import saved_wind, wind_of, wind_on_course
 from .trees.feature import Trees
 from .trees.forest import Gone
 from .winds import Winds
+
+log = logging.getLogger("tallgrass")
+
+Felled = tuple[list[int], Gone]
+"""Numbers of a scene's felled trees, and those of a large forest."""
 
 
 @dataclass(slots=True, eq=False)
@@ -93,29 +97,28 @@ class Saving:
         )
 
     def restore(
-        self, data: object, site: Site, loaded: LoadedScene, there: Mapping[int, int] | None, /
+        self, data: object, site: Site, loaded: LoadedScene, there: Mapping[int, int] | None, /, *, partly: bool
     ) -> tuple[float, dict[int, int], Kinds]:
         """Restore a state except for its kinds of grass; return its time [s], a mapping of entities, and these kinds.
 
         The mapping gives the present entity of each of the game's entities in the state; `there` are those that exist
         already. Raises what `unpacked` raises, TypeError if `there` is no mapping, and ValueError for a state of
-        another scene; then nothing has changed.
+        another scene or with anything that has no place in this one; then nothing has changed. If `partly`, such things
+        are left out, and logged.
         """
         existing = {} if there is None else there
         must_be_a(Mapping, existing, "entities are a mapping, of those in the state to yours")
-        state = unpacked(data)
-        must_fit(state, site, self._samples_of(site.ground))
-        must_be_trodden(state.treading)
         reading = Reading(wind=wind_kinds().find, folder=loaded.folder)
+        state, felled, lost = self._fitted(unpacked(data), site, reading, partly=partly)
         winds = [*filter(None, state.declared), *state.added, *state.winds]
         made = _Made(
-            {wind.entity: WindSource(_wind_of(wind.kind, wind.values, reading), wind.name) for wind in winds},
-            {wind.entity: _wind_on_course(wind, reading) for wind in winds if wind.course is not None},
+            {wind.entity: WindSource(wind_of(wind.kind, wind.values, reading), wind.name) for wind in winds},
+            {wind.entity: wind_on_course(wind, reading) for wind in winds if wind.course is not None},
             mown_of(state, self.mown.plots),
             sown_of(state, site.ground.density, loaded),
             ground_of(state, site.ground.terrain),
             self.seasons.read(state.seasons),
-            self._felled(state),
+            felled,
         )
         self.winds.sources()  # raises where another esper world is current
         restore_squares(site.ground.terrain, made.ground)
@@ -126,6 +129,8 @@ class Saving:
         entities = self._restore_entities(state, made, known)
         self._became = data, entities
         self.brought.resume(state.brought, entities)
+        if lost:
+            log.warning("a state was restored without what has no place in this scene: %s", ", ".join(lost))
         return state.time, dict(entities), made.kinds
 
     def _things(self) -> Iterator[SavedThing]:
@@ -138,14 +143,27 @@ class Saving:
                 if is_own and (pose is None or is_somewhere(pose)):
                     yield SavedThing(entity=entity, component=component, pose=pose)
 
-    def _felled(self, state: State) -> tuple[list[int], Gone]:
-        """Return the numbers of the scene's felled trees and those of a large forest; ValueError if they do not fit."""
+    def _fitted(self, state: State, site: Site, reading: Reading, *, partly: bool) -> tuple[State, Felled, list[str]]:
+        """Return a state fitted to a site, the trees of the scene that are felled in it, and what has no place there.
+
+        Raises ValueError for a state of another scene or with anything that has no place, unless `partly`.
+        """
+        if len(state.declared) != len(state.scene.wind):
+            refuse("it does not have a kind for each of its scene's winds")
         if len(state.stood) != len(state.felled) + len(state.wild_felled):
             refuse("it does not have a place for each felled tree")
-        try:
-            return self.trees.found_again(state.felled, state.wild_felled, state.stood)
-        except ValueError as error:
-            unfit(str(error))
+        lie, unknown = self._samples_of(site.ground), list[str]()
+        if partly:
+            state, unknown = without_unknown_winds(state, reading)
+        else:
+            must_be_of(state, site, lie)
+        must_be_trodden(state.treading)
+        state, lost = refit(state, site, lie, reading, self.pressers)
+        numbers, wild, missing = self.trees.found_again(state.felled, state.wild_felled, state.stood)
+        lost = [*unknown, *lost, *felled_in_words(missing)]
+        if lost and not partly:
+            unfit(f"it has no place for {', '.join(lost)}")
+        return state, (numbers, wild), lost
 
     def _samples_of(self, ground: Ground) -> Floats:
         """Return a ground's `lie_of`, computed once."""
@@ -232,7 +250,7 @@ class Saving:
         """Return some winds as they are saved; None for one that is gone, or whose pose is not finite."""
         there, runs = dict(self.world.all(WindSource)), self.winds.runs()
         return [
-            _saved_wind(each, there[each], self.world.find(each, Pose), runs.get(each)) if each in there else None
+            saved_wind(each, there[each], self.world.find(each, Pose), runs.get(each)) if each in there else None
             for each in entities
         ]
 
@@ -251,48 +269,4 @@ class _Made:
     sown: tuple[Ints, Bytes]
     ground: Squares
     kinds: Kinds
-    felled: tuple[list[int], Gone]
-
-
-def _saved_wind(entity: int, source: WindSource, pose: Pose | None, run: WindPrimitive | None) -> SavedWind | None:
-    if pose is not None and not is_somewhere(pose):
-        return None
-    wind = source.primitive
-    try:
-        known, values = wind_kinds().find(wind.kind), json.loads(wind.model_dump_json())
-    except Exception as error:  # a stranger's wind may raise anything
-        raise ValueError(f"the wind '{source.name}' cannot be saved: {error}") from error
-    if known is not type(wind):
-        raise ValueError(f"the wind '{source.name}' cannot be saved: another class is registered as '{wind.kind}'")
-    course, first = (None, None) if run is None else (run.course, run.first)
-    return SavedWind(
-        entity=entity, kind=wind.kind, name=source.name, values=values, pose=pose, course=course,
-        first=None if first is None else json.loads(first.model_dump_json()),
-    )  # fmt: skip
-
-
-def _wind_of(kind: str, values: dict[str, Any], reading: Reading) -> WindPrimitive:
-    """Return the wind of a kind with these values; raises ValueError for values that do not fit."""
-    try:
-        known = reading["wind"](kind)
-        return known.model_validate_json(json.dumps(values), context=reading)
-    except Exception as error:  # a stranger's wind may raise anything
-        said = errors_in_words(error, known, kind) if isinstance(error, ValidationError) else error
-        raise ValueError(f"a wind of this state, a {kind}, cannot be made: {said}") from error
-
-
-def _count_rates(wind: WindPrimitive) -> int:
-    try:
-        return len(wind.rates())
-    except Exception as error:  # a stranger's wind may raise anything
-        raise ValueError(f"a wind of this state, a {wind.kind}, cannot tell its rates: {error}") from error
-
-
-def _wind_on_course(wind: SavedWind, reading: Reading) -> WindPrimitive:
-    """Return a wind with the course of its phases; raises ValueError for an impossible course."""
-    made, course = _wind_of(wind.kind, wind.values, reading), wind.course
-    assert course is not None
-    widths = {len(each) for each in (*course.rates, *course.offsets)}
-    if not len(course.rates) == len(course.offsets) == len(course.times) + 1 or widths != {_count_rates(made)}:
-        refuse("the phases of a wind have a wrong number of rates or offsets")
-    return with_course(made, course, _wind_of(wind.kind, wind.first or {}, reading))
+    felled: Felled

@@ -207,16 +207,17 @@ class Trees(Feature):
 
     def found_again(
         self, own: Sequence[int], wild: Sequence[Felled], stood: Sequence[Place], /
-    ) -> tuple[list[int], Gone]:
+    ) -> tuple[list[int], Gone, list[Place]]:
         """Return the trees of this scene that `felled` returned of it, or of an earlier scene.
 
-        Raises ValueError for any that the scene does not have.
+        Last come the places of those that stand nowhere here.
         """
-        if wild and self.wild is None:
-            raise ValueError("it has felled trees of a larger forest")
         places = np.array([(pose.x, pose.z) for _, pose in self._seedlings]).reshape(-1, 2)
-        numbers = found_again(own, stood[: len(own)], places)
-        return numbers, {} if self.wild is None else self.wild.found_again(wild, stood[len(own) :])
+        own_stood, wild_stood = stood[: len(own)], stood[len(own) :]
+        numbers = found_again(own, own_stood, places)
+        gone, missing = ({}, [*wild_stood]) if self.wild is None else self.wild.found_again(wild, wild_stood)
+        nowhere = [place for place, number in zip(own_stood, numbers, strict=True) if number is None]
+        return [number for number in numbers if number is not None], gone, [*nowhere, *missing]
 
     def _changed_numbers(self) -> list[int]:
         return [number for number in range(len(self.entities)) if not self._is_as_planted(number)]

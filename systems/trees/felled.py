@@ -11,18 +11,16 @@ SAME = 0.05
 two trees are so close."""
 
 
-def found_again(numbers: Sequence[int], stood: Sequence[Place], places: Doubles, /) -> list[int]:
-    """Return the indices of the felled trees among `places` (n, 2) [m].
+def found_again(numbers: Sequence[int], stood: Sequence[Place], places: Doubles, /) -> list[int | None]:
+    """Return the indices of the felled trees among `places` (n, 2) [m], None for one that is not among them.
 
-    `numbers` are their indices when felled, and `stood` their places. Raises ValueError where none is found.
+    `numbers` are their indices when felled, and `stood` their places.
     """
     return [_found(number, place, places) for number, place in zip(numbers, stood, strict=True)]
 
 
-def _found(number: int, place: Place, places: Doubles) -> int:
+def _found(number: int, place: Place, places: Doubles) -> int | None:
     if 0 <= number < len(places) and np.abs(places[number] - place).max() <= SAME:
         return number
     there = np.flatnonzero(np.abs(places - place).max(axis=1) <= SAME)
-    if not len(there):
-        raise ValueError("a tree is felled in it at ({:.6g}, {:.6g}), where none of this scene's stands".format(*place))
-    return int(there[0])
+    return int(there[0]) if len(there) else None

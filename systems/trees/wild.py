@@ -142,22 +142,23 @@ class Wild:
         felled = sorted((*square, number, *self._forest.gone[square][number]) for square, number in gone)
         return [(i, j, number) for i, j, number, _, _ in felled], [(x, z) for _, _, _, x, z in felled]
 
-    def found_again(self, felled: Sequence[Felled], stood: Sequence[Place], /) -> Gone:
-        """Return the trees that a saved state has felled; raises ValueError for any that nobody planted."""
+    def found_again(self, felled: Sequence[Felled], stood: Sequence[Place], /) -> tuple[Gone, list[Place]]:
+        """Return the trees that a saved state has felled, and the places of those that stand nowhere here."""
         by_square: dict[Square, list[int]] = {}
         for which, (i, j, _) in enumerate(felled):
             by_square.setdefault((i, j), []).append(which)
-        if not all(map(self._forest.reaches, by_square)):
-            raise ValueError("it has felled trees off this scene's ground")
+        missing = [stood[which] for at, some in by_square.items() if not self._forest.reaches(at) for which in some]
+        by_square = {at: some for at, some in by_square.items() if self._forest.reaches(at)}
         if self._forest.streams:  # squares outside its window cannot grow
-            return {at: {felled[which][2]: stood[which] for which in indices} for at, indices in by_square.items()}
+            return {at: {felled[which][2]: stood[which] for which in some} for at, some in by_square.items()}, missing
         gone: Gone = {}
         for square, rows in self._forest.on(by_square).items():
-            indices, places = by_square[square], rows["root"][:, ::2].astype(np.float64)
-            then = [stood[which] for which in indices]
-            numbers = found_again([felled[which][2] for which in indices], then, places)
-            gone[square] = {number: (float(places[number, 0]), float(places[number, 1])) for number in numbers}
-        return gone
+            then, places = by_square[square], rows["root"][:, ::2].astype(np.float64)
+            numbers = found_again([felled[which][2] for which in then], [stood[which] for which in then], places)
+            missing += [stood[which] for which, number in zip(then, numbers, strict=True) if number is None]
+            there = [number for number in numbers if number is not None]
+            gone[square] = {number: (float(places[number, 0]), float(places[number, 1])) for number in there}
+        return gone, missing
 
     def fell(self, gone: Gone, kept: set[int], /) -> None:
         """Remove these trees and restore all others; changed trees stay if they are among the entities `kept`."""

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import esper
@@ -11,7 +12,9 @@ from yaml import safe_load
 
 from tallgrass import Footprint, Gust, Pose, Prairie, Tree
 from tallgrass.components.wind import WindSource
+from tallgrass.engine.plugins import wind_kinds
 from tallgrass.engine.world import World
+from tallgrass.systems import saving
 from tallgrass.testing import LITTLE
 
 GREEN, DRY = {"height": [0.3, 0.5]}, {"height": [0.4, 0.6]}
@@ -55,17 +58,20 @@ def played(prairie: Prairie) -> None:
     prairie.advance(11.0)
 
 
-def assert_played(prairie: Prairie) -> None:
-    """Assert that all contents of the state are there."""
-    assert prairie.time == 11.0
-    assert prairie.grass_at([(10.0, 10.0)]).height[0] == pytest.approx(0.1, abs=1e-3)
-    names = list(prairie.scene.grass)
-    assert prairie.grass_at([SOWN]).density[0][names.index("dry")] == pytest.approx(0.8, abs=0.01)
-    assert not prairie.grass_at([(-10.0, 10.0)]).density.any()
-    assert prairie.height_at([DUG])[0] == 1.5
-    assert [pose.x for _, (_, pose) in esper.get_components(Tree, Pose)] == [-12.0]
-    assert "storm" in [source.name for _, source in esper.get_component(WindSource)]
-    assert prairie.scene.grass["green"].tip == "#c86a1e"
+def assert_played(prairie: Prairie, *lost: str) -> None:
+    """Assert that all contents of the state are there, except for those that are lost, by their names here."""
+    names, sown = list(prairie.scene.grass), prairie.grass_at([SOWN]).density[0]
+    found = {
+        "time": prairie.time == 11.0,
+        "cut": prairie.grass_at([(10.0, 10.0)]).height[0] == pytest.approx(0.1, abs=5e-3),
+        "sown": "dry" in names and sown[names.index("dry")] == pytest.approx(0.8, abs=0.01),
+        "cleared": not prairie.grass_at([(-10.0, 10.0)]).density.any(),
+        "dug": prairie.height_at([DUG])[0] == 1.5,
+        "felled": [pose.x for _, (_, pose) in esper.get_components(Tree, Pose)] == [-12.0],
+        "storm": "storm" in [source.name for _, source in esper.get_component(WindSource)],
+        "season": "green" in names and prairie.scene.grass["green"].tip == "#c86a1e",
+    }
+    assert {name for name, is_there in found.items() if not is_there} == {*lost}
 
 
 @pytest.fixture
@@ -89,6 +95,37 @@ OTHERWISE = {
 def test_a_state_comes_back_to_its_scene_whatever_that_says_besides(state: bytes, other: Prairie) -> None:
     other.restore(state)
     assert_played(other)
+
+
+GUST = {"kind": "gust", "position": [0, 15], "every": [2, 4]}
+
+
+@pytest.mark.parametrize("other", [{"wind": [GUST, *SCENE["wind"]]}], indirect=True)
+def test_a_wind_that_is_new_begins_as_the_scene_has_it_and_the_others_go_on(state: bytes, other: Prairie) -> None:
+    other.restore(state)
+    assert_played(other)
+    there = {
+        source.primitive.position[1]: source.name
+        for source in other.winds.sources()
+        if isinstance(source.primitive, Gust)
+    }
+    assert there[0.0] == "wind[1] gust"
+    assert there[15.0] not in ("wind[1] gust", "storm")
+    assert len(other.winds.sources()) == 4
+    again = Prairie.load(SCENE | {"wind": [GUST, *SCENE["wind"]]})
+    again.restore(other.state())
+    np.testing.assert_array_equal(again.wind_at([SOWN, DUG]), other.wind_at([SOWN, DUG]))
+    again.release()
+
+
+@pytest.mark.parametrize("other", [{"wind": [SCENE["wind"][1], GUST]}], indirect=True)
+def test_a_wind_that_a_game_deleted_stays_deleted_where_others_are_gone(world: World, other: Prairie) -> None:
+    del world
+    made = Prairie.load(SCENE | {"wind": SCENE["wind"][1:]})
+    esper.delete_entity(made.winds.declared[0], immediate=True)
+    other.restore(made.state())
+    made.release()
+    assert [source.primitive.model_dump()["position"] for source in other.winds.sources()] == [[0.0, 15.0]]
 
 
 @pytest.mark.parametrize("other", [{}], indirect=True)
@@ -139,13 +176,13 @@ UNFIT = {
         "terrain": {"size": [60, 50], "cell": 5.0}
     },
     "its ground has other heights or holes": {"terrain": {"size": [60, 60], "cell": 5.0, "offset": 1.0}},
-    "its scene declares the wind breeze, gust, and this one the wind breeze": {"wind": [{"kind": "breeze"}]},
-    "its scene declares 1 pressers, and this one 0": {"pressers": []},
-    "the grass 'green' is changed in it, which this scene does not have": {"grass": {"lush": GREEN, "dry": DRY}},
-    "ground is sown or cleared in it with the grass dry, which this scene does not have": {
-        "grass": {"green": GREEN, "red": DRY}
+    r"it has no place for the wind 'wind\[1\] gust'": {"wind": [{"kind": "breeze"}]},
+    "it has no place for what was done to its pressers": {"pressers": []},
+    "it has no place for the change of the grass 'green', what is sown or cleared with the grass 'green'": {
+        "grass": {"lush": GREEN, "dry": DRY}
     },
-    r"a tree is felled in it at \(12, -12\), where none of this scene's stands": {
+    "it has no place for what is sown or cleared with the grass 'dry'": {"grass": {"green": GREEN, "red": DRY}},
+    r"it has no place for the tree felled at \(12, -12\)": {
         "trees": {"oak": OAK | {"positions": [[-12, -12], [12, -10]]}}
     },
 }
@@ -157,3 +194,71 @@ def test_what_does_not_fit_is_said_in_a_sentence_and_nothing_changes(state: byte
     with pytest.raises(ValueError, match=f"^this state does not fit this scene: {why}$"):
         other.restore(state)
     assert other.state() == before
+
+
+HILL = {"size": [60, 60], "cell": 5.0, "offset": 1.0}
+PARTLY: dict[str, tuple[dict[str, Any], list[str], list[str]]] = {
+    "another seed": ({"seed": 2}, [], []),
+    "higher ground": ({"terrain": HILL}, ["dug"], ["the ground that was dug"]),
+    "wider ground": ({"terrain": {"size": [90, 80], "cell": 2.0}}, ["dug"], ["the ground that was dug"]),
+    "ground too narrow": (
+        {"terrain": {"size": [24, 24], "cell": 4.0}},
+        ["dug", "sown"],
+        ["the ground that was dug", "what was cut or sown beyond its edge"],
+    ),
+    "no gust": ({"wind": [{"kind": "breeze"}]}, [], ["the wind 'wind[1] gust'"]),
+    "no pressers": ({"pressers": []}, [], ["what was done to its pressers"]),
+    "a kind that is gone": (
+        {"grass": {"green": GREEN, "red": DRY}},
+        ["sown"],
+        ["what is sown or cleared with the grass 'dry'"],
+    ),
+    "another kind that is gone": (
+        {"grass": {"lush": GREEN, "dry": DRY}},
+        ["season"],
+        ["the change of the grass 'green'", "what is sown or cleared with the grass 'green'"],
+    ),
+    "kinds that are all gone": (
+        {"grass": {"lush": GREEN}},
+        ["season", "sown", "cleared"],
+        [
+            "the change of the grass 'green'",
+            "what is sown or cleared with the grass 'green'",
+            "what is sown or cleared with the grass 'dry'",
+        ],
+    ),
+    "a tree that is gone": (
+        {"trees": {"oak": OAK | {"positions": [[-12, -12]]}}},
+        [],
+        ["the tree felled at (12, -12)"],
+    ),
+}
+"""Later versions of the scene, what of the state is lost in them, and what the log says of that."""
+
+
+@pytest.mark.parametrize(("other", "lost", "said"), PARTLY.values(), ids=[*PARTLY], indirect=["other"])
+def test_what_has_a_place_in_a_later_version_comes_back_and_the_rest_is_said_in_one_sentence(
+    state: bytes, other: Prairie, lost: list[str], said: list[str], caplog: pytest.LogCaptureFixture
+) -> None:
+    other.restore(state, partly=True)
+    assert_played(other, *lost)
+    sentence = "a state was restored without what has no place in this scene: "
+    assert caplog.messages == ([sentence + ", ".join(said)] if said else [])
+    other.restore(other.state())
+    assert_played(other, *lost)
+
+
+@pytest.mark.parametrize("other", [{"wind": [{"kind": "breeze"}]}], indirect=True)
+def test_a_wind_that_no_package_brings_any_more_is_left_out_alone(
+    state: bytes, other: Prairie, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def find(kind: str) -> type:
+        if kind == "gust":
+            raise ValueError("unknown wind 'gust'")
+        return wind_kinds().find(kind)
+
+    monkeypatch.setattr(saving, "wind_kinds", lambda: SimpleNamespace(find=find))
+    other.restore(state, partly=True)
+    assert_played(other, "storm")
+    (message,) = caplog.messages
+    assert message.endswith("scene: the wind 'wind[1] gust', the wind 'storm'")

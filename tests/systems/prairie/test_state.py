@@ -222,9 +222,13 @@ def signed(body: bytes) -> bytes:
 
 
 def test_a_state_of_another_scene_is_refused_and_nothing_changes(played: Prairie) -> None:
-    other = Prairie.load(SCENE | {"wind": []})
+    other = Prairie.load(SCENE | {"wind": [*SCENE["wind"], {"kind": "whirlwind", "position": [0, 0]}]})
     other.set_heights((0.0, 0.0), np.full((3, 3), 9.0))
-    refused(played, other.state(), r"^this state does not fit this scene: its scene declares no wind, and this one the")
+    refused(
+        played,
+        other.state(),
+        r"^this state does not fit this scene: it has no place for the wind 'wind\[\d\] whirlwind'$",
+    )
     other.release()
 
 

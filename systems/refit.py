@@ -1,0 +1,145 @@
+"""States of earlier versions of a scene: fitted to the present one, and what of them has no place in it."""
+
+from collections import Counter
+from collections.abc import Collection, Sequence
+from typing import Any
+
+from ..components.arrays import Floats, Ints, Place
+from ..components.wind import WindPrimitive, WindSource
+from ..engine.declared.scene import Reading
+from ..engine.stored import refuse
+from ..engine.terrain.plots import Plots
+from .fitting import lies_alike, scene_of
+from .pressers import Pressers
+from .saved import SavedWind, State
+from .site import Site
+from .stowed import saved_wind, wind_of
+from .winds import matched
+
+Refitted = tuple[State, list[str]]
+"""A state without what has no place in a scene, and what that is, in words."""
+
+NAMED = 3
+"""Most things of a sort that a sentence names; of more it tells their number."""
+
+
+def refit(state: State, site: Site, lie: Floats, reading: Reading, pressers: Pressers, /) -> Refitted:
+    """Return a state fitted to a site, of which `lie` are samples, and what of the state has no place there.
+
+    Raises ValueError for a state that contradicts itself, and for a wind that cannot be made.
+    """
+    state, dug = _onto_ground(state, site, lie)
+    state, grown = _with_kinds(state, [*site.scene.grass])
+    state, blown = _with_winds(state, site.scene.wind, reading)
+    trodden = list[str]()
+    if len(state.treading.declared) != len(site.scene.pressers):
+        trodden.append("what was done to its pressers")
+        state = _changed(state, treading=pressers.begun_anew(state.treading))
+    return state, [*dug, *grown, *blown, *trodden]
+
+
+def without_unknown_winds(state: State, reading: Reading, /) -> Refitted:
+    """Return a state without the winds that cannot be made, such as those of a package that is not installed."""
+    every = [*filter(None, state.declared), *state.added, *state.winds]
+    unknown = [wind for wind in every if not _can_be_made(wind, reading)]
+    pairs = zip(state.scene.wind, state.declared, strict=True)
+    kept = [(kind, wind) for kind, wind in pairs if wind not in unknown]
+    state = _changed(
+        state,
+        scene=state.scene.model_copy(update={"wind": [kind for kind, _ in kept]}),
+        declared=[wind for _, wind in kept],
+        added=[wind for wind in state.added if wind not in unknown],
+        winds=[wind for wind in state.winds if wind not in unknown],
+    )
+    return state, _named("the wind", [wind.name for wind in unknown])
+
+
+def felled_in_words(places: Sequence[Place], /) -> list[str]:
+    """Return what a sentence says of felled trees that stand nowhere in a scene."""
+    return _named("the tree felled at", [f"({x:.6g}, {z:.6g})" for x, z in places], quote="")
+
+
+def _onto_ground(state: State, site: Site, lie: Floats) -> Refitted:
+    """Leave out what is dug into another ground, what lies beyond its edge, and cleared patches of another side."""
+    then, now, lost = state.scene, scene_of(site), list[str]()
+    if not lies_alike(state, site, lie):
+        if len(state.ground):
+            lost.append("the ground that was dug")
+        mown, sown = (_within(where, site.ground.density.sown) for where in (state.mown, state.sown))
+        if len(mown) + len(sown) < len(state.mown) + len(state.sown):
+            lost.append("what was cut or sown beyond its edge")
+        state = _changed(
+            state, lie=lie, ground=state.ground[:0], ground_heights=state.ground_heights[:0],
+            ground_holes=state.ground_holes[:0], mown=mown, sown=sown,
+        )  # fmt: skip
+    if len(state.cleared) and then.patch != now.patch:
+        lost.append(f"cleared patches of {then.patch:g} m")
+        state = _changed(state, cleared=state.cleared[:0])
+    return state, lost
+
+
+def _within(where: Ints, plots: Plots) -> Ints:
+    """Return those of some stored plots (n, 3) that lie on a map."""
+    across, along = plots.half
+    within: Ints = where[((where[:, :2] >= (-along, -across)) & (where[:, :2] < (along, across))).all(axis=1)]
+    return within
+
+
+def _with_kinds(state: State, names: Collection[str]) -> Refitted:
+    """Leave out changes of kinds of grass that a scene does not have, and what is sown or cleared with them."""
+    then, densities = state.scene.grass, state.sown_densities
+    lost = [f"the change of the grass '{each.name}'" for each in state.seasons if each.name not in names]
+    state = _changed(state, seasons=[each for each in state.seasons if each.name in names])
+    if len(densities):
+        if densities.shape[-1] != len(then):
+            refuse("its sown densities are not those of its scene's kinds")
+        lost += _named("what is sown or cleared with the grass", [name for name in then if name not in names])
+        kept = [number for number, name in enumerate(then) if name in names]
+        scene = state.scene.model_copy(update={"grass": [then[number] for number in kept]})
+        state = _changed(state, scene=scene, sown_densities=densities[..., kept])
+        if not kept:
+            state = _changed(state, sown=state.sown[:0], sown_densities=densities[:0])
+    return state, lost
+
+
+def _with_winds(state: State, winds: Sequence[WindPrimitive], reading: Reading) -> Refitted:
+    """Give each of a scene's winds the saved wind that it continues; leave out those that none continues.
+
+    A wind that the game had deleted deletes one of its kind. Whatever is left of the scene's winds is new, and begins
+    as the scene has it.
+    """
+    kinds = state.scene.wind
+    if kinds == [wind.kind for wind in winds]:
+        return state, []
+    saved = [*filter(None, state.declared)]
+    there = {WindSource(wind_of(wind.kind, wind.values, reading), wind.name): wind for wind in saved}
+    deleted = Counter(kind for kind, wind in zip(kinds, state.declared, strict=True) if wind is None)
+    declared, left = list[SavedWind | None](), dict(there)
+    for number, (source, old) in enumerate(matched([*there], winds)):
+        if old is not None:
+            declared.append(left.pop(old))
+        elif deleted[source.primitive.kind]:
+            deleted[source.primitive.kind] -= 1
+            declared.append(None)
+        else:
+            declared.append(saved_wind(-1 - number, source))
+    return _changed(state, declared=declared), _named("the wind", [wind.name for wind in left.values()])
+
+
+def _can_be_made(wind: SavedWind, reading: Reading) -> bool:
+    try:
+        wind_of(wind.kind, wind.values, reading)
+    except ValueError:
+        return False
+    return True
+
+
+def _named(what: str, names: Sequence[str], quote: str = "'") -> list[str]:
+    """Return a phrase for each of some things of a sort, or one for all if they are many."""
+    if len(names) > NAMED:
+        return [f"{what} {quote}{names[0]}{quote} and {len(names) - 1} others"]
+    return [f"{what} {quote}{name}{quote}" for name in names]
+
+
+def _changed(state: State, **fields: Any) -> State:
+    return state.model_copy(update=fields)
