@@ -23,6 +23,7 @@ _WANTED = {
     "model_type": "a mapping of keys",
     "finite_number": "a finite number",
 }
+_COLOUR = "a colour such as '#2f4019' or 'orange'"
 _UNIT = re.compile(r"\[([a-z/]{1,12})\]")
 _DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+")
 _TIGHT = re.compile(r"([a-z_]+):\S")
@@ -33,7 +34,7 @@ def sentence(error: ErrorDetails, field: Field, /) -> str:
     """Return an error as one sentence in words of the scene file."""
     kind, value = error["type"], error["input"]
     if kind in _WANTED:
-        wanted = _list(field) if kind == "list_type" else _WANTED[kind]
+        wanted = _COLOUR if _is_colour(field) else _list(field) if kind == "list_type" else _WANTED[kind]
         return f"{field.name} must be {wanted}, found {in_words(value)}{_hint(kind, value, field)}"
     say = _SENTENCES.get(kind)
     return say(error, field) if say else f"{field.name}: {error['msg']}"
@@ -88,6 +89,12 @@ def suggestion(word: str, known: Iterable[str], /) -> str:
     return guess(word, words) or (f"; known: {', '.join(words)}" if words else "")
 
 
+def no_file(name: str, /) -> str:
+    """Return what is said of a missing file that a scene names."""
+    slashes = f"; write / between folders, '{name.replace(chr(92), '/')}'" if "\\" in name else ""
+    return f"no file '{name}' relative to the scene{slashes}"
+
+
 def in_words(value: object, /) -> str:
     """Return a scene file's value in words, for messages."""
     match value:
@@ -130,7 +137,10 @@ def _out_of_range(error: ErrorDetails, field: Field) -> str:
 def _of_length(error: ErrorDetails, field: Field) -> str:
     value, limits = error["input"], field.limits | error["ctx"]
     if isinstance(value, list | tuple):
-        return f"{field.name} must be {_list(field)}, found {len(value)}"
+        most = limits.get("max_length", 0)
+        commas = len(value) == 2 * most and all(type(each) is int for each in value)
+        point = f"; a decimal takes a point, {value[0]}.{value[1]}" if commas else ""
+        return f"{field.name} must be {_list(field)}, found {len(value)}{point}"
     least, most = limits.get("min_length", 0), limits.get("max_length", "any number of")
     return f"{field.name} must have {least} to {most} entries, found {len(value)}"
 
@@ -141,7 +151,11 @@ def _of_pattern(error: ErrorDetails, field: Field) -> str:
         return f"{field.name} must be text of the form {pattern}, found {in_words(text)}"
     near = nearest(text)
     guess = f", did you mean '{near}'?" if near else ""
-    return f"{field.name} must be a colour such as '#2f4019' or 'orange', found {in_words(text)}{guess}"
+    return f"{field.name} must be {_COLOUR}, found {in_words(text)}{guess}"
+
+
+def _is_colour(field: Field) -> bool:
+    return LONG in field.limits.get("pattern", "")
 
 
 def _number(value: float) -> str:
@@ -159,8 +173,8 @@ def _list(field: Field) -> str:
 def _hint(kind: str, value: object, field: Field) -> str:
     if kind == "model_type":
         return _hint_of_mapping(value, field)
-    if value is None and kind == "string_type" and LONG in field.limits.get("pattern", ""):
-        return "; a colour needs quotes, '#2f4019', because # begins a comment"
+    if value is None and _is_colour(field):
+        return "; a colour needs quotes, because # begins a comment"
     if isinstance(value, str) and kind in ("float_type", "int_type"):
         if _DECIMAL_COMMA.fullmatch(value):
             return f"; write it with a point, {value.replace(',', '.')}"

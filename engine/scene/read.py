@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ... import scenes
-from ...components.words import guess
+from ...components.words import guess, no_file
 from ..declared.scene import Scene
 from .compose import MOST_BYTES, decode, read_document
 from .document import Document, Where
@@ -209,7 +209,7 @@ def _missing_files(document: Document, folder: Path, given: Container[str]) -> I
         if mode and not S_ISREG(mode):
             yield document.problem(where, f"'{name}' is {_irregular(mode)}, not a map file")
         elif not mode:
-            yield document.problem(where, f"no file '{name}' relative to the scene{_guess(folder / name)}")
+            yield document.problem(where, no_file(name) + _guess(folder / name))
 
 
 def _named_files(values: object) -> Iterator[tuple[Where, str]]:

@@ -14,7 +14,7 @@ from ...components.arrays import Floats
 from ...components.body import Hover, Model
 from ...components.declaration import Declaration, DeclarationError, Pair
 from ...components.wind import Extent, Grass, TwinValues
-from ...components.words import Plain
+from ...components.words import Plain, no_file
 from ...engine.memo import by_identity
 from .outline import FINE, Outline, outline_of_picture, outline_of_polygon, polygon_of_ellipse
 from .placed import PlacedWind
@@ -167,7 +167,7 @@ def _pictured(name: str, folder: Path, width: float) -> Outline:
     try:
         return _picture(str(path), path.stat().st_mtime_ns, width)
     except FileNotFoundError as error:
-        raise DeclarationError(f"no file '{name}' relative to the scene", "image") from error
+        raise DeclarationError(no_file(name), "image") from error
     except UnidentifiedImageError as error:
         raise DeclarationError(f"'{name}' is no picture", "image") from error
     except (OSError, ValueError, Image.DecompressionBombError) as error:
