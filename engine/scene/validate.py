@@ -38,7 +38,7 @@ def validate(document: Document, /, *, folder: Path | None = None, also: Iterabl
     try:
         scene = Scene.model_validate(values | {"tallgrass": FORMAT}, context=reading)
     except ValidationError as error:
-        raise _refusal(document, problems, error.errors(include_url=False)) from error
+        raise _refusal(document, problems, error.errors(include_url=False)) from None
     if problems:
         raise SceneError(problems)
     return scene

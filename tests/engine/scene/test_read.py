@@ -4,6 +4,7 @@ import json
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from traceback import format_exception
 
 import pytest
 import yaml
@@ -127,6 +128,12 @@ def test_keys_that_are_not_known_are_told_with_those_that_are() -> None:
         "sun, turbidity, "
     )
     assert told == f"3:10 unknown key 'glow'; known: {known}zenith"
+
+
+def test_a_traceback_tells_of_problems_in_words_of_scenes_alone() -> None:
+    with pytest.raises(SceneError) as caught:
+        parse_scene(GOOD + "sead: 3\n")
+    assert "pydantic" not in "".join(format_exception(caught.value))
 
 
 def test_a_key_that_has_the_name_of_a_grass_kind_confuses_nothing() -> None:
