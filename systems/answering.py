@@ -59,8 +59,8 @@ class Answering(Underflowing):
         self.winds, self.pressers = feature_of(Winds, self.features), feature_of(Pressers, self.features)
         self._mown, self._shining = feature_of(Mowing, self.features).mown, feature_of(Lighting, self.features).shining
         self._clock, self._never_drawn = 0.0, set[str]()
-        # Systems hold these two: as bound methods they would keep the prairie alive
-        self._entities = partial(_entities_on, world, self.clearings, self.viewers)
+        self._entities = PatchEntities(world, self.clearings, self.viewers.values)
+        # Systems hold this: as a bound method it would keep the prairie alive
         self._messages_to = partial(_messages_to, self.winds, self.pressers)
 
     @property
@@ -183,7 +183,7 @@ class Answering(Underflowing):
         if viewer not in self.viewers:
             self._warn_of(viewer)
             return np.zeros(len(cells), np.int64)
-        return self._entities(self.site).at(self.viewers[viewer], cells)
+        return self._entities.at(self.viewers[viewer], cells)
 
     def _warn_of(self, viewer: str) -> None:
         """Log once that a viewer was never drawn while another was."""
@@ -206,11 +206,6 @@ class Answering(Underflowing):
         """Return the messages (n, 2) at places (n, 2) [m] to a kind, or the densest, after all pressers have moved."""
         self.pressers.note(time)
         return self._messages_to(self.winds.receivers_at(place, kind=kind), time=time)
-
-
-def _entities_on(world: World, clearings: Clearings, viewers: Outlooks, site: Site, /) -> PatchEntities:
-    """Return the keeper of patch entities on a site."""
-    return PatchEntities(world, clearings, site.representations, viewers.values)
 
 
 def _messages_to(winds: Winds, pressers: Pressers, receivers: ReceiverArrays, /, *, time: float) -> Floats:

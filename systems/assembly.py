@@ -29,9 +29,7 @@ class Assembly:
     """Inputs of a prairie's systems that do not depend on its site."""
 
     outlooks: Iterable[Outlook]
-    entities: Callable[[Site], PatchEntities]
-    """Returns the keeper of patch entities on a site."""
-
+    entities: PatchEntities
     hear: Hear
     """Returns the messages of winds and pressers to receivers."""
 
@@ -51,16 +49,16 @@ class Assembly:
     def on(self, site: Site, /) -> list[BuiltIn]:
         """Return the built-in systems on a site in running order: phase, name, and the system itself."""
         ground, shown, reach, outlooks = site.ground, site.representations, site.reach, self.outlooks
-        patch, change, entities = ground.patch, site.transitions, self.entities(site)
+        patch, change = ground.patch, site.transitions
         slack = SLACK if change.hysteresis else 0
         return [
             (Phase.TILE, "press", Press(outlooks, self.trodden)),
-            (Phase.TILE, "tile", Tile(outlooks, entities, ground, site.scene.seed, site.quality.models)),
+            (Phase.TILE, "tile", Tile(outlooks, self.entities, shown, ground, site.scene.seed, site.quality.models)),
             (Phase.SEE, "cull", Cull(outlooks, patch, site.sway)),
             (Phase.SEE, "lod", ChooseLevels(outlooks, reach, site.choosy, slack, self.bent)),
             (Phase.SEE, "transition", Transition(outlooks, shown, reach, patch, change)),
             (Phase.SEE, "see", See(outlooks, shown, reach, patch, change, site.choosy)),
-            (Phase.BLOW, "plant", Plant(outlooks, shown, entities.world)),
+            (Phase.BLOW, "plant", Plant(outlooks, shown, self.entities.world)),
             (Phase.BLOW, "wind", Blow(outlooks, self.acting, self.hear, site.growths)),
             (Phase.DRAW, "gather", Gather(outlooks, self.painter)),
             (Phase.DRAW, "draw", Draw(outlooks, self.painter, self.governor)),

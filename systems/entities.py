@@ -1,6 +1,6 @@
 """The entities of patches: made a batch at a time; a patch whose entity a game deletes is cleared."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import chain, zip_longest
 
@@ -11,7 +11,6 @@ from ..components.patch import Cell, Clearings, Lod, Patch
 from ..engine.world import World
 from .around.outlook import Outlook
 from .around.patches import PatchTable
-from .show.representation import Representation
 from .space.window import window_rows
 
 BATCH = 200
@@ -27,7 +26,6 @@ class PatchEntities:
 
     world: World
     clearings: Clearings
-    representations: Sequence[Representation] = ()
     everyone: Callable[[], Iterable[Outlook]] = tuple
     """Returns the outlooks of all viewers, also of those that do not look in this frame."""
 
@@ -92,7 +90,7 @@ class PatchEntities:
     def _make(self, outlook: Outlook, rows: list[int]) -> Iterator[int]:
         """Make and yield the entities of the patches in some rows, one after another."""
         patches, outlook.entity_changes = outlook.patches, outlook.entity_changes + len(rows)
-        carried = components(outlook, self.representations, rows)
+        carried = components(outlook, rows)
         stand = zip(patches.cell[rows].tolist(), patches.model[rows].tolist(), patches.turn[rows].tolist(), strict=True)
         for row, ((i, j), model, turn), parts in zip(rows, stand, carried, strict=True):
             patch, lod = Patch((i, j), model, turn, self.clearings), Lod(patches, row, (i, j))
@@ -112,9 +110,9 @@ class PatchEntities:
         return np.where(there, patches.entity[rows], 0)
 
 
-def components(outlook: Outlook, representations: Sequence[Representation], rows: list[int], /) -> list[list[object]]:
+def components(outlook: Outlook, rows: list[int], /) -> list[list[object]]:
     """Return the components that the representations add to the entity of the patch in each of some rows."""
-    given = zip(rows, *(each.components(outlook, rows) for each in representations), strict=True)
+    given = zip(rows, *(kept.components(rows) for kept in outlook.kept.values()), strict=True)
     return [[*chain.from_iterable(parts)] for _, *parts in given]
 
 

@@ -279,6 +279,6 @@ def settle_on(outlook: Outlook, site: Site, before: Site, world: World, /) -> No
     keep_room(outlook, site.representations, site.reach)
     entities = outlook.patches.entity
     rows = [row for row in np.flatnonzero(entities).tolist() if world.has(int(entities[row]))]  # a game deletes some
-    for row, parts in zip(rows, components(outlook, site.representations, rows), strict=True):
+    for row, parts in zip(rows, components(outlook, rows), strict=True):
         for part in parts:
             world.add(int(entities[row]), part)

@@ -1,6 +1,6 @@
 """Tiling: patches come and go around each viewer (paper, section 2.2)."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import floor
 
@@ -17,6 +17,7 @@ from .around.outlook import Outlook
 from .around.patches import PatchTable
 from .entities import PatchEntities
 from .room import make_room
+from .show.representation import Representation
 from .space.cone import discrete_distance, nearness, seen_from
 from .space.ground import Ground
 from .space.window import between, cell_of, window_cells
@@ -107,6 +108,7 @@ class Tile:
 
     outlooks: Iterable[Outlook]
     entities: PatchEntities
+    representations: Sequence[Representation]
     ground: Ground
     seed: int
     models: int
@@ -116,7 +118,7 @@ class Tile:
         """Tile around every viewer that looks."""
         self.entities.notice_deleted(self.outlooks)
         for outlook in self.outlooks:
-            make_room(outlook, self.entities.representations, self.entities.world)
+            make_room(outlook, self.representations, self.entities.world)
             patches, viewer = outlook.patches, outlook.viewer
             patch, terrain = self.ground.patch, self.ground.terrain
             viewer.centre = cell_stood_in(viewer.eye, viewer.centre, patch=patch)

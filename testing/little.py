@@ -129,8 +129,7 @@ def systems_on(site: Site, outlooks: Sequence[Outlook], world: World, /, *, hear
     `hear` returns the messages (n, 2) of receivers at a time [s]; without it there is no wind.
     """
     schedule = Schedule()
-    entities = PatchEntities(world, Clearings(), site.representations)
-    assembly = Assembly(outlooks, lambda _: entities, hear or _calm, _no_painter, Governor())
+    assembly = Assembly(outlooks, PatchEntities(world, Clearings()), hear or _calm, _no_painter, Governor())
     for phase, name, system in assembly.on(site):
         schedule.add(phase, name, system, trusted=True)
     return schedule

@@ -24,6 +24,10 @@ class Kept:
         for receiving in self.receiving:
             receiving.enlist(world, patches)
 
+    def components(self, rows: list[int], /) -> list[tuple[object, ...]]:
+        """Return what the entity of the patch in each of some rows of the patch table carries."""
+        return [()] * len(rows)
+
     @property
     def is_listed(self) -> bool:
         """Whether all receivers shown have their entities; otherwise the next frame creates more."""

@@ -251,10 +251,6 @@ class Representation(ABC):
         """Return the largest distance of a receiver outside its patch [m]."""
         return 0.0
 
-    def components(self, outlook: Outlook, rows: list[int], /) -> list[tuple[object, ...]]:
-        """Return the components that the representation adds to the entities of the patches in some rows."""
-        return [()] * len(rows)
-
     def sublevels(self, outlook: Outlook, rows: Rows, held: Levels, /, *, slack: int) -> Levels:
         """Return the sub-levels that patches (n,) are to have, shape (n,); `held` (n,) are their present ones.
 

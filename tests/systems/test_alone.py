@@ -34,7 +34,7 @@ PATCH = SITE.ground.patch
 def test_tile_lays_patches_around_the_viewer_and_makes_them_entities(world: World) -> None:
     outlook = viewer_on(SITE, world, looking(6.0, 2.0, -4.0))
     entities = PatchEntities(world, Clearings())
-    Tile([outlook], entities, SITE.ground, seed=5, models=2).run()
+    Tile([outlook], entities, SITE.representations, SITE.ground, seed=5, models=2).run()
     assert tuple(outlook.viewer.centre) == (2, -2)
     assert outlook.patches.distance.max() == 12
     near = [esper.component_for_entity(entity, Patch).cell for entity, lod in world.all(Lod) if lod.distance <= 1]
@@ -43,7 +43,8 @@ def test_tile_lays_patches_around_the_viewer_and_makes_them_entities(world: Worl
 
 def test_cull_keeps_the_patches_in_the_view_cone(world: World) -> None:
     outlook = viewer_on(SITE, world, looking(0.0, 2.0, 0.0, yaw=0.0, view=40.0))
-    Tile([outlook], PatchEntities(world, Clearings()), SITE.ground, seed=5, models=2).run()
+    entities = PatchEntities(world, Clearings())
+    Tile([outlook], entities, SITE.representations, SITE.ground, seed=5, models=2).run()
     Cull([outlook], PATCH, sway=0.5).run()
     ahead, behind = window_rows(np.array([[0, -4], [0, 3]], np.int32), side=outlook.patches.side)
     assert outlook.patches.visible[[ahead, behind]].tolist() == [True, False]

@@ -35,7 +35,7 @@ class Tiled:
         self.outlook = Outlook(Viewer(), 0, PatchTable.allocate(side, NAMES))
         self.entities = PatchEntities(world, self.clearings)
         density = Density(np.ones((1, 2, 2), np.float32), terrain.size)
-        self.system = Tile([self.outlook], self.entities, Ground(terrain, density, PATCH), 3, 4)
+        self.system = Tile([self.outlook], self.entities, (), Ground(terrain, density, PATCH), 3, 4)
 
     @property
     def patches(self) -> PatchTable:

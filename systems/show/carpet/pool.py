@@ -15,12 +15,12 @@ class CarpetPool:
     """One receiver per patch; a slot is a row of the patch table."""
 
     def __init__(self, patches: PatchTable, ground: Ground) -> None:
-        self._patches, self._ground = patches, ground
+        self.patches, self._ground = patches, ground
 
     @property
     def slots(self) -> int:
         """Number of slots."""
-        return len(self._patches.progress)
+        return len(self.patches.progress)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -29,7 +29,7 @@ class CarpetPool:
 
     def places(self, slots: Rows, /) -> Floats:
         """Return the middles (x, z) of the patches of slots (m,) [m], shape (m, 1, 2)."""
-        return self._patches.middle[slots].astype(np.float32)[:, None]
+        return self.patches.middle[slots].astype(np.float32)[:, None]
 
     def kind(self, slots: Rows, /) -> NDArray[np.intp]:
         """Return the kind that grows most densely in the middle of each patch of slots (m,), shape (m,)."""
@@ -37,7 +37,7 @@ class CarpetPool:
 
     def grows(self, slots: Rows, cells: NDArray[np.int32], /) -> NDArray[np.bool_]:
         """Return which slots (m,) hold a patch with grass on the cell given for it (m, 2), shape (m,)."""
-        patches = self._patches
+        patches = self.patches
         return np.asarray(patches.stands[slots] & (patches.cell[slots] == cells).all(axis=1))
 
 
@@ -51,6 +51,11 @@ class CarpetKept(Kept):
     def enlist(self, world: World, patches: PatchTable, /) -> None:
         """Make no entities: the patches' own carry the receivers."""
         self.receiving[0].messages.warned = world.warned
+
+    def components(self, rows: list[int], /) -> list[tuple[object, ...]]:
+        """Return the component of the receiver of the patch in each of some rows."""
+        receiving, viewer = self.receiving[0], self.pool.patches.viewer
+        return [(receiving.component(row, viewer=viewer, patch=0),) for row in rows]
 
     @property
     def is_listed(self) -> bool:

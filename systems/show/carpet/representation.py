@@ -72,11 +72,6 @@ class CarpetRepresentation(Representation):
         """Return a store of one receiver per patch."""
         return CarpetKept(CarpetPool(patches, self.ground), self.name)
 
-    def components(self, outlook: Outlook, rows: list[int], /) -> list[tuple[object, ...]]:
-        """Return the component of each patch's receiver, which the patch's own entity carries."""
-        receiving, viewer = outlook.keeps(CarpetKept).receiving[0], outlook.viewer.name
-        return [(receiving.component(row, viewer=viewer, patch=0),) for row in rows]
-
     def show(self, outlook: Outlook, cover: NDArray[np.float32], /) -> Rows:
         """Return the patches whose receivers feel the wind: those in the view cone, and their neighbours."""
         kept = outlook.keeps(CarpetKept)
