@@ -11,7 +11,7 @@ from .draw import Draw
 from .entities import PatchEntities
 from .gather import Gather
 from .govern import Governor
-from .lod import SLACK, ChooseLevels
+from .lod import ChooseLevels
 from .painter import Painter
 from .plant import Plant
 from .press.marks import UNTRODDEN, Trodden
@@ -48,16 +48,15 @@ class Assembly:
 
     def on(self, site: Site, /) -> list[BuiltIn]:
         """Return the built-in systems on a site in running order: phase, name, and the system itself."""
-        ground, shown, reach, outlooks = site.ground, site.representations, site.reach, self.outlooks
+        ground, shown, outlooks = site.ground, site.representations, self.outlooks
         patch, change = ground.patch, site.transitions
-        slack = SLACK if change.hysteresis else 0
         return [
             (Phase.TILE, "press", Press(outlooks, self.trodden)),
             (Phase.TILE, "tile", Tile(outlooks, self.entities, shown, ground, site.scene.seed, site.quality.models)),
             (Phase.SEE, "cull", Cull(outlooks, patch, site.sway)),
-            (Phase.SEE, "lod", ChooseLevels(outlooks, reach, site.choosy, slack, self.bent)),
-            (Phase.SEE, "transition", Transition(outlooks, shown, reach, patch, change)),
-            (Phase.SEE, "see", See(outlooks, shown, reach, patch, change, site.choosy)),
+            (Phase.SEE, "lod", ChooseLevels(outlooks, site.reach, shown, change.slack, self.bent)),
+            (Phase.SEE, "transition", Transition(outlooks, shown, patch, change)),
+            (Phase.SEE, "see", See(outlooks, shown, patch, change)),
             (Phase.BLOW, "plant", Plant(outlooks, shown, self.entities.world)),
             (Phase.BLOW, "wind", Blow(outlooks, self.acting, self.hear, site.growths)),
             (Phase.DRAW, "gather", Gather(outlooks, self.painter)),

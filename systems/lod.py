@@ -9,11 +9,9 @@ from numpy.typing import NDArray
 
 from ..components.arrays import Levels
 from .around.outlook import Outlook
+from .around.transitions import SLACK
 from .mow.mown import Mown
 from .show.representation import Representation
-
-SLACK = 1
-"""Width of the hysteresis [patches]: a patch goes to the coarser representation farther out than it comes back."""
 
 ROOM = 2
 """Number of patches beyond the slack for which pools have room, while they are changing; farther out, a change is made
@@ -99,7 +97,8 @@ class ChooseLevels:
         current = patches.representation | unsettled
         reach = outlook.lens.reach_in(self.reach)
         patches.wanted[:] = wanted_representation(patches.away, current, reach=reach, slack=self.slack)
-        self._pass_on(outlook, current)
+        if self.reach[0] >= 0:  # otherwise one representation replaces all finer ones
+            self._pass_on(outlook, current)
 
     def _pass_on(self, outlook: Outlook, current: Levels) -> None:
         """Pass patches whose representation is unfit on to the next coarser one."""

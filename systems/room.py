@@ -45,7 +45,7 @@ def make_room(outlook: Outlook, representations: Sequence[Representation], world
     Grass of the smaller pools is planted again, and its receivers become other entities.
     """
     lens = outlook.lens
-    if lens.factor == 1.0 or not lens.reach:
+    if lens.factor == 1.0:
         return
     due = tuple(max(limits) for limits in zip(room_for(lens.reach, lens.factor), lens.room, strict=True))
     if due == lens.room:

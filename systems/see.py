@@ -18,30 +18,24 @@ from .transition import weights
 
 
 def strips_kept(
-    outlook: Outlook,
-    rows: Rows,
-    /,
-    *,
-    reach: tuple[int, ...],
-    patch: float,
-    choosy: tuple[Representation, ...],
-) -> Floats:
+    outlook: Outlook, rows: Rows, representations: tuple[Representation, ...], /, *, patch: float
+) -> Floats:  # fmt: skip
     """Return the fraction of strips that distance and view leave on patches (n,), shape (n,); `patch` is a side [m].
 
     It is 1 if the next coarser representation is not the carpet.
     """
     number = THREE[1]
-    drawn = outlook.lens.reach_in(reach)
+    drawn = outlook.lens.reach_in(outlook.lens.reach)
     if drawn[number] < drawn[-2]:
         return np.ones(len(rows), np.float32)
     (x, z), eye = outlook.patches.middle.T, outlook.viewer.eye
     along = np.maximum(np.abs(x[rows] - np.float32(eye[0])), np.abs(z[rows] - np.float32(eye[2]))) / np.float32(patch)
     away = seen_from(along, outlook.patches.height[rows], eye[1], patch=patch)
     kept = strips_left(away, reach=drawn[number])
-    if not choosy:
+    if drawn[0] < 0:  # one representation replaces all finer ones
         return kept
     free = outlook.patches.hold[rows] < 0  # strips that a game holds are shown even where they are unfit
-    return np.where(free, np.minimum(kept, choosy[number].remaining(outlook, rows, away)), kept)
+    return np.where(free, np.minimum(kept, representations[number].remaining(outlook, rows, away)), kept)
 
 
 @dataclass(slots=True)
@@ -50,14 +44,10 @@ class See:
 
     outlooks: Iterable[Outlook]
     representations: tuple[Representation, ...]
-    reach: tuple[int, ...]
     patch: float
     """Side of a patch [m]."""
 
     transitions: Transitions = SEAMLESS
-
-    choosy: tuple[Representation, ...] = ()
-    """Representations that may pass patches on to coarser ones."""
 
     def run(self) -> None:
         """See for every viewer that looks."""
@@ -75,6 +65,6 @@ class See:
         patches, last = outlook.patches, len(self.representations) - 1
         finer = (patches.representation != last) | (patches.previous != last)
         rows = (patches.alive & finer & (patches.near | patches.visible)).nonzero()[0]
-        kept = strips_kept(outlook, rows, reach=self.reach, patch=self.patch, choosy=self.choosy)
+        kept = strips_kept(outlook, rows, self.representations, patch=self.patch)
         seen = appearance(weights(patches, rows), kept, transitions=self.transitions, three=THREE)
         return seen.among(rows, len(patches.progress))

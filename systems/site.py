@@ -66,11 +66,6 @@ class Site(Grown):
         return max(each.margin() for each in self.representations)
 
     @property
-    def choosy(self) -> tuple[Representation, ...]:
-        """Representations that may pass patches on to coarser ones; empty if one replaces all others."""
-        return self.representations if self.reach[0] >= 0 else ()
-
-    @property
     def blades(self) -> int:
         """Number of blades on the whole terrain, estimated from the kinds' mean densities."""
         width, depth = self.ground.terrain.size

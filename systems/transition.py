@@ -10,8 +10,8 @@ from ..components.arrays import Floats, Levels, Mask, Rows
 from .around.outlook import Outlook
 from .around.pace import change_step
 from .around.patches import PatchTable
-from .around.transitions import SEAMLESS, Transitions
-from .lod import SLACK, farthest, inputs_of
+from .around.transitions import SEAMLESS, SLACK, Transitions
+from .lod import farthest, inputs_of
 from .show.representation import Representation
 
 FADE = 1.2
@@ -31,7 +31,6 @@ class Transition:
 
     outlooks: Iterable[Outlook]
     representations: tuple[Representation, ...]
-    reach: tuple[int, ...]
     patch: float
     """Side of a patch [m]."""
 
@@ -48,7 +47,7 @@ class Transition:
         settled = patches.was_visible & patches.visible & (not viewer.jumped)
         step = step_of_change(change_step(viewer), way=viewer.way, patch=self.patch)
         before = patches.representation.copy()
-        reach = outlook.lens.room or self.reach
+        reach = outlook.lens.room
         due = due_representations(patches, reach=reach)
         waits = _waiting(patches, due, reach=reach, step=step)
         due[waits] = patches.representation[waits]
@@ -78,8 +77,7 @@ class Transition:
         seen = (patches.was_visible & patches.visible)[rows] & (not outlook.viewer.jumped)
         slowly = change.shows(level) & seen & (now.now >= 0)
         present = np.where(slowly, now.now, np.int8(-1))
-        slack = SLACK if self.transitions.hysteresis else 0
-        wanted = representation.sublevels(outlook, rows, present, slack=slack)
+        wanted = representation.sublevels(outlook, rows, present, slack=self.transitions.slack)
         slowly &= gradual
         wanted = np.where(stands_throughout & slowly, now.now, wanted)
         nearer = np.where(now.progress < 0.5, now.before, now.now)

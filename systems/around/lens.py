@@ -57,7 +57,7 @@ class Lens:
 
     def reach_in(self, reach: tuple[int, ...], /) -> tuple[float, ...]:
         """Return the reach of each representation, with `range` and a long lens applied."""
-        if self.factor == 1.0 or not self.room:
+        if self.factor == 1.0:
             return self.drawn_in(reach)
         far = zip(reach_under(reach, self.factor), self.room, strict=True)
         return tuple(min(limit, room) * self.range if limit > 0 else limit for limit, room in far)

@@ -2,6 +2,9 @@
 
 from dataclasses import dataclass
 
+SLACK = 1
+"""Width of the hysteresis [patches]: a patch goes to the coarser representation farther out than it comes back."""
+
 
 @dataclass(frozen=True, slots=True)
 class Transitions:
@@ -26,6 +29,11 @@ class Transitions:
     def gradual(self) -> bool:
         """Whether a change takes any time."""
         return self.morph or self.fade or self.growth
+
+    @property
+    def slack(self) -> int:
+        """Width of the hysteresis [patches]."""
+        return SLACK if self.hysteresis else 0
 
 
 SEAMLESS = Transitions()

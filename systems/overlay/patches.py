@@ -63,7 +63,7 @@ def patch_weights(outlook: Outlook, site: Site, /) -> Floats:
     """
     weight, (_, strips, carpet) = weights(outlook.patches), THREE
     rows = np.arange(len(outlook.patches.progress))
-    kept = strips_kept(outlook, rows, reach=site.reach, patch=site.ground.patch, choosy=site.choosy)
+    kept = strips_kept(outlook, rows, site.representations, patch=site.ground.patch)
     handed_over = weight[strips] * (1.0 - kept)
     weight[strips] -= handed_over
     weight[carpet] += handed_over

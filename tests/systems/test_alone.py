@@ -63,7 +63,7 @@ def test_transition_carries_a_patch_that_is_seen_by_and_by_and_others_at_once(wo
     patches, outlook.viewer.jumped, outlook.viewer.dt = outlook.patches, False, 0.12
     patches.alive[:2], patches.representation[:2], patches.wanted[:2] = True, 0, 1
     patches.visible[0] = patches.was_visible[0] = True
-    Transition([outlook], SITE.representations, SITE.reach, PATCH).run()
+    Transition([outlook], SITE.representations, PATCH).run()
     assert patches.representation[:2].tolist() == [1, 1]
     assert patches.progress[:2].tolist() == [0.0, 1.0]
     assert outlook.changing == 1
@@ -72,7 +72,7 @@ def test_transition_carries_a_patch_that_is_seen_by_and_by_and_others_at_once(wo
 def test_see_shows_each_patch_in_its_representation(world: World) -> None:
     outlook = viewer_on(SITE, world)
     systems_on(SITE, [outlook], world).run(last=Phase.SEE)
-    See([outlook], SITE.representations, SITE.reach, PATCH).run()
+    See([outlook], SITE.representations, PATCH).run()
     rows = outlook.shows(BladesShown).standing.rows
     assert (outlook.appearance.cover[0, rows] > 0.0).all()
     assert (outlook.patches.distance[rows] <= 2).all()

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from tallgrass.engine.declared.quality import PRESETS
 from tallgrass.systems.around.patches import PatchTable
-from tallgrass.systems.lod import SLACK, farthest, wanted_representation
+from tallgrass.systems.around.transitions import SLACK
+from tallgrass.systems.lod import farthest, wanted_representation
 from tallgrass.systems.show.registry import NAMES, REPRESENTATIONS
 from tallgrass.systems.transition import FADE, change_representations, due_representations, step_of_change, weights
 

@@ -10,8 +10,9 @@ from tallgrass.engine.declared.grass import MOST_KINDS, GrassKind
 from tallgrass.engine.declared.quality import PRESETS, Quality
 from tallgrass.engine.declared.scene import Scene
 from tallgrass.engine.terrain.record import Terrain
+from tallgrass.systems.around.transitions import SLACK
 from tallgrass.systems.grow.record import Growth
-from tallgrass.systems.lod import ROOM, SLACK, reach_of, wanted_representation
+from tallgrass.systems.lod import ROOM, reach_of, wanted_representation
 from tallgrass.systems.show.blades.plant import stock_blades
 from tallgrass.systems.show.blades.pool import BladesKept
 from tallgrass.systems.show.carpet.grow import carpet_of

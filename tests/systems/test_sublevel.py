@@ -14,7 +14,8 @@ from tallgrass.engine.camera import projection_matrix, view_matrix, view_of
 from tallgrass.engine.declared.quality import BladeRing, Quality, StripRing
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.around.outlook import Outlook
-from tallgrass.systems.lod import SLACK, wanted_representation
+from tallgrass.systems.around.transitions import SLACK
+from tallgrass.systems.lod import wanted_representation
 from tallgrass.systems.see import strips_kept
 from tallgrass.systems.show.blades.representation import blade_ring
 from tallgrass.systems.show.blades.shown import BladesShown
@@ -99,9 +100,10 @@ def test_n2_what_is_left_of_strips_does_not_jump_where_the_eye_crosses_a_border(
     for before in (0.5, -0.5):
         look(site, 0.6, before)
         outlook = look(site, 0.6, -1e-4)
+        outlook.lens.reach = 2, 40, 50
         centres.append(outlook.viewer.centre.tolist())
         rows = np.array([np.flatnonzero((outlook.patches.cell == (0, -d)).all(axis=1))[0] for d in range(5, 9)])
-        kept.append(strips_kept(outlook, rows, reach=(2, 40, 50), patch=patch, choosy=site.choosy))
+        kept.append(strips_kept(outlook, rows, site.representations, patch=patch))
     assert centres[0] != centres[1]
     assert 0.1 < kept[0].mean() < 0.9
     np.testing.assert_array_equal(kept[0], kept[1])

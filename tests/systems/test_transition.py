@@ -17,8 +17,7 @@ from tallgrass.engine.world import World
 from tallgrass.systems.around.appearance import Appearance, appearance, border_width, handed_over, strips_left
 from tallgrass.systems.around.changes import Changes
 from tallgrass.systems.around.outlook import Outlook
-from tallgrass.systems.around.transitions import SEAMLESS, Transitions
-from tallgrass.systems.lod import SLACK
+from tallgrass.systems.around.transitions import SEAMLESS, SLACK, Transitions
 from tallgrass.systems.show.blades.shown import BladesShown
 from tallgrass.systems.show.registry import NAMES
 from tallgrass.systems.show.strips.shown import StripsShown
