@@ -3,6 +3,7 @@
 import numpy as np
 
 from ...components.arrays import Doubles, Floats
+from ..pair import cells_between, numbered
 
 SHADE_KEEPS = 0.15
 """Density of grass without any light, as a fraction of its density in the open: some grass bears shade."""
@@ -68,11 +69,7 @@ class _Grid:
         cell = max(CELL, float((high.max(axis=1) - corner).max()) / MOST_CELLS)
         first, last = (((ends - corner[:, None]) / cell).astype(np.int32) for ends in (low, high))
         columns, rows = (last.max(axis=1) + 1).tolist()
-        across, down = last - first + 1
-        count = across * down
-        disc = np.repeat(np.arange(len(discs)), count)
-        number = np.arange(len(disc), dtype=np.int32) - np.repeat(np.cumsum(count, dtype=np.int32) - count, count)
-        row, column = np.divmod(number, across[disc]) + first[::-1].take(disc, axis=1)
+        disc, column, row = cells_between(first.T, last.T)
         order = np.argsort(column.astype(np.int16), kind="stable")  # 16 bits are sorted by radix, much faster
         order = order[np.argsort(row[order].astype(np.int16), kind="stable")]
         self._corner, self._cell, self._shape = corner, cell, (columns, rows)
@@ -90,8 +87,7 @@ class _Grid:
         count = np.where(within, self._first[cell + 1] - self._first[cell], 0)
         if not count.any():
             return None
-        below = np.repeat(np.arange(len(place)), count)
-        number = np.arange(len(below)) - np.repeat(np.cumsum(count) - count, count)
+        below, number = numbered(count)
         disc = self.discs[self._listed[self._first[cell[below]] + number]]
         distance = ((place[below] - disc[:, :2]) ** 2).sum(axis=1) / disc[:, 2] ** 2
         return np.asarray(

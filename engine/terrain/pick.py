@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Doubles, Floats
+from ...components.arrays import Doubles, Floats, Ints
+from ..pair import numbered
 from .record import Terrain
 
 _SAME = 1e-12
@@ -98,7 +99,7 @@ def _met(
     return away
 
 
-def _ends_of_stretches(ray: NDArray[np.intp], enters: Doubles, end: Doubles) -> Doubles:
+def _ends_of_stretches(ray: Ints, enters: Doubles, end: Doubles) -> Doubles:
     """Return where stretches of rays end [m]: where the next one begins, and the last one of each ray where that ends.
 
     The last one of a ray without an end has no length.
@@ -149,14 +150,13 @@ class _Crossings:
         """Return those of some rays."""
         return _Crossings(self.at[part], self.way[part], self.first[part], self.count[part])
 
-    def stretches(self, begin: Doubles, end: Doubles) -> tuple[NDArray[np.intp], Doubles]:
+    def stretches(self, begin: Doubles, end: Doubles) -> tuple[Ints, Doubles]:
         """Return the ray of each stretch within a cell, and the distance at which it begins [m], in their order."""
         count, (first, at, way) = self.count.reshape(-1), (each.reshape(-1) for each in (self.first, self.at, self.way))
-        line = np.repeat(np.arange(len(count)), count)  # of ray 0 along x and along z, of ray 1 along x, and so on
-        number = np.arange(len(line)) - np.repeat(np.cumsum(count) - count, count)
+        line, number = numbered(count)  # of ray 0 along x and along z, of ray 1 along x, and so on
         crossed, ray = (first[line] + number - at[line]) / way[line], line // 2
         inside = np.minimum(np.maximum(crossed, begin[ray]), end[ray])  # against rounding errors
-        ray, before = np.concatenate([np.arange(len(begin)), ray]), np.concatenate([begin, inside])
+        ray, before = np.concatenate([np.arange(len(begin), dtype=np.int32), ray]), np.concatenate([begin, inside])
         order = np.lexsort((before, ray))
         return ray[order], before[order]
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...components.arrays import Doubles, Floats, Rows
+from ...engine.pair import cells_between
 
 SIDE = 64
 """Largest number of cells along a side of the grid."""
@@ -60,12 +61,10 @@ def grid_of(low: Floats | Doubles, high: Floats | Doubles, reach: Floats | Doubl
 
 def _reached_cells(low: Doubles, high: Doubles, reach: Doubles, cell: float, side: int) -> tuple[Rows, Rows]:
     """Return all pairs of a thing and a cell it reaches, (m,) and (m,); positions count from the grid's corner."""
-    first = np.clip(np.floor((low - reach) / cell).astype(np.int64), 0, side - 1)
-    last = np.clip(np.floor((high + reach) / cell).astype(np.int64), 0, side - 1)
-    wide, deep = (last - first + 1).T
-    thing = np.repeat(np.arange(len(reach)), wide * deep)
-    number = np.arange(len(thing)) - np.repeat(np.cumsum(wide * deep) - wide * deep, wide * deep)
-    place = first[thing] + np.stack([number % wide[thing], number // wide[thing]], axis=1)
+    first = np.clip(np.floor((low - reach) / cell).astype(np.int32), 0, side - 1)
+    last = np.clip(np.floor((high + reach) / cell).astype(np.int32), 0, side - 1)
+    thing, column, row = cells_between(first, last)
+    place = np.stack([column, row], axis=1)
     distance = np.maximum(np.maximum(place * cell - high[thing], low[thing] - (place + 1) * cell), 0.0)
     reached = np.square(distance).sum(axis=1) < np.square(reach[thing, 0])
-    return thing[reached], (place[:, 1] * side + place[:, 0])[reached]
+    return thing[reached], (row * side + column)[reached]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...components.arrays import Floats, Ints
+from ...engine.pair import cells_between
 from .trail import BEGUN, COLUMNS, FIRST, LAST, LEFT, REACH, SERIAL, Stretches, Trail
 
 SQUARE = 2.0
@@ -145,14 +146,7 @@ def touched_squares(stretches: Stretches) -> tuple[Ints, NDArray[np.uint16]]:
     reach = stretches[:, REACH, None]
     low = np.floor((np.minimum(stretches[:, FIRST], stretches[:, LAST]) - reach) / SQUARE).astype(np.int32)
     high = np.floor((np.maximum(stretches[:, FIRST], stretches[:, LAST]) + reach) / SQUARE).astype(np.int32)
-    wide, deep = (high - low + 1).T
-    squares_each = wide * deep
-    stretch_of_pair = np.repeat(np.arange(len(stretches), dtype=np.int32), squares_each)
-    begins = np.cumsum(squares_each, dtype=np.int32) - squares_each
-    square_in_stretch = np.arange(len(stretch_of_pair), dtype=np.int32) - begins[stretch_of_pair]
-    across = wide[stretch_of_pair]
-    row = square_in_stretch // across
-    x, z = low[:, 0][stretch_of_pair] + square_in_stretch - row * across, low[:, 1][stretch_of_pair] + row
+    stretch_of_pair, x, z = cells_between(low, high)
     return stretch_of_pair, ((z & (SIDE - 1)) * SIDE + (x & (SIDE - 1))).astype(np.uint16)
 
 
