@@ -111,7 +111,6 @@ class Smaller:
 
     def __init__(self, ctx: moderngl.Context, *, floats: bool = False) -> None:
         self._ctx, self._gl, self._floats = ctx, functions_of(ctx), floats
-        self._programs: dict[str, moderngl.Program] = {}
         self._passes: dict[str, moderngl.VertexArray] = {}
         self._buffers: dict[tuple[Size, Size], Buffers] = {}
         self._has_drawn = OcclusionQuery(ctx)
@@ -221,7 +220,8 @@ class Smaller:
 
     def release(self) -> None:
         """Release programs, vertex arrays, buffers and the query."""
-        release_all(*self._passes.values(), *self._programs.values(), *self._buffers.values(), self._has_drawn)
+        programs = [each.program for each in self._passes.values()]
+        release_all(*self._passes.values(), *programs, *self._buffers.values(), self._has_drawn)
 
     def _run(
         self, name: str, *, blending: tuple[int, int] | None = None, everywhere: bool = False, vertices: int = 3
@@ -244,12 +244,12 @@ class Smaller:
             for sort, name in TILED.items():
                 defines = {"TILED": 1, "DEEP": 1} if sort == DEEP else {"TILED": 1}
                 self._add(name, program(self._ctx, "engine/gl/tile.vert", "engine/gl/enlarge.frag", defines=defines))
-                self._programs[name]["sort"], self._programs[name]["tiles"] = sort, TILES_UNIT
+                self._passes[name].program["sort"], self._passes[name].program["tiles"] = sort, TILES_UNIT
         self._set_uniforms(TEXTURE_UNITS)
 
     def _add(self, name: str, made: moderngl.Program) -> None:
         """Add the program of a pass."""
-        self._programs[name], self._passes[name] = made, self._ctx.vertex_array(made, [])
+        self._passes[name] = self._ctx.vertex_array(made, [])
         self._uniforms.clear()
 
     def _is_obstructed(self, host: moderngl.Framebuffer) -> bool:
@@ -283,6 +283,6 @@ class Smaller:
         for name, value in values.items():
             if self._uniforms.get(name) != value:
                 self._uniforms[name] = value
-                for each in self._programs.values():
-                    if name in each:
-                        each[name] = value
+                for each in self._passes.values():
+                    if name in each.program:
+                        each.program[name] = value
