@@ -6,9 +6,9 @@ uniform vec2 profile[KINDS * (HEIGHTS + 1)];  // by kind and height: leaf area a
 const int LAYERS = 12;
 const vec2 LONE = vec2(0.9, 1.0);  // values of `below` between which lone heads above the canopy come to be met
 
-// Fraction of a kind's leaf area above a height, in canopy heights: of all organs, and of heads.
+// Fraction of a kind's leaf area above a height, in steps of its profile: of all organs, and of heads.
 vec2 profile_above(int kind, float height) {
-    float at = min(height / HIGHEST, 1.0) * float(HEIGHTS);
+    float at = min(height, float(HEIGHTS));
     int low = min(int(at), HEIGHTS - 1), entry = kind * (HEIGHTS + 1) + low;
     return mix(profile[entry], profile[entry + 1], at - float(low));
 }
@@ -52,13 +52,16 @@ ByKind kinds_met(ByKind densities, float slope, float cut_height, float below, o
     below /= mix(HIGHEST, 1.0, smoothstep(LONE.x, LONE.y, below));  // strips hide parts of the canopy, not of lone heads
     ByKind leaves = leaves_met(slope);
     vec2 above[KINDS];
-    for (int kind = 0; kind < KINDS; kind++)
-        above[kind] = profile_above(kind, top / OF(crown, kind));
+    float steps[KINDS];  // height of the top in steps of a kind's profile
+    for (int kind = 0; kind < KINDS; kind++) {
+        steps[kind] = top / OF(crown, kind) * (float(HEIGHTS) / HIGHEST);
+        above[kind] = profile_above(kind, steps[kind]);
+    }
     for (int layer = 1; layer <= LAYERS; layer++) {
         float part = float(layer) / float(LAYERS), to = 1.0 - part * part;
         ByKind stop = all_kinds(0.0), heads = stop;
         for (int kind = 0; kind < KINDS; kind++) {
-            vec2 above_here = profile_above(kind, to * top / OF(crown, kind)), here = above_here - above[kind];
+            vec2 above_here = profile_above(kind, to * steps[kind]), here = above_here - above[kind];
             above[kind] = above_here;
             OF(stop, kind) = here.x * OF(leaves, kind);
             OF(heads, kind) = here.y / max(here.x, THINNEST_LAYER);
