@@ -44,12 +44,6 @@ vec2 inside_tile(vec2 at) {
     return clamp(at, edge, 1.0 - edge);
 }
 
-// Coverage by the picture itself: beyond its edge texels are empty.
-float tile_cover(vec2 at) {
-    vec2 inside = clamp((0.5 - abs(at - 0.5)) / (texel_side * vec2(aspect, 1.0)) + TILE_EDGE, 0.0, 1.0);
-    return inside.x * inside.y;
-}
-
 #ifdef IN_ROWS
 const vec3 APART = vec3(0.618, 0.755, 0.57);  // steps of the random height, place and side from tree to tree in a row
 const vec3 ROWS_APART = vec3(7.0, 11.0, 13.0);  // and from row to row
@@ -81,6 +75,12 @@ void main() {
     pixel = vec4(leaves, mix(leaves * cast_shade.w, above, cast_shade.z), 0.0, 0.0);
 }
 #else
+// Coverage by the picture itself: beyond its edge texels are empty.
+float tile_cover(vec2 at) {
+    vec2 inside = clamp((0.5 - abs(at - 0.5)) * picture_texels * finer_texel + TILE_EDGE, 0.0, 1.0);
+    return inside.x * inside.y;
+}
+
 // Position on the picture before the wind displaced it.
 vec2 undisplaced(vec2 at) {
     vec2 aside = motion.y * at.y * sin(limb_phases + SHIMMER_TURNS * at.yx);
@@ -89,8 +89,6 @@ vec2 undisplaced(vec2 at) {
     return at + vec2(aspect, 1.0) * aside;
 }
 
-const float PLAINER = 2.0;     // loss of bark's detail with each coarser level, which is read sharper than pixels are,
-const float PLAIN_FROM = 0.5;  // from this level on: there, pictures have 180 texels up
 const float CLUMP = 7.0;       // width of a clump of leaves [texels]
 const mat2 CLUMPS = mat2(0.857, 0.515, -0.515, 0.857) / CLUMP;  // matrix from texels to noise: it lies askew, so that cells are cut both ways
 const float CLUMPS_FINER = log2(CLUMP / NOISE_FINER);  // levels by which texels of noise are larger than a picture's
@@ -124,13 +122,10 @@ void main() {
     vec2 at = undisplaced(own_picture());
     float clump = clump_random(at);
     mix_pictures(inside_tile(at), clump_shares(clump), texel, shading);
-    float own = tile_cover(at);
-    texel *= own;
-    shading *= own;
-    float whole = 1.0 / max(texel.a, LEAST_COVER);
+    float whole = 1.0 / max(texel.a, LEAST_COVER), own = tile_cover(at);
     shading *= whole;
-    float missing = 1.0 - clump_left(clump, shading);
-    float leaves = texel.a - texel.g, stems = texel.g + BARE * missing * leaves, all = leaves * (1.0 - missing) + stems;
+    float missing = 1.0 - clump_left(clump, shading), leaves = own * (texel.a - texel.g);
+    float stems = own * texel.g + BARE * missing * leaves, all = leaves * (1.0 - missing) + stems;
     float cover = 1.0 - pow(max(1.0 - all, 0.0), sun_radiance.a);  // twigs that are still drawn cover the rest
     float wood = stems / max(all, LEAST_COVER);
     discard_uncovered(cover);
@@ -138,8 +133,7 @@ void main() {
     vec3 sky = hemisphere_light(sky_radiance.rgb, below, open, sky_radiance.a * (1.0 - wood));
     Light light = Light((sun_radiance.rgb + wood_gain.rgb * wood) * seen, sky, haze_colour, 0.0, 0.0, vec2(0.0));
     float aged = bark_age(wood_gain.a * texel.b / max(texel.g, LEAST_COVER));
-    float tone = texel.r * whole, plain = PLAINER * max(motion.w - PLAIN_FROM, 0.0);
-    float worn = mix(1.0, 2.0 * tone, wood / (1.0 + plain));  // of bark too: 0.5 is the mean
+    float tone = texel.r * whole, worn = mix(1.0, 2.0 * tone, wood * rugged);  // of bark too: 0.5 is the mean
     vec3 pigment = pigment_of(tone, wood, soil_tone(on.z * grass_scale) * worn * mix(young_bark, old_pigment, aged));
     pixel = output_colour(shade(Surface(pigment, 1.0, LEAF_SCATTERING), light), cover);
 }

@@ -20,6 +20,8 @@ flat PASSED vec3 below;
 flat PASSED vec3 haze_colour;
 flat PASSED vec3 old_pigment;     // mean pigment of its old bark
 flat PASSED vec2 picture_texels;  // size of its pictures, across and up [texels]
+flat PASSED float finer_texel;     // size of its finest texels, relative to the coarser ones that are read
+flat PASSED float rugged;         // part of the detail of its bark that shows in these
 flat PASSED vec2 limb_phases;     // phases of its limbs' swing, along and across its picture [rad]
 flat PASSED vec3 clump_progress;  // progress of clumps of leaves from the first picture to the second, both ways, and their spread
 flat PASSED float grass_scale;    // its height, relative to that of the grass about its foot

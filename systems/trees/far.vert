@@ -10,7 +10,11 @@
 #include "systems/trees/normals.glsl"
 #endif
 
+#if defined(IN_ROWS) || defined(CAST)
 in float columns; // number of trees in the row that it stands for
+#else
+const float columns = 1.0;  // no tree stands for more, or IN_ROWS would be defined
+#endif
 in float opacity; // by its ring
 
 uniform float lines; // height of its model's pictures [texels]
@@ -31,6 +35,8 @@ const float OVERHEAD = 0.999;  // sine of the elevation from which on a tree cou
 const vec2 SHIMMER_HERTZ = vec2(1.7, 1.3);  // frequencies of limbs along and across a picture [Hz]
 const float CLUMP_CHANGE = 0.25;  // part of the angle from one picture to the next over which a clump of leaves gives way
 const float CHANGE_PER_LEVEL = 2.0;      // growth of that part with each mip level, until a pixel is many clumps
+const float PLAINER = 2.0;     // loss of bark's detail with each coarser level, which is read sharper than pixels are,
+const float PLAIN_FROM = 0.5;  // from this level on: there, pictures have 180 texels up
 const float SHIMMER = 0.12;  // apparent amplitude of limbs, relative to their own, on a picture
 const float UPRIGHT_RADIANCE = 0.25;  // radiance of an upright stem under level light from behind the eye, per half turn of its side [1/rad]
 
@@ -106,6 +112,8 @@ void write_flat() {
     float way = CLUMP_CHANGE + CLUMP_CHANGE * CHANGE_PER_LEVEL * motion.w;
     clump_progress = vec3((1.0 + way) * mix_shares, 1.0) / way;
     limb_phases = AROUND * (SHIMMER_HERTZ * moment + motion.x) + vec2(0.0, 1.0);
+    finer_texel = 1.0 / (texel_side * lines);
+    rugged = 1.0 / (1.0 + PLAINER * max(motion.w - PLAIN_FROM, 0.0));
     picture_texels = lines * vec2(1.0 / aspect, 1.0);
     old_pigment = old_bark_mean();
     grass_scale = tall * scale / grass_about.x;
