@@ -56,8 +56,8 @@ void main() {
 #ifdef HEADS
     boost = mix(boost, heads, head_part(texel.r / max(texel.a, LEAST_PAINT)));
 #endif
-    float painted = min(texel.a * boost, 1.0), covered = root_pigment.a * painted;
-    if (covered < FAINT) {
+    float painted = min(texel.a * boost, 1.0), opacity = root_pigment.a;
+    if (opacity * painted < FAINT) {
 #ifdef DEEP
         discard;
 #endif
@@ -86,7 +86,7 @@ void main() {
     if (cut.w > 0.5) {
         float top = cut_height_at(roots.xy);
         light = light_when_cut(top, light, int(cut.x), leaf_areas(density_at(roots.xy)));
-        covered *= part_below(top);
+        opacity *= part_below(top);
     }
 #endif
 #ifdef DEEP
@@ -96,9 +96,10 @@ void main() {
 #endif
 #ifdef THIN
     float rank = textureLod(ranks, vec3(uv.xy, page), level).r / max(texel.a, LEAST_PAINT);
-    covered *= at_density(painted, rank, level) / max(painted, LEAST_PAINT);
-    covered *= clamp(grain_cos.a * rank + grain_sin.a, 0.0, 1.0) * clamp(form_fade.x * rank + form_fade.y, 0.0, 1.0);
+    painted = at_density(painted, rank, level);
+    opacity *= clamp(grain_cos.a * rank + grain_sin.a, 0.0, 1.0) * clamp(form_fade.x * rank + form_fade.y, 0.0, 1.0);
 #endif
+    float covered = opacity * painted;
 #ifdef DEEP
     if (covered < depth_threshold(number, clamp(level - WHOLE_TEXELS, 0.0, 1.0)))
         discard;
