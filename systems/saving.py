@@ -13,7 +13,7 @@ from ..components.presser import Presser
 from ..components.tree import Tree
 from ..components.wind import WindPrimitive, WindSource
 from ..engine.declared.scene import Reading
-from ..engine.handed import is_somewhere, must_be_a, to_microseconds
+from ..engine.handed import is_somewhere, must_be_a, must_be_flags, to_microseconds
 from ..engine.plugins import wind_kinds
 from ..engine.scene import LoadedScene
 from ..engine.stored import refuse, unfit
@@ -102,10 +102,11 @@ class Saving:
         """Restore a state except for its kinds of grass; return its time [s], a mapping of entities, and these kinds.
 
         The mapping gives the present entity of each of the game's entities in the state; `there` are those that exist
-        already. Raises what `unpacked` raises, TypeError if `there` is no mapping, and ValueError for a state of
-        another scene or with anything that has no place in this one; then nothing has changed. If `partly`, such things
-        are left out, and logged.
+        already. Raises what `unpacked` raises, TypeError if `there` is no mapping or `partly` no bool, and ValueError
+        for a state of another scene or with anything that has no place in this one; then nothing has changed. If
+        `partly`, such things are left out, and logged.
         """
+        must_be_flags(partly=partly)
         existing = {} if there is None else there
         must_be_a(Mapping, existing, "entities are a mapping, of those in the state to yours")
         reading = Reading(wind=wind_kinds().find, folder=loaded.folder)

@@ -386,6 +386,11 @@ def test_entities_that_are_no_mapping_are_refused(prairie: Prairie) -> None:
         prairie.restore(prairie.state(), 3)  # type: ignore[arg-type]
 
 
+def test_a_state_is_restored_partly_or_not(prairie: Prairie) -> None:
+    with pytest.raises(TypeError, match=r"^partly is True or False, not 'yes'$"):
+        prairie.restore(prairie.state(), partly="yes")  # type: ignore[arg-type]
+
+
 def test_heights_too_large_for_single_precision_are_told_as_what_they_are(prairie: Prairie) -> None:
     with pytest.raises(ValueError, match=r"not numbers as large as 1e\+300$"):
         prairie.set_heights((0.0, 0.0), np.full((2, 2), 1e300))
