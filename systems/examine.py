@@ -54,19 +54,24 @@ def mown_of(state: State, plots: Plots, /) -> tuple[Ints, Floats]:
 def sown_of(state: State, density: Density, loaded: LoadedScene, /) -> tuple[Ints, Bytes]:
     """Return the plots that are sown, (n, 3), and the densities on their pages of the scene's kinds.
 
-    Kinds that the state does not have keep the densities of their maps. The scene has all kinds of the state. Raises
-    ValueError for what cannot be.
+    Kinds that the state does not have keep the densities of their maps, and so does ground where a kind grew that the
+    scene does not have. Raises ValueError for what cannot be.
     """
     found, plots, kinds = state.sown_densities, density.sown, loaded.scene.grass
     where = _plots(state.sown, plots, len(found))
     if not len(found):
         return where, plots.pages[:0]
     then = state.scene.grass
+    if found.shape[-1] != len(then):
+        refuse("its sown densities are not those of its scene's kinds")
     if then == list(kinds):
         return where, found
+    known = [name for name in then if name in kinds]
+    order = [then.index(name) for name in [*known, *(name for name in then if name not in kinds)]]
     land = cast(Terrain, density.land)
-    painted = load_density({name: kinds[name] for name in then}, land, loaded.folder, loaded.pictures)
-    return carried(where, found, painted, density, [then.index(name) if name in then else None for name in kinds])
+    painted = load_density({name: kinds[name] for name in known}, land, loaded.folder, loaded.pictures)
+    old_kinds = [known.index(name) if name in known else None for name in kinds]
+    return carried(where, found[..., order], painted, density, old_kinds)
 
 
 def _plots(where: Ints, plots: Plots, pages: int) -> Ints:

@@ -4,10 +4,11 @@ from collections import Counter
 from collections.abc import Collection, Sequence
 from typing import Any
 
+import numpy as np
+
 from ..components.arrays import Floats, Ints, Place
 from ..components.wind import WindPrimitive, WindSource
 from ..engine.declared.scene import Reading
-from ..engine.stored import refuse
 from ..engine.terrain.plots import Plots
 from .fitting import lies_alike, scene_of
 from .pressers import Pressers
@@ -86,20 +87,13 @@ def _within(where: Ints, plots: Plots) -> Ints:
 
 
 def _with_kinds(state: State, names: Collection[str]) -> Refitted:
-    """Leave out changes of kinds of grass that a scene does not have, and what is sown or cleared with them."""
-    then, densities = state.scene.grass, state.sown_densities
+    """Leave out changes of kinds of grass that a scene does not have; name those on plots that are sown or cleared."""
+    densities = state.sown_densities
     lost = [f"the change of the grass '{each.name}'" for each in state.seasons if each.name not in names]
-    state = _changed(state, seasons=[each for each in state.seasons if each.name in names])
-    if len(densities):
-        if densities.shape[-1] != len(then):
-            refuse("its sown densities are not those of its scene's kinds")
-        lost += _named("what is sown or cleared with the grass", [name for name in then if name not in names])
-        kept = [number for number, name in enumerate(then) if name in names]
-        scene = state.scene.model_copy(update={"grass": [then[number] for number in kept]})
-        state = _changed(state, scene=scene, sown_densities=densities[..., kept])
-        if not kept:
-            state = _changed(state, sown=state.sown[:0], sown_densities=densities[:0])
-    return state, lost
+    pairs = zip(state.scene.grass, np.moveaxis(densities, -1, 0), strict=False)
+    gone = [name for name, pages in pairs if name not in names and pages.any()]
+    lost += _named("what is sown where there was the grass", gone)
+    return _changed(state, seasons=[each for each in state.seasons if each.name in names]), lost
 
 
 def _with_winds(state: State, winds: Sequence[WindPrimitive], reading: Reading) -> Refitted:

@@ -52,8 +52,8 @@ def load_density(
     densities = np.empty((len(kinds), rows, columns), np.float32)
     for number, name in enumerate(kinds):
         densities[number] = _enlarged(painted[name], rows, columns) if name in painted else 1.0
-    placed = np.array([name in painted for name in kinds])
-    among = np.array([kind.plant == "flower" for kind in kinds.values()])
+    placed = np.array([name in painted for name in kinds], np.bool_)
+    among = np.array([kind.plant == "flower" for kind in kinds.values()], np.bool_)
     placed, others = placed & ~among, ~(placed | among)
     densities[placed] /= np.maximum(densities[placed].sum(axis=0), np.float32(1.0))
     if others.any():

@@ -168,6 +168,6 @@ class Density:
 
     def __post_init__(self) -> None:
         """Find `even`, and begin with nothing sown."""
-        flat = self.maps.reshape(len(self.maps), -1)
-        self.even = flat[:, 0].copy() if (flat == flat[:, :1]).all() else None
+        first = self.maps[:, :1, :1]
+        self.even = first[:, 0, 0].copy() if (self.maps == first).all() else None
         self.sown = Plots(self.size, np.dtype(np.uint8), (len(self.maps),))

@@ -60,16 +60,21 @@ def carried(
     """Convert plots (n, 3) and pages, as `Plots.saved` returns them, from the kinds of `before` to those of `after`.
 
     Cells that equal their painted densities get the new painted ones. All others keep their densities, without new
-    kinds, whose entry in `old_kinds` is None.
+    kinds, whose entry in `old_kinds` is None. Pages may have more kinds than `before`, after its own, whose painted
+    densities nobody knows: then cells where one of these grows get the new painted densities, and bare ones stay bare.
     """
     where, new_pages, page_numbers = where.copy(), list[Bytes](), dict[bytes, int]()
     known = [number for number, old in enumerate(old_kinds) if old is not None]
     olds = [old for old in old_kinds if old is not None]
+    count = len(before.maps)
     for number, (row, column, page) in enumerate(where.tolist()):
-        plot = Rectangle(row * CELLS, column * CELLS, CELLS, CELLS)
-        as_painted = (pages[page] == painted_densities(before, plot)).all(axis=2, keepdims=True)
+        plot, cells = Rectangle(row * CELLS, column * CELLS, CELLS, CELLS), pages[page]
+        as_painted = (cells[..., :count] == painted_densities(before, plot)).all(axis=2, keepdims=True)
+        if count < cells.shape[2]:
+            as_painted |= cells[..., count:].any(axis=2, keepdims=True)
+            as_painted &= cells.any(axis=2, keepdims=True)
         values = np.where(as_painted, painted_densities(after, plot), np.uint8(0))
-        values[..., known] = np.where(as_painted, values[..., known], pages[page][..., olds])
+        values[..., known] = np.where(as_painted, values[..., known], cells[..., olds])
         where[number, 2] = page_numbers.setdefault(values.tobytes(), len(new_pages))
         if where[number, 2] == len(new_pages):
             new_pages.append(values)
