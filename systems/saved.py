@@ -19,6 +19,7 @@ from ..components.tree import Tree
 from ..engine.declared.light import Light
 from ..engine.stored import AS_FIELDS, Stored, Time, refuse
 from ..engine.terrain.plots import CELLS
+from ..engine.zipped import zipped
 from .light.shining import Way
 from .pressers import Treading
 from .seasons import SavedSeason
@@ -148,10 +149,10 @@ class State(Declaration):
 
 def packed(state: State, /) -> bytes:
     """Return a state as bytes: magic bytes, a checksum, the version, and the compressed rest."""
-    arrays, file = list[np.ndarray[Any, Any]](), BytesIO()
+    arrays = list[np.ndarray[Any, Any]]()
     head = np.frombuffer(state.model_dump_json(context=arrays).encode(), np.uint8)
-    np.savez(file, *arrays, allow_pickle=False, head=head)
-    body = FORMAT.to_bytes(2) + compress(file.getvalue(), 6)
+    named = {"head": head} | {f"arr_{number}": array for number, array in enumerate(arrays)}
+    body = FORMAT.to_bytes(2) + compress(zipped(named), 6)
     return MAGIC + blake2b(body, digest_size=_DIGEST).digest() + body
 
 

@@ -8,15 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...engine.zipped import zipped
 from ..grow.record import Blades, Growth, PatchModel, Postures, Response
 from ..show.registry import REPRESENTATIONS
 
 
 def pack(growth: Growth, /) -> bytes:
-    """Return a growth as the bytes of a file of numpy's `savez`."""
-    file = BytesIO()
-    np.savez(file, allow_pickle=False, **_flatten(growth, "growth"))
-    return file.getvalue()
+    """Return a growth as the bytes of a file such as numpy's `savez` writes."""
+    return zipped(_flatten(growth, "growth"))
 
 
 def unpack(data: bytes | memoryview, /) -> Growth:

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...components.arrays import Bytes
 from ...engine.kept import code_hash, keep, kept, key_of
+from ...engine.zipped import zipped
 
 SUFFIX = ".trees"
 
@@ -51,7 +52,5 @@ def keep_pictures(key: str, pictures: list[Picture], /) -> None:
     shown = [*pictures[0][0][::2], *(levels[0] for levels in pictures[1::2])]
     if not all(texels[..., 3].any() for texels in shown):
         return
-    file = BytesIO()
     levels = {f"{one}.{level}": texels for one, each in enumerate(pictures) for level, texels in enumerate(each)}
-    np.savez(file, allow_pickle=False, **levels)
-    keep(key, SUFFIX, compress(file.getvalue(), QUICKLY), most=MOST)
+    keep(key, SUFFIX, compress(zipped(levels), QUICKLY), most=MOST)
