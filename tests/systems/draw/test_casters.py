@@ -36,7 +36,7 @@ def sunny() -> NDArray[np.void]:
 
 
 def gap(places: Array) -> tuple[Array, Array]:
-    """Return the distances of the rays from places to the sun from a capsule, and how far along they are nearest [m]."""
+    """Return how far the rays from places to the sun pass from a capsule, and how far along they do so [m]."""
     axis = np.linspace(-1.0, 1.0, 201)[:, None] * (HEIGHT / 2.0 - RADIUS) * UP + MIDDLE
     apart = axis - places[:, None]
     along = np.maximum(apart @ SUN, 0.0)
