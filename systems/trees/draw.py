@@ -231,9 +231,7 @@ class TreePart(Part):
             self._detail_eye = eye
         clip = record["clip"].reshape(4, 4).T.astype(np.float64)
         focal = float(record["half_screen"][1] * np.linalg.norm(clip[1, :3]))
-        detail_eyes: Sequence[Point | Doubles] = (self._detail_eye,) if self.held else ()
-        if self.leaves_from is not None and self.detail_eyes:
-            detail_eyes = self.detail_eyes
+        detail_eyes = self.detail_eyes or ((self._detail_eye,) if self.held else ())
         patch, centre = float(record["patch_side"]), outlook.viewer.centre
         reach = self._reach(outlook)
         sides, leaves_from = outlook.viewer.sides, self.leaves_from

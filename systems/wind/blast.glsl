@@ -4,15 +4,12 @@ const float PULSE = 0.14, AT_ONCE = 1.5, SOFT_RIM = 0.45, TURN = 6.2831853071795
 
 // Depth inside the outline [m], and the direction outwards.
 vec3 outline_at(vec2 place, Blast blast) {
-    float stride = blast.stride;
-    vec2 away = (place - blast.corner) / stride;
-    vec2 at = clamp(away, vec2(0.0), blast.last);
+    vec2 at = clamp((place - blast.corner) / blast.stride, vec2(0.0), blast.last);
     ivec2 low = ivec2(at);
-    vec2 part = at - vec2(low), beyond = abs(away - at);
+    vec2 part = at - vec2(low);
     vec3 far = mix(sheet(blast.wind, 0, low).xyz, sheet(blast.wind, 0, low + ivec2(1, 0)).xyz, part.x);
     vec3 near = mix(sheet(blast.wind, 0, low + ivec2(0, 1)).xyz, sheet(blast.wind, 0, low + ivec2(1, 1)).xyz, part.x);
-    vec3 found = mix(far, near, part.y);
-    return max(beyond.x, beyond.y) > 1.0 ? vec3(-stride, found.yz) : found;
+    return mix(far, near, part.y);
 }
 
 float mask(vec2 place, Blast blast) {

@@ -59,8 +59,7 @@ class Outline:
         near = flat.take(first, axis=0)
         near += s * (flat.take(first + 1, axis=0) - near)
         found = far + t * (near - far)
-        beyond = np.abs(grid - inside).max(axis=1) > 1.0
-        return np.where(beyond, -np.float32(self.step), found[:, 0]), found[:, 1:]
+        return found[:, 0], found[:, 1:]
 
 
 @lru_cache(maxsize=256)

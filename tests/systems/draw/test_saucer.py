@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from tallgrass.systems.bodies.fly import LEVEL_RADIUS, LOWEST, level
 from tallgrass.systems.bodies.saucer import FIN, RADIUS, borders, face_normals, saucer
 
 Mesh = tuple[NDArray[np.void], NDArray[np.int32]]
@@ -73,3 +74,21 @@ def test_every_edge_that_can_be_an_outline_has_a_border(mesh: Mesh) -> None:
     toward = seen_from - quads["place"][:, 0]
     sides = [(quads[name][:, 0] * toward).sum(axis=1) > 0.0 for name in ("side", "beyond")]
     assert np.abs(int((sides[0] != sides[1]).sum()) - outline) <= 2
+
+
+def test_r4_a_saucer_keeps_above_the_mean_of_the_grass_within_a_radius_and_clear_of_the_highest() -> None:
+    asked: list[NDArray[np.float32]] = []
+
+    def sloping(xz: NDArray[np.float32]) -> NDArray[np.float32]:
+        asked.append(xz)
+        return np.asarray(0.5 + 0.1 * xz[:, 0] - 0.2 * xz[:, 1], np.float32)
+
+    assert level(7.0, -2.0, sloping, height=2.0) == pytest.approx(0.5 + 0.7 + 0.4 + 2.0, abs=1e-5)
+    away = np.hypot(*(asked[0] - (7.0, -2.0)).T)
+    assert away.max() == pytest.approx(LEVEL_RADIUS, rel=1e-5)
+    assert (np.abs(away - 0.5 * LEVEL_RADIUS) < 0.1 * LEVEL_RADIUS).sum() >= 4
+
+    def spiked(xz: NDArray[np.float32]) -> NDArray[np.float32]:
+        return np.where(np.arange(len(xz)) == 3, np.float32(9.0), np.float32(0.0))
+
+    assert level(0.0, 0.0, spiked, height=2.0) == 9.0 + LOWEST

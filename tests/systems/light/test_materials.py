@@ -187,3 +187,38 @@ def test_f6_grass_that_lies_shows_its_faces_to_the_sky_and_most_to_an_eye_that_i
         assert aside > 1.05 * upright
         assert away > 1.05 * aside
         assert towards < 0.95 * aside
+
+
+SHADED = """#include "lib/surface.glsl"
+in vec4 row;  // visibility of the sun; its part of the light from sun and lamps; part that something lets through; haze
+out vec3 told;
+void main() {
+    Light light = Light(vec3(0.8), vec3(0.3), vec3(0.0), 0.5, 0.6, vec2(0.4, 1.1));
+    if (row.w > 0.0)
+        light = hazed(light, eye + vec3(0.0, 0.0, -1.0 / row.w));
+    told = shade(leaf_surface(vec3(0.6), 0.5), shadowed(light, row.x, row.y), row.z);
+}"""
+
+
+def test_f10_in_full_shadow_light_of_sky_and_lamps_is_left_and_none_of_the_sun(probe: Probe) -> None:
+    record = np.zeros(1, FRAME)
+    record["sunlight"], record["crown"] = 1.0, 0.5
+
+    def at(seen: float, suns: float, passes: float = 1.0) -> float:
+        return float(probe(SHADED, np.array([(seen, suns, passes, 0.0)], np.float32), record, {}, 3)[0, 0])
+
+    lit, sky, lamps = at(1.0, 1.0), at(0.0, 1.0), at(0.0, 0.25)
+    assert at(1.0, 1.0, 0.0) == pytest.approx(sky, rel=1e-5)
+    assert at(0.5, 1.0) == pytest.approx(0.5 * (lit + sky), rel=1e-5)
+    assert sky < lamps < lit
+    record["sunlight"] = 0.0  # a lamp's light is mirrored by nothing
+    assert at(0.0, 0.25) == pytest.approx(lamps, rel=1e-5)
+    assert at(1.0, 1.0) < 0.9 * lit
+
+
+def test_haze_dims_all_light_of_a_surface_alike(probe: Probe) -> None:
+    record, rows = np.zeros(1, FRAME), np.zeros((2, 4), np.float32)
+    record["sunlight"], record["crown"], record["haze_density"] = 1.0, 0.5, 0.01
+    rows[:, :3], rows[1, 3] = 1.0, 0.01
+    near, far = probe(SHADED, rows, record, {}, 3)[:, 0]
+    assert far == pytest.approx(near * np.exp(-1.0), rel=0.01)
