@@ -5,8 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tallgrass import Lamp
+from tallgrass import Lamp, Shade
+from tallgrass.systems.lamps.card import SHADOW_DISTANCE, visible_shades
 from tallgrass.systems.lamps.listed import MOST_ENTRIES, SIDE, grid_of
+from tallgrass.systems.shadows.shades import shade_texels
 
 
 @given(st.integers(1, 256), st.floats(0.1, 900.0), st.floats(0.0, 3000.0), st.integers(0, 2**32 - 1))
@@ -29,6 +31,23 @@ def test_everything_that_reaches_a_place_is_in_its_cells_list(count: int, far: f
         number = cell[1] * grid.side + cell[0]
         those = grid.things[grid.first[number] : grid.first[number] + grid.count[number]]
         assert set(np.flatnonzero(near)) <= set(those.tolist())
+
+
+EVERYWHERE = np.array([(0.0, 0.0, 0.0, 1e6)])
+"""Planes of a frustum that holds everything."""
+
+
+@pytest.mark.parametrize("way", [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
+def test_shadows_beyond_a_distance_are_left_out_whichever_way_they_lie(way: tuple[float, float]) -> None:
+    sun, eye = np.array([0.6, 0.64, 0.48], np.float32), (300.0, 2.0, -40.0)
+    away = SHADOW_DISTANCE * np.array([0.5, 0.97, 1.03, 2.0])
+    shades = [Shade((eye[0] + off * way[0], 3.0, eye[2] + off * way[1]), 1.0) for off in away.tolist()]
+    found = visible_shades(shade_texels(shades), sun, 0.0, EVERYWHERE, eye)
+    assert found is not None
+    texels, grid = found
+    assert texels[:, 0, :3].tolist() == shade_texels(shades[:2])[:, 0, :3].tolist()
+    assert set(grid.things.tolist()) == {0, 1}
+    assert visible_shades(shade_texels(shades[2:]), sun, 0.0, EVERYWHERE, eye) is None
 
 
 @pytest.mark.parametrize(

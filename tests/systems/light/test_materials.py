@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from tallgrass.engine.declared.grass import GrassKind
+from tallgrass.engine.declared.grass import GrassKind, Profile
 from tallgrass.engine.declared.light import Light
 from tallgrass.engine.declared.plant import Head
 from tallgrass.engine.declared.quality import PRESETS
@@ -16,6 +16,7 @@ from tallgrass.systems.frame.block import FRAME
 from tallgrass.systems.grow.bend import profile, ribbon
 from tallgrass.systems.grow.raster import rasterise, ribbon_triangles
 from tallgrass.systems.grow.record import Growth
+from tallgrass.systems.land.record import Figures, figures_of
 from tallgrass.systems.light.daylight import daylight
 from tallgrass.systems.light.materials import bloom, grain, leaves_of, pigment, understorey, undertone
 from tallgrass.systems.space.canopy import canopy_height
@@ -97,6 +98,30 @@ def test_f10_light_reaches_into_the_canopy_as_rays_through_its_blades_do(
         apart = np.abs(closed_form(probe, kind, growth, elevation, density) - rays)
         assert apart.max() < 0.045, elevation
         assert apart.mean() < 0.02, elevation
+
+
+@pytest.mark.parametrize("section", ["blade", "rush"])
+def test_on_twice_the_side_as_many_leaves_cover_a_quarter_of_the_ground(section: Profile) -> None:
+    kind = GrassKind(profile=section)
+    growth = grow(kind, FEW, seed=3)
+    near, wide = leaves_of(kind, growth, PATCH), leaves_of(kind, growth, 2.0 * PATCH)
+    assert (wide.side, wide.above) == pytest.approx((near.side / 4.0, near.above / 4.0))
+    assert 0.0 < near.above < near.side
+
+
+def test_figures_of_a_kind_that_changes_go_from_its_own_to_those_that_it_will_have(
+    grown: tuple[GrassKind, Growth],
+) -> None:
+    kind = GrassKind(height=[0.2, 0.3], stiffness=2.0)
+    before, after = figures_of(*grown, PATCH), figures_of(kind, grow(kind, FEW, seed=3), PATCH)
+
+    def numbers(figures: Figures) -> NDArray[np.floating]:
+        return np.array([figures.crown, figures.leaves.side, figures.leaves.above, figures.bloom, *figures.give])
+
+    for fraction in (0.0, 0.3, 1.0):
+        due = (1.0 - fraction) * numbers(before) + fraction * numbers(after)
+        np.testing.assert_allclose(numbers(before.toward(after, fraction)), due, atol=1e-6)
+    assert np.abs(numbers(after) - numbers(before)).max() > 0.1
 
 
 def test_a_blade_is_narrower_where_it_leaves_the_ground_and_ends_in_a_tip() -> None:

@@ -172,6 +172,17 @@ def test_of_a_large_forest_trees_near_viewers_are_entities_and_those_farther_off
         assert {(pose.x, pose.z) for _, (_, pose) in esper.get_components(Tree, Pose)} == near
 
 
+def test_what_another_thread_has_grown_about_an_eye_is_there_when_a_frame_asks_for_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    forest, eye = Forest(grown(birch=kind(density=30.0)), [NOBODY]), (10.0, 2.0, -20.0)
+    due = len(forest.around(eye, []))
+    again = Forest(grown(birch=kind(density=30.0)), [NOBODY])
+    again.grow_about(eye)
+    monkeypatch.setattr(again, "_trees_on", None)
+    assert len(again.around(eye, [])) == due > 0
+
+
 def test_what_is_felled_and_changed_of_a_large_forest_stays_so_and_states_know_it() -> None:
     with little_prairie(scene=LARGE) as prairie:
         trees = feature_of(Trees, prairie.features)
