@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+import pytest
 
 from tallgrass.components.viewer import Viewer
 from tallgrass.systems.around.outlook import Outlook
@@ -46,14 +47,18 @@ class Choosy(StripRepresentation):
         return rows == 3
 
 
-def test_f2_a_representation_passes_patches_that_it_would_not_do_for_on_to_the_next() -> None:
+@pytest.mark.parametrize(("nearest", "passes"), [(2, [3]), (0, [3]), (-2, [])])
+def test_f2_a_representation_passes_patches_that_it_would_not_do_for_on_to_the_next_unless_it_replaces_all(
+    nearest: int, passes: list[int]
+) -> None:
+    reach = nearest, *REACH[1:]
     outlook = Outlook(Viewer(jumped=False), 0, PatchTable.allocate(3, NAMES))
     outlook.patches.away[:] = np.arange(9)
     outlook.patches.visible[:] = True
-    ChooseLevels([outlook], REACH).run()
+    ChooseLevels([outlook], reach).run()
     alone = outlook.patches.wanted.copy()
     first, _, last = (object.__new__(each) for each in REPRESENTATIONS)
-    ChooseLevels([outlook], REACH, (first, object.__new__(Choosy), last)).run()
-    assert np.flatnonzero(outlook.patches.wanted != alone).tolist() == [3]
+    ChooseLevels([outlook], reach, (first, object.__new__(Choosy), last)).run()
+    assert np.flatnonzero(outlook.patches.wanted != alone).tolist() == passes
     assert alone[3] == STRIPS
-    assert outlook.patches.wanted[3] == CARPET
+    assert outlook.patches.wanted[3] == (CARPET if passes else STRIPS)

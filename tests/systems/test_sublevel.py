@@ -109,6 +109,17 @@ def test_n2_what_is_left_of_strips_does_not_jump_where_the_eye_crosses_a_border(
     np.testing.assert_array_equal(kept[0], kept[1])
 
 
+def test_strips_that_replace_all_other_grass_are_shown_from_above_too(laid: Laid, look: Look) -> None:
+    kept = []
+    for lod in ("auto", "strips"):
+        site = laid(lod=lod)
+        outlook = look(site, 0.6, 0.6, up=6.0)
+        near = np.flatnonzero(outlook.patches.alive & (outlook.patches.distance <= 1))
+        kept.append(strips_kept(outlook, near, site.representations, patch=site.ground.patch))
+    assert kept[0].max() < 0.5
+    assert kept[1].min() == 1.0
+
+
 def test_g3_a_long_lens_shows_rows_of_strips_only_where_blades_look_as_thin(laid: Laid, look: Look) -> None:
     bowl = 0.012 * (40.0 - np.arange(81.0)[:, None]) ** 2
     site = laid(terrain=Terrain(np.tile(bowl, 81).astype(np.float32), 1.0))

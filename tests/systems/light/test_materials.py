@@ -247,3 +247,21 @@ def test_haze_dims_all_light_of_a_surface_alike(probe: Probe) -> None:
     rows[:, :3], rows[1, 3] = 1.0, 0.01
     near, far = probe(SHADED, rows, record, {}, 3)[:, 0]
     assert far == pytest.approx(near * np.exp(-1.0), rel=0.01)
+
+
+HAZE = """#include "lib/haze.glsl"
+in vec4 row;
+out vec3 told;
+void main() { told = haze_radiance(eye + row.xyz); }"""
+
+
+def test_f5_the_steeper_one_looks_down_the_less_the_azimuth_counts_for_the_haze(probe: Probe) -> None:
+    record, angles = np.zeros(1, FRAME), np.radians([0.0, 90.0, 180.0, 270.0])
+    record["sun"], record["horizon"][0, :, :3] = (0.8, 0.6, 0.0), [[1.0], [0.5], [0.2], [0.3]]
+    level = np.column_stack([np.cos(angles), 0.0 * angles, np.sin(angles), 0.0 * angles])
+    spread = [
+        np.ptp(probe(HAZE, (7.0 * level - (0.0, down, 0.0, 0.0)).astype(np.float32), record, {}, 3)[:, 0])
+        for down in (0.0, 7.0, 70.0, 7000.0)
+    ]
+    assert spread[0] > 1.3 * spread[1] > 5.0 * spread[2] > 0.0
+    assert spread[3] < 0.002
