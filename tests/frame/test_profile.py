@@ -12,7 +12,7 @@ from tallgrass.engine.gl.stream import release_all
 from tallgrass.systems.frame.block import FrameBlock
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import draw_truth
-from tallgrass.systems.show.blades.draw import Ribbons, own_segment_defines
+from tallgrass.systems.show.blades.draw import USUAL, Ribbons, own_segment_defines
 from tallgrass.systems.show.blades.painter import BladesPainter
 from tallgrass.systems.show.blades.pool import BLADE
 from tallgrass.testing import Stage
@@ -150,7 +150,17 @@ def test_g5_joints_slide_only_between_rings_whose_blades_have_other_segments(
     block = FrameBlock(ctx)
     block.defines.update(own_segment_defines([own or None]))
     ribbons = Ribbons(ctx, block, rings, {}, soft=True, parted=True)
-    assert all(("#define SLIDES" in each.vertex) is slide for each in ribbons.texts())
+    assert [("#define SLIDES" in each.vertex) for each in ribbons.texts()] == [slide, slide]
+    release_all(ribbons, block)
+
+
+def test_sources_of_programs_are_told_until_they_are_made(ctx: moderngl.Context) -> None:
+    block = FrameBlock(ctx)
+    ribbons = Ribbons(ctx, block, [3], {}, soft=True)
+    assert len([*ribbons.texts()]) == 2
+    ribbons.array(USUAL)
+    assert len([*ribbons.texts()]) == len([*ribbons.making()]) == 1
+    assert [*ribbons.texts()] == [*ribbons.making()] == []
     release_all(ribbons, block)
 
 

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +18,17 @@ from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.show.blades.gather import gather_blades
 from tallgrass.systems.show.blades.pool import BladePool, BladesKept
 from tallgrass.systems.show.blades.shown import BladesShown, Standing
-from tallgrass.systems.show.strips.gather import MOST_DRAWS, PLACEMENT, batches, gather_strips, polygon_strips
+from tallgrass.systems.show.strips.gather import (
+    ALL_BLADES,
+    BY_RANK,
+    EDGED,
+    MOST_DRAWS,
+    PLACEMENT,
+    batches,
+    gather_strips,
+    modes_of,
+    polygon_strips,
+)
 from tallgrass.systems.show.strips.pool import StripPool, StripsKept
 from tallgrass.systems.show.strips.shown import StripsOfRing, StripsShown
 from tallgrass.systems.site import Site
@@ -134,6 +146,19 @@ def test_where_draws_are_too_many_the_longest_stretches_are_drawn_in_their_own_w
     needed = np.array([1] * 30 + [2, 0] * 10 + [0] * 20 + [2, 0] * 10 + [0] * 5, np.int8)
     draws = batches(needed, np.full(len(needed), 3, np.int64))
     assert draws == [(0, 90, 1), (90, 57, 2), (147, 63, 0), (210, 57, 2), (267, 18, 0)]
+
+
+def test_a_ring_with_thin_grass_anywhere_is_drawn_by_rank_and_so_are_all_where_a_kind_changes() -> None:
+    def ring(least: list[float], edged: list[bool], most: float = 1.0) -> tuple[Any, Any]:
+        count = len(least)
+        shown = SimpleNamespace(slots=np.arange(count), most=np.full(count, most), least=np.zeros(count))
+        return SimpleNamespace(least=np.array(least), edged=np.array(edged)), shown
+
+    dense, thin = ring([1.0, 1.0], [False, True]), ring([1.0, 0.4, 1.0], [False, False, True])
+    by_ranks = ring([1.0], [False], most=0.7)
+    found = modes_of([dense, thin, by_ranks], changes=False)
+    assert found.tolist() == [ALL_BLADES, EDGED, BY_RANK, BY_RANK, EDGED, BY_RANK]
+    assert modes_of([dense], changes=True).tolist() == [BY_RANK, EDGED]
 
 
 patches = st.tuples(st.integers(0, 1), st.booleans(), st.booleans(), st.booleans())

@@ -115,6 +115,12 @@ def test_t1_roots_stand_exactly_on_the_bilinear_terrain_on_slopes_too(growths: l
     assert np.ptp(root[:, 1]) > 3.0
 
 
+def test_t2_a_patch_knows_between_which_heights_its_blades_are_rooted(growths: list[Growth], hills: Terrain) -> None:
+    pool = planted(growths, hills)
+    heights = height_at(hills, pool.places(SLOTS).reshape(-1, 2)).reshape(len(SLOTS), -1)
+    np.testing.assert_array_equal(pool.ground[SLOTS], np.column_stack([heights.min(axis=1), heights.max(axis=1)]))
+
+
 def test_t1_every_root_lies_in_its_own_patch(growths: list[Growth], hills: Terrain) -> None:
     place = planted(growths, hills).places(SLOTS)
     low = CELLS[:, None] * PATCH

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ...around.appearance import Appearance, handed_over
 from ...around.patches import PatchTable
+from .pool import StripPool
 from .shown import StripsOfRing
 
 RUNS_ALONG, LIES_AHEAD, OF_RING = 4, 8, 16
@@ -16,6 +17,9 @@ strips are stacked along; and times the ring's number."""
 
 MOST_DRAWS = 8
 """Largest number of draw calls for strips in a frame."""
+
+FULL_DENSITY = 0.995
+"""Density from which on no blade of a kind is missing."""
 
 ALL_BLADES, BY_RANK, EDGED = range(3)
 """Drawing modes of patches, each dearer than the one before and able to draw its patches too: all blades show; some are
@@ -119,6 +123,19 @@ def polygon_strips(
     ahead = code[index] // LIES_AHEAD % 2 == 1
     drawn = present[index, (turn + np.where(ahead, strips[index] - 1 - place, place)) % kinds]
     return numbers[drawn], np.bincount(index[drawn], minlength=len(patch))
+
+
+def modes_of(rings: Sequence[tuple[StripPool, StripsOfRing]], /, *, changes: bool) -> NDArray[np.int8]:
+    """Return the drawing mode of each patch, ring after ring.
+
+    A patch is drawn `BY_RANK` where only some ranks show, where grass is thin anywhere in its ring, and everywhere
+    while any kind `changes`.
+    """
+    modes = []
+    for pool, ring in rings:
+        is_thin = (pool.least.take(ring.slots) < FULL_DENSITY).any() | (ring.most < 1.0) | (ring.least > 0.0) | changes
+        modes.append(np.where(pool.edged.take(ring.slots), EDGED, np.where(is_thin, BY_RANK, ALL_BLADES)))
+    return np.concatenate(modes).astype(np.int8)
 
 
 def batches(modes: NDArray[np.int8], count: NDArray[np.int64], /) -> list[Batch]:

@@ -38,15 +38,11 @@ from .draw import (
     set_stacks,
     uploading,
 )
-from .gather import ALL_BLADES, BY_RANK, EDGED, Batch, batches, gather_strips, polygon_strips
+from .gather import ALL_BLADES, BY_RANK, EDGED, Batch, batches, gather_strips, modes_of, polygon_strips
 from .pool import StripPool, StripsKept
 from .shown import StripsOfRing, StripsShown
 from .stock import StripStock
 from .textures import Atlas
-
-FULL_DENSITY = 0.995
-"""Density from which on no blade of a kind is missing."""
-
 
 Order = tuple[NDArray[np.uint32], NDArray[np.int64]]
 """Polygon strips in the order of drawing, and the number of them on each patch."""
@@ -204,7 +200,7 @@ class StripsPainter(RepresentationPainter):
         fineness = [(ring.strips, ring.columns) for ring in self.rings]
         order = partial(polygon_strips, placements, patch, present, fineness, stride=self.uploaded.stride)
         strips, count = self._ordered.of(outlook.viewer.name, (placements["code"], patch, present), order)
-        drawn = batches(_modes(rings, changes=self._changes).take(patch), count)
+        drawn = batches(modes_of(rings, changes=self._changes).take(patch), count)
         distance = distance_in_order(placements["cell"].take(patch, axis=0).astype(np.int32), centre)
         return Gathered(placements, strips, drawn, distance, np.cumsum(count), receivers)
 
@@ -301,16 +297,3 @@ class StripsPainter(RepresentationPainter):
 def _rings(outlook: Outlook) -> list[tuple[StripPool, StripsOfRing]]:
     """Return the pool of each ring, and its patches that are shown."""
     return list(zip(outlook.keeps(StripsKept).pools, outlook.shows(StripsShown).rings, strict=True))
-
-
-def _modes(rings: list[tuple[StripPool, StripsOfRing]], *, changes: bool) -> NDArray[np.int8]:
-    """Return the drawing mode of each patch, ring after ring.
-
-    A patch is drawn `BY_RANK` where only some ranks show, where grass is thin anywhere in its ring, and everywhere
-    while any kind `changes`.
-    """
-    modes = []
-    for pool, ring in rings:
-        is_thin = (pool.least.take(ring.slots) < FULL_DENSITY).any() | (ring.most < 1.0) | (ring.least > 0.0) | changes
-        modes.append(np.where(pool.edged.take(ring.slots), EDGED, np.where(is_thin, BY_RANK, ALL_BLADES)))
-    return np.concatenate(modes).astype(np.int8)

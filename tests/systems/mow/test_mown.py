@@ -1,7 +1,11 @@
 """Mowing: cutting and growing on the map of the grass's height (F4)."""
 
+import logging
 from math import inf, nan, pi
+from types import SimpleNamespace
+from typing import Any
 
+import moderngl
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -10,10 +14,12 @@ from hypothesis import strategies as st
 from tallgrass.components.arrays import Floats
 from tallgrass.components.footprint import Footprint
 from tallgrass.components.pose import HERE, Pose
-from tallgrass.engine.terrain.plots import CELL, ends_of
-from tallgrass.engine.terrain.record import Terrain
+from tallgrass.engine.terrain.plots import CELL, CELLS, SIDE, ends_of
+from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.world import World
+from tallgrass.systems.frame.block import FRAME
 from tallgrass.systems.mow.area import LEAST_RADIUS, Area, signed_distances
+from tallgrass.systems.mow.card import WIDTH, PlotsPart
 from tallgrass.systems.mow.mown import Mown
 from tallgrass.testing import LITTLE, little_prairie, watch
 
@@ -186,3 +192,29 @@ def test_f4_where_grass_is_mown_so_short_that_strips_would_show_as_rows_lies_the
         prairie.grow(Footprint(radius=0.5), pose=Pose(*patches.middle[patches.visible][before == 1][0].tolist()))
         watch(prairie)
         assert (patches.wanted[patches.visible] == 1).sum() == 1
+
+
+def test_f4_where_more_is_cut_than_a_texture_holds_the_rest_is_not_shown_which_is_logged_once(
+    ctx: moderngl.Context, caplog: pytest.LogCaptureFixture
+) -> None:
+    terrain = Terrain(np.zeros((131, 131), np.float32), 1.0)
+    density = Density(np.ones((1, 2, 2), np.float32), terrain.size, terrain)
+    grown: Any = SimpleNamespace(ground=SimpleNamespace(density=density), tallest=1.0)
+    record, mown = np.zeros(1, FRAME), Mown(terrain)
+    part = PlotsPart(ctx, 0, mown)
+    part._most_rows = 2  # noqa: SLF001 - one for the index, and one of pages
+    row = WIDTH // CELLS
+    with caplog.at_level(logging.WARNING, "tallgrass"):
+        for number in range(row + 2):
+            x, z = divmod(number, 9)
+            mown.cut(Footprint(radius=0.5), 0.25, Pose(SIDE * (x - 3.5), SIDE * (z - 4.5)))
+            if number >= row - 2:
+                part.settle(grown, record)
+            assert len(caplog.messages) == (number >= row)
+    (said,) = caplog.messages
+    assert said == "more has been cut and sown than a texture has room for: some of it is not shown"
+    texels = np.frombuffer(part.texture.read(), np.uint8).reshape(2 * CELLS, WIDTH, 4).astype(int)
+    index, pages = texels[0, :, 0] * 256 + texels[0, :, 1], texels[CELLS:].reshape(CELLS, row, CELLS, 4)[..., 0]
+    assert sorted(index[index > 0].tolist()) == [*range(row, 2 * row)]
+    assert (pages.min(axis=(0, 2)) == 64).all()
+    part.release()
