@@ -54,7 +54,7 @@ void main() {
     float page = packed_extra(lit).x, level = packed_extra(lit).y, boost = packed_extra(lit).z;
     vec4 texel = textureLod(atlas, vec3(uv.xy, page), level);
 #ifdef HEADS
-    boost = mix(boost, heads, head_part(texel.r / max(texel.a, LEAST_PAINT)));
+    boost += heads * head_part(texel.r / max(texel.a, LEAST_PAINT));
 #endif
     float painted = min(texel.a * boost, 1.0), opacity = root_pigment.a;
     if (opacity * painted < FAINT) {

@@ -286,8 +286,8 @@ void main() {
     float texels = side.y / (tall * blade_distance(middle, run, top + vec3(back.x, 0.0, back.y)));
     float boost = coverage_factor(k, run, middle, top, back), level = log2(texels) - SHARPER;
 #ifdef HEADS
-    heads = head_coverage_factor(k, run, middle, top, back);
-    level += log2(heads / boost);  // heads that cover more than is painted have to spread
+    heads = head_coverage_factor(k, run, middle, top, back) - boost;
+    level += log2(1.0 + heads / boost);  // heads that cover more than is painted have to spread
 #endif
     vec2 pixel = 1.0 / (pixels * vec2(distance(a.foot.xz, b.foot.xz), tall));
     vec2 corner = corner_of(column, extent, pixel, level, side, hidden);
