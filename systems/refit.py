@@ -32,9 +32,10 @@ def refit(state: State, site: Site, lie: Floats, reading: Reading, pressers: Pre
     state, dug = _onto_ground(state, site, lie)
     state, grown = _with_kinds(state, [*site.scene.grass])
     state, blown = _with_winds(state, site.scene.wind, reading)
-    trodden = list[str]()
-    if len(state.treading.declared) != len(site.scene.pressers):
-        trodden.append("what was done to its pressers")
+    then, now, trodden = state.treading.declared, site.scene.pressers, list[str]()
+    if len(then) != len(now):
+        footprints = [presser.footprint() for presser in now]
+        trodden += ["what was done to its pressers"] * any(presser not in footprints for presser in then)
         state = _changed(state, treading=pressers.begun_anew(state.treading))
     return state, [*dug, *grown, *blown, *trodden]
 

@@ -118,6 +118,19 @@ def test_a_wind_that_is_new_begins_as_the_scene_has_it_and_the_others_go_on(stat
     again.release()
 
 
+@pytest.mark.parametrize("other", [{"pressers": [{"path": []}, *SCENE["pressers"]]}], indirect=True)
+def test_a_presser_that_is_new_goes_its_way_beside_the_others(state: bytes, other: Prairie) -> None:
+    other.restore(state)
+    assert_played(other)
+    fresh = Prairie.load(SCENE | {"pressers": [{"path": []}, *SCENE["pressers"]]})
+    fresh.advance(other.time)
+    way = [(x, 3.0) for x in np.linspace(-20.0, 20.0, 80)]
+    trodden, due = ((each.bent_at(way) != each.wind_at(way)).any(axis=1) for each in (other, fresh))
+    np.testing.assert_array_equal(trodden, due)
+    assert 10 < due.sum() < 70
+    fresh.release()
+
+
 @pytest.mark.parametrize("other", [{"wind": [SCENE["wind"][1], GUST]}], indirect=True)
 def test_a_wind_that_a_game_deleted_stays_deleted_where_others_are_gone(world: World, other: Prairie) -> None:
     del world
