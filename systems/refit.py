@@ -14,7 +14,7 @@ from .fitting import lies_alike, scene_of
 from .pressers import Pressers
 from .saved import SavedWind, State
 from .site import Site
-from .stowed import saved_wind, wind_of
+from .stowed import saved_wind, wind_of, wind_on_course
 from .winds import matched
 
 Refitted = tuple[State, list[str]]
@@ -123,7 +123,7 @@ def _with_winds(state: State, winds: Sequence[WindPrimitive], reading: Reading) 
 
 def _can_be_made(wind: SavedWind, reading: Reading) -> bool:
     try:
-        wind_of(wind.kind, wind.values, reading)
+        wind_of(wind.kind, wind.values, reading) if wind.course is None else wind_on_course(wind, reading)
     except ValueError:
         return False
     return True

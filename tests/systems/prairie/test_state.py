@@ -310,6 +310,40 @@ def test_a_wind_whose_class_has_other_keys_by_now_is_refused_in_a_sentence(
     monkeypatch.setitem(wind_kinds()._classes, "draught", Later)  # noqa: SLF001
     with pytest.raises(ValueError, match=r"^a wind of this state, a draught, cannot be made: unknown key 'power'"):
         played.restore(state)
+    played.restore(state, partly=True)
+    assert "draught" not in [source.name for source in played.winds.sources()]
+
+
+def test_a_wind_whose_class_has_more_rates_by_now_is_left_out_of_what_is_restored_partly(
+    played: Prairie, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Pulse(Breeze):
+        """A plugin's wind when the game was saved."""
+
+        kind: str = "pulse"  # type: ignore[assignment]
+        beats: float = 0.3
+
+        def rates(self) -> tuple[float, ...]:
+            return (self.beats,)
+
+    class Later(Pulse):
+        """The same wind in a later version of its package."""
+
+        def rates(self) -> tuple[float, ...]:
+            return self.beats, 2.0 * self.beats
+
+    monkeypatch.setitem(wind_kinds()._classes, "pulse", Pulse)  # noqa: SLF001
+    handle = played.add(Pulse())
+    played.wind_at([(0.0, 0.0)])
+    played.advance(1.0)
+    esper.add_component(handle, WindSource(Pulse(beats=0.9), "pulse"))
+    played.advance(1.0)
+    state = played.state()
+    monkeypatch.setitem(wind_kinds()._classes, "pulse", Later)  # noqa: SLF001
+    with pytest.raises(ValueError, match="the phases of a wind have a wrong number of rates or offsets"):
+        played.restore(state)
+    played.restore(state, partly=True)
+    assert "pulse" not in [source.name for source in played.winds.sources()]
 
 
 @pytest.fixture
