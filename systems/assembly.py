@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from ..engine.schedule import HasRun, Phase, Schedule
 from .around.outlook import Outlook
+from .around.transitions import SLACK
 from .blow import Blow, Hear, WindsAt
 from .cull import Cull
 from .draw import Draw
@@ -54,7 +55,7 @@ class Assembly:
             (Phase.TILE, "press", Press(outlooks, self.trodden)),
             (Phase.TILE, "tile", Tile(outlooks, self.entities, shown, ground, site.scene.seed, site.quality.models)),
             (Phase.SEE, "cull", Cull(outlooks, patch, site.sway)),
-            (Phase.SEE, "lod", ChooseLevels(outlooks, site.reach, shown, change.slack, self.bent)),
+            (Phase.SEE, "lod", ChooseLevels(outlooks, site.reach, shown, SLACK * change.hysteresis, self.bent)),
             (Phase.SEE, "transition", Transition(outlooks, shown, patch, change)),
             (Phase.SEE, "see", See(outlooks, shown, patch, change)),
             (Phase.BLOW, "plant", Plant(outlooks, shown, self.entities.world)),

@@ -77,7 +77,7 @@ class Transition:
         seen = (patches.was_visible & patches.visible)[rows] & (not outlook.viewer.jumped)
         slowly = change.shows(level) & seen & (now.now >= 0)
         present = np.where(slowly, now.now, np.int8(-1))
-        wanted = representation.sublevels(outlook, rows, present, slack=self.transitions.slack)
+        wanted = representation.sublevels(outlook, rows, present, slack=SLACK * self.transitions.hysteresis)
         slowly &= gradual
         wanted = np.where(stands_throughout & slowly, now.now, wanted)
         nearer = np.where(now.progress < 0.5, now.before, now.now)

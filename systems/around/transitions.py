@@ -30,11 +30,6 @@ class Transitions:
         """Whether a change takes any time."""
         return self.morph or self.fade or self.growth
 
-    @property
-    def slack(self) -> int:
-        """Width of the hysteresis [patches]."""
-        return SLACK if self.hysteresis else 0
-
 
 SEAMLESS = Transitions()
 """All means on."""
