@@ -173,7 +173,8 @@ class Holding:
                     ready = partial(self._making_ready, site, air, staged.painters)
                 elif AHEAD and self.quarantine.live:
                     ready = partial(self._making_for_winds, self._winds_of_all_kinds(site), air, staged.painters)
-                staged.steps = staged.making(self._canvas(site, air), self._compiler, site.scene.wind, ready)
+                canvas = self._canvas(site, air, self.block.with_defines(staged.defines))
+                staged.steps = staged.making(canvas, self._compiler, site.scene.wind, ready)
         return next(self._staged.steps, "over") == "over"
 
     def _staging(self, site: Site) -> Generator[None, None, None]:
@@ -198,7 +199,7 @@ class Holding:
         self._release_grass()
         self.block.defines = defines
         self.air = CardWinds(self.ctx, UNITS, [growth.response for growth in site.growths])
-        canvas = self._canvas(site, self.air)
+        canvas = self._canvas(site, self.air, self.block)
         is_ahead = AHEAD and self.quarantine.live
         for each in site.representations:
             self.painters[each.name] = made = each.painter(canvas)
@@ -234,9 +235,9 @@ class Holding:
         """Return the scene's winds, and one of each kind."""
         return [*site.scene.wind, *self.winds.samples()]
 
-    def _canvas(self, site: Site, air: CardWinds) -> Canvas:
+    def _canvas(self, site: Site, air: CardWinds, block: FrameBlock) -> Canvas:
         return Canvas(
-            self.ctx, self.block, UNITS, site.scene.seed, site.transitions, air, self.received, site.reach,
+            self.ctx, block, UNITS, site.scene.seed, site.transitions, air, self.received, site.reach,
             site.representations,
         )  # fmt: skip
 

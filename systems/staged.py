@@ -1,13 +1,11 @@
 """Staging: the grass of another site is uploaded piece by piece while the present one is drawn."""
 
 from collections.abc import Callable, Generator, Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 from ..components.wind import WindPrimitive
 from ..engine.gl.background import BackgroundCompiler
 from ..engine.gl.stream import release_all
-from .frame.block import FrameBlock
 from .show.representation import Canvas, Representation, RepresentationPainter
 from .site import Site, same_settings
 from .wind.card import CardWinds
@@ -42,41 +40,19 @@ class Staged:
 
         Then take the steps that `ready` returns, if it is given.
         """
-        block = canvas.block
         for representation in self.representations:
-            with _defining(block, self.defines):
-                self.painters[representation.name] = painter = representation.painter(canvas)
+            self.painters[representation.name] = painter = representation.painter(canvas)
             yield
-            yield from _each_defining(block, self.defines, compiler.compile_in_turn(painter.texts()))
-            yield from _each_defining(block, self.defines, painter.making())
-        with _defining(block, self.defines):
-            canvas.air.meet(winds)
+            yield from compiler.compile_in_turn(painter.texts())
+            yield from painter.making()
+        canvas.air.meet(winds)
         if ready is not None:
-            yield from _each_defining(block, self.defines, ready())
+            yield from ready()
 
     def release(self) -> None:
         """Release everything that has not been taken over; what the present painters hold is theirs to release."""
         self.steps.close()
         release_all(*self.painters.values(), self.air)
-
-
-@contextmanager
-def _defining(block: FrameBlock, defines: dict[str, str | int]) -> Iterator[None]:
-    """Make programs with other defines inside this context."""
-    before, block.defines = block.defines, defines
-    try:
-        yield
-    finally:
-        block.defines = before
-
-
-def _each_defining(block: FrameBlock, defines: dict[str, str | int], steps: Iterator[None]) -> Iterator[None]:
-    """Take each of some steps with other defines than those of the frames between steps."""
-    while True:
-        with _defining(block, defines):
-            if next(steps, "over") == "over":
-                return
-        yield
 
 
 def kind_defines(site: Site, /) -> dict[str, str | int]:

@@ -1,6 +1,8 @@
 """The frame block: a uniform block with the numbers of a frame, which all programs share."""
 
 from collections.abc import Mapping, Sequence
+from copy import copy
+from dataclasses import dataclass
 from typing import TypeVar
 
 import moderngl
@@ -156,20 +158,34 @@ def confine(record: NDArray[np.void], asked: Asked, /) -> None:
         row["mesh_low"], row["mesh_high"] = row["terrain_origin"], row["terrain_origin"] + row["terrain_size"]
 
 
+@dataclass(slots=True)
+class Given:
+    """What a game has given for the frame, which decides what programs draw it."""
+
+    casts: bool = False
+    """Whether it has shadow maps or shades; programs with the define PLAIN read none."""
+
+    earth: int = 0
+    """GL name of the texture of its own ground; 0 for none."""
+
+
 class FrameBlock:
     """The uniform block on the graphics card."""
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self.defines: dict[str, str | int] = {}
-        """Defines of every program that is compiled from now on."""
+        """Defines of every program that is compiled with it from now on."""
         self.record = np.zeros(1, FRAME)
         """Record uploaded last."""
         self.buffer = ctx.buffer(reserve=FRAME.itemsize, dynamic=True)
         self.binding = block_binding(ctx)
-        self.casts = False
-        """Whether a game has shadow maps or shades; programs with the define PLAIN read none."""
-        self.earth = 0
-        """GL name of the texture of a game's own ground; 0 for none."""
+        self.given = Given()
+
+    def with_defines(self, defines: dict[str, str | int]) -> "FrameBlock":
+        """Return this same block for programs with other defines."""
+        other = copy(self)
+        other.defines = defines
+        return other
 
     def texts(self, vertex: str, fragment: str, defines: Mapping[str, str | int]) -> Texts:
         """Return the sources of a program with the block's defines."""
@@ -182,7 +198,7 @@ class FrameBlock:
     def write(self, record: NDArray[np.void]) -> None:
         """Upload a record and bind the block."""
         self.record, row = record, record[0]
-        self.casts = bool(row["maps_shown"] or row["shades_grid"][3])
+        self.given.casts = bool(row["maps_shown"] or row["shades_grid"][3])
         self.buffer.write(record)
         self.buffer.bind_to_uniform_block(self.binding)
 

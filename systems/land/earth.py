@@ -62,7 +62,7 @@ class EarthPart(Part):
     def settle(self, grown: Grown, record: NDArray[np.void], /) -> None:
         """Write the texture's number, side and exponent."""
         earth, row = self._earth, record[0]
-        self._block.earth = number = self._number_or_zero(earth.texture)
+        self._block.given.earth = number = self._number_or_zero(earth.texture)
         row["earth_power"] = earth.power
         row["earth_side"] = 0.0 if not number else COVERS_TERRAIN if earth.side is None else earth.side
 

@@ -53,11 +53,6 @@ def grow(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
     return Growth(postures=postures, response=response, models=models)
 
 
-def blade_count(kind: GrassKind, quality: Quality, /) -> int:
-    """Return the rows per patch at full density: for grass, the kind's own number of blades or else the quality's."""
-    return layout_of(kind, quality).rows
-
-
 def precompute_bytes(growth: Growth, /) -> int:
     """Return the memory that a kind's growth takes [bytes], textures with their mip levels."""
     seen: dict[int, int] = {}

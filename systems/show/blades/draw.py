@@ -142,7 +142,7 @@ class Ribbons:
         """Draw the stream, of parted ribbons only this `part`: `CORES` or `EDGES`; return the number of draw calls."""
         if not self.stream.count:
             return 0
-        array = self.array(SHADED if self._block.casts else USUAL)
+        array = self.array(SHADED if self._block.given.casts else USUAL)
         if part is not None:
             set_uniform(array.program, "part", part)
         return self._draw(array)

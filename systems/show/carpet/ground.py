@@ -176,7 +176,7 @@ class GroundPainter:
         block, record = self._block, self._block.record[0]
         return needs_of(
             cut=record["anything_cut"] != 0, lamps=record["beside_sun"] != 0, changes=changes,
-            rare=(block.casts or block.earth) != 0, trodden=self.is_trodden,
+            rare=(block.given.casts or block.given.earth) != 0, trodden=self.is_trodden,
         )  # fmt: skip
 
     def _used(self, layers: Mapping[str, Layer], needs: Needs) -> Iterable[Layer]:
@@ -188,7 +188,7 @@ class GroundPainter:
         """Whether the carpet ends with the terrain or lies on a game's own ground: a coarse program cannot do that."""
         record = self._block.record[0]
         return self._is_coarse and bool(
-            record["over_hosts"] or self._block.earth or record["mesh_high"][0] < EVERYWHERE
+            record["over_hosts"] or self._block.given.earth or record["mesh_high"][0] < EVERYWHERE
         )
 
     def write(self, tiles: ByLayer) -> None:
@@ -275,10 +275,10 @@ class GroundPainter:
         shelf.stride = 1 if on_hosts else self.stride  # it has to lie on the game's ground
         shelf.shares.use(self.units["shares"])
         self.rims.use(self.units["rims"])
-        if self._block.earth:
+        if self._block.given.earth:
             gl = functions_of(self._ctx)
             gl.glActiveTexture(ENUMS["TEXTURE0"] + self.units["earth"])
-            gl.glBindTexture(ENUMS["TEXTURE_2D"], self._block.earth)
+            gl.glBindTexture(ENUMS["TEXTURE_2D"], self._block.given.earth)
         else:  # some drivers compile programs again for another texture, and any might be bound there
             self._no_earth.use(self.units["earth"])
 

@@ -276,7 +276,7 @@ class StripsPainter(RepresentationPainter):
         shelf.placements.texture.use(units["placements"])
         uploaded.extents.use(units["extents"])
         shelf.strips.texture.use(units["strips"])
-        is_shaded = bool(self._block.casts or frame["bodies"]["radius"].any())
+        is_shaded = bool(self._block.given.casts or frame["bodies"]["radius"].any())
         variant = 0 if deep else 2 if frame["anything_cut"] else int(is_shaded)
         array = self.array(len(MODES) * variant + mode, deep=deep)
         set_uniform(array.program, "first", first)
