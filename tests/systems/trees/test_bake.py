@@ -5,6 +5,7 @@ import pytest
 
 from tallgrass.systems.trees.bake import COARSEST, card_texels, dilated, equalised, picture_size, tree_levels
 from tallgrass.systems.trees.far import COARSER, LINES
+from tallgrass.systems.trees.noise import FINER, NOISE_CELLS, bark_noise
 from tallgrass.systems.trees.twig import MEAN_TONE
 
 
@@ -69,3 +70,13 @@ def test_what_is_solid_of_a_card_is_as_bright_as_all_of_it() -> None:
             mean = before[..., 0].sum() / covered.sum()
             assert own[some, 0].sum() / covered[some].sum() == pytest.approx(mean, rel=0.01)
     assert np.array_equal(made[..., 1:], pictures[..., 1:])
+
+
+def test_bark_is_as_smooth_across_the_borders_of_its_cells_as_it_is_in_their_middles_and_repeats() -> None:
+    texels = bark_noise()[0][0].astype(np.float64)
+    for axis in (0, 1):
+        steps = np.abs(np.diff(texels, axis=axis, append=texels.take([0], axis=axis)))
+        by_place = np.moveaxis(steps, axis, 0).reshape(NOISE_CELLS, FINER, -1).mean(axis=(0, 2))
+        middle, border = by_place[FINER // 2 - 1], by_place[FINER - 1]
+        assert border < 0.5 * middle
+        assert steps.take(-1, axis=axis).mean() < 0.5 * middle, "from the last texel to the first"
