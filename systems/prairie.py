@@ -71,7 +71,7 @@ class Prairie(Tending):
         self.governor = Governor(hold)  # raises for a bad hold, so before any entities are made
         site = found_site(loaded, preset=preset, lod=lod, transitions=transitions)
         super().__init__(site, World(self.advance), live=live)
-        self.loaded, self._preset, self._origin = loaded, preset, (0.0, 0.0, 0.0)
+        self.loaded, self._preset = loaded, preset
         self._readings: WeakKeyDictionary[Site, LoadedScene] = WeakKeyDictionary()
         self._seasons = Seasons(loaded.scene)
         self._ripening = Ripening(self._seasons, live=live)

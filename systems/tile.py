@@ -127,7 +127,7 @@ class Tile:
             if outlook.sown != self.ground.density.sown.count:
                 self._update_densities(outlook)
             fresh = tile(patches, viewer.centre, terrain, patch=patch, seed=self.seed, models=self.models)
-            seen = viewer.eye[1], viewer.centre.tobytes(), outlook.heights
+            seen = viewer.eye[1], outlook.heights
             if fresh.size or outlook.away_inputs != seen:
                 outlook.away_inputs = seen
                 patches.away[:] = seen_from(patches.distance, patches.height, viewer.eye[1], patch=patch)

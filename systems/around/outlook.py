@@ -85,7 +85,7 @@ class Outlook:
     """Version of the clearings that `patches.grows` is of."""
 
     away_inputs: tuple[object, ...] = ()
-    """Place of the viewer and version of the heights that `patches.away` is computed from."""
+    """Height of the eye and version of the heights that `patches.away` is computed from."""
 
     heights: int = 0
     """Number of changes of the terrain's heights that are in the patch table."""
