@@ -8,6 +8,7 @@ import pytest
 
 from tallgrass.components.patch import Clearings, Lod, Patch
 from tallgrass.components.viewer import Viewer
+from tallgrass.engine.terrain.change import set_heights
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.engine.world import World
 from tallgrass.systems.around.outlook import Outlook
@@ -108,6 +109,25 @@ def test_t3_the_system_says_where_the_viewer_stands_and_how_far_each_patch_is(ti
         assert tuple(tiled.outlook.viewer.centre.tolist()) == centre
         expected = np.abs(tiled.patches.cell - centre).max(axis=1)
         np.testing.assert_array_equal(tiled.patches.distance, expected)
+
+
+def test_t3_distances_are_told_again_as_the_viewer_walks_and_rises_and_as_the_ground_does(world: World) -> None:
+    terrain = Terrain(np.zeros((41, 41), np.float32), 1.0)
+    tiled, high = Tiled(world, terrain=terrain), 6.0 * PATCH
+
+    def away() -> list[int]:
+        return [int(tiled.patches.away[tiled.row(i, 0)]) for i in (0, 2)]
+
+    tiled.at(0, 0)
+    assert away() == [0, 2]
+    tiled.at(2, 0)
+    assert away() == [2, 0]
+    tiled.outlook.viewer.eye = (2.5 * PATCH, high, 0.5 * PATCH)
+    tiled.system.run()
+    assert min(away()) >= 3
+    set_heights(terrain, terrain.origin, np.full((41, 41), high - 1.7))
+    tiled.system.run()
+    assert away() == [2, 0]
 
 
 def test_d2_what_is_written_to_the_table_shows_in_the_components(world: World) -> None:
