@@ -178,6 +178,37 @@ def test_f3_each_organ_is_as_broad_along_itself_as_numpy_has_it(ctx: moderngl.Co
         np.testing.assert_allclose(broad[rows] / broad.max(), due / due.max(), atol=0.05)
 
 
+def test_of_narrow_stems_and_small_organs_a_part_is_drawn_that_is_as_wide_as_all(
+    stage: Stage, load: Load, camera: Aim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    prairie, eye = load(FIELD), (0.0, 50.0)
+    stage.shot(prairie, camera(0.0, 1.2, 50.001))
+    assert prairie.painter is not None
+    painter, near = prairie.painter.painters["blades"], prairie.site.representations[0]
+    assert isinstance(painter, BladesPainter)
+    assert isinstance(near, BladeRepresentation)
+    drawn, records = painter.shelves.now.counts[-1], near.stock.records
+    monkeypatch.setattr(painter, "_drawn_to", lambda *_: np.float32(np.inf))
+    stage.shot(prairie, camera(eye[0], 1.2, eye[1]))
+    outlook, counts = prairie.viewers["main"], painter.shelves.now.counts
+    patches, shown = outlook.patches, outlook.shows(BladesShown).standing
+    numbers = np.frombuffer(painter.shelves.now.numbers.buffer.read(), np.uint32)[sum(counts[:-1]) :][: counts[-1]]
+    made = np.frombuffer(painter.groups[-1].stream.buffer.read(), RIBBON)[: counts[-1]]
+    patch, blade = np.divmod(numbers.astype(np.int64), records.shape[1])
+    place = patches.model[shown.rows[patch]] * 4 + patches.turn[shown.rows[patch]], blade
+    own, wide = records[place], 2.0 * np.linalg.norm(made["lean_across"][:, 2:], axis=1)
+    places = outlook.kept["blades"].receiving[0].pool.places(shown.slots)
+    away = np.hypot(*(places[patch, blade] - np.array(eye, np.float32)).T)
+    left_out = away > near.stock.drawn_to[place]
+    assert drawn == pytest.approx(len(made) - left_out.sum(), rel=0.01)
+    np.testing.assert_allclose(wide[left_out], 0.0, atol=1e-5)
+    for organ, far in ((organs.STEM, 14.0), (organs.EYE, 14.0), (organs.BLADE, 0.0)):
+        some = (own["organ"] == organ) & (away > far)
+        assert some.sum() > 100
+        assert left_out[some].mean() == (0.0 if organ == organs.BLADE else pytest.approx(0.5, abs=0.4))
+        assert wide[some].sum() == pytest.approx(own["width"][some].sum(), rel=0.04)
+
+
 def foot_of(records: Any, growth: Growth, message: Any) -> Any:
     """Return the places at which ribbons begin, computed by numpy from their records, shape (n, 3)."""
     blades = Blades(

@@ -262,3 +262,15 @@ def test_t5_seen_from_the_eye_blades_of_all_patches_go_from_far_to_near(outlook:
         away = np.hypot(*(placed(outlook, gather_blades(pool, ring, eye=EYE)) - EYE).T)
         assert len(away) == 42 * len(ring.rows)
         assert (np.diff(away) < away.max() / 65000.0).all()
+
+
+def test_t5_of_each_blade_a_distance_may_be_given_from_which_on_it_is_left_out(outlook: Outlook) -> None:
+    pool, rings = blades(outlook)
+    for ring in rings:
+        to = np.random.default_rng(3).uniform(0.0, 12.0, (len(ring.rows), 42)).astype(np.float32)
+        numbers = gather_blades(pool, ring, eye=EYE, to=to)
+        offset = pool.places(ring.slots) - np.array(EYE, np.float32)
+        nearer = np.hypot(offset[..., 0], offset[..., 1]) < to
+        patch, blade = np.nonzero(nearer)
+        assert 0 < len(numbers) < nearer.size
+        np.testing.assert_array_equal(np.sort(numbers), np.sort(ring.places[patch] * 42 + blade))

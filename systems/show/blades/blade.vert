@@ -9,6 +9,7 @@
 
 #ifdef STORED
 #include "lib/received.glsl"
+#include "systems/show/blades/thin.py"
 #ifdef HIDING
 #include "systems/show/hidden.glsl"
 #endif
@@ -16,6 +17,7 @@
 in uint number;            // of its receiver, among those of blades
 uniform int each;          // blades of a patch model
 uniform int blades_from;   // number of the first of these receivers among all
+uniform vec3 viewer;       // place of the viewer's eye (x, z) [m], and its zoom: blades are thinned out for it, even where a light looks
 uniform float near;        // distance up to which the depth buffer sorts blades [m]; beyond it drawing order does
 #ifdef MORPH
 uniform sampler2D slices;  // strip that a blade is painted on, by ring, model, orientation and blade
@@ -79,6 +81,15 @@ BladeInput blade_input(Standing on_patch, int number_on_patch) {
     given.blade.root = vec3(given.blade.root.xz + on_patch.cell * patch_side, received.z).xzy;
     given.message = received.xy;
     return given;
+}
+
+// Factor on the width of the blade of a number in the stock. Where blades are narrow, only a share is drawn, as wide as all together.
+float widened_for_all(Blade blade, uint number_in_stock) {
+    float width = is_at_tip(int(blade.organ)) ? NARROW_AT_TIP * min(blade.width, blade.height) : blade.width;
+    float share = width * NARROW_FROM * viewer.z / max(distance(blade.root.xz, viewer.xy), LEAST_WIDTH);
+    float whole = share * (1.0 - THINS_OVER), none = share * (1.0 + THINS_OVER), range = none - whole, beyond = max(none - 1.0, 0.0);
+    float area = whole < 1.0 ? share - 0.5 * beyond * beyond / range : 1.0;
+    return clamp((none - float(number_in_stock * IN_TURN) * UNIT) / range, 0.0, 1.0) / area;
 }
 #else
 BladeInput blade_input() {
@@ -169,10 +180,12 @@ void main() {
     BladeInput given = blade_input(on_patch, int(number) % each);
     float hides = mix(PARTED, NEVER, smoothstep(NEARLY * near, near, distance(given.blade.root.xz, eye.xz)));
     level_kind = vec4(on_patch.sublevel, hides, given.blade.kind, 0.0);
+    float wide = widened_for_all(given.blade, uint(int(on_patch.model_turn) * each + int(number) % each));
     canopy_organ.w = on_patch.cover;
 #else
     BladeInput given = blade_input();
     level_kind = vec4(0.0, NEVER, given.blade.kind, 0.0);
+    float wide = 1.0;
     canopy_organ.w = 1.0;
 #endif
     Blade blade = given.blade;
@@ -185,7 +198,7 @@ void main() {
     bool has_section = is_plain && kinds[k].apart > 0.0, is_round = is_plain && kinds[k].narrowed < 0.0;
     vec2 across = is_round ? normalize(blade.root.xz - eye.xz + LEAST_LENGTH) : blade.facing;
     across = vec2(-across.y, across.x);
-    lean_across = vec4(bent(blown * give_of(int(blade.organ)), blade.rest), 0.5 * blade.width * across);
+    lean_across = vec4(bent(blown * give_of(int(blade.organ)), blade.rest), 0.5 * wide * blade.width * across);
 
     Lie lies = lie_at(blade.root.xz);
     ByKind densities = density_at(blade.root.xz);

@@ -11,19 +11,30 @@ Numbers = NDArray[np.uint32]
 
 
 def gather_blades(
-    pool: BladePool, shown: Standing, /, *, eye: tuple[float, float], stand: NDArray[np.bool_] | None = None
+    pool: BladePool,
+    shown: Standing,
+    /,
+    *,
+    eye: tuple[float, float],
+    stand: NDArray[np.bool_] | None = None,
+    to: Floats | None = None,
 ) -> Numbers:
     """Return the numbers of the blades that grow on the patches shown, sorted far to near from `eye` (x, z) [m], (n,).
 
     The number is `places` of the patch times the blades of a patch, plus the blade's index on the patch. Sorting by
     patches instead would swap all blades along a border of two patches when the viewer crosses its line. `stand`,
-    shape (m, blades), masks blades out.
+    shape (m, blades), masks blades out; those farther than `to` [m], of the same shape, are left out, too.
     """
-    near = nearness(distances(pool, shown.slots, eye)).reshape(-1)
+    away = distances(pool, shown.slots, eye)
+    near = nearness(away).reshape(-1)
     index = np.arange(pool.present.shape[1], dtype=np.uint32)
     numbers = ((shown.places * len(index)).astype(np.uint32)[:, None] + index).reshape(-1)
     present = pool.present.take(shown.slots, axis=0)
-    present = (present if stand is None else present & stand).reshape(-1)
+    if stand is not None:
+        present = present & stand
+    if to is not None:
+        present = present & (away < to)
+    present = present.reshape(-1)
     if not present.all():
         grown = present.nonzero()[0]
         near, numbers = near.take(grown), numbers.take(grown)

@@ -52,6 +52,10 @@ bool is_blade(int organ) {
     return true;
 }
 
+bool is_at_tip(int organ) {
+    return false;
+}
+
 bool is_leaf(int organ) {
     return false;
 }

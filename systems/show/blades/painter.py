@@ -130,6 +130,8 @@ class BladesPainter(RepresentationPainter):
         )  # fmt: skip
         self._orders, self._uploads = Remembered[_Order](), Remembered[_Upload]()
         self._first_receiver = self._receiver_count = 0
+        self._viewer = 0.0, 0.0, 1.0
+        """Place of the viewer's eye (x, z) [m], and its zoom."""
 
     def _set_uniforms(self, program: moderngl.Program) -> None:
         """Set a program's uniforms about blades and strips."""
@@ -205,6 +207,7 @@ class BladesPainter(RepresentationPainter):
         if upload is not shelf.sent:
             shelf.send(upload)
         (self._receiver_count,), (self._first_receiver,) = self.receivers(outlook), first["blades"]
+        self._viewer = outlook.viewer.eye[0], outlook.viewer.eye[2], outlook.lens.zoom
         return sum(shelf.counts)
 
     def _upload(self, outlook: Outlook, first: Mapping[str, list[int]]) -> _Upload:
@@ -229,7 +232,10 @@ class BladesPainter(RepresentationPainter):
             groups[-1], masks[-1] = together([groups[-1], moving]), np.concatenate([masks[-1], home & due])
         numbers = [
             gather_morph(outlook, pool, self._strips, moving, away=away, left=left, home=home | ~due),
-            *(gather_blades(pool, group, eye=eye, stand=mask) for group, mask in zip(groups, masks, strict=True)),
+            *(
+                gather_blades(pool, group, eye=eye, stand=mask, to=self._drawn_to(outlook, group))
+                for group, mask in zip(groups, masks, strict=True)
+            ),
         ]
         return _Order(np.concatenate(numbers), [len(part) for part in numbers])
 
@@ -242,6 +248,13 @@ class BladesPainter(RepresentationPainter):
         if not self._came:
             return masks
         return [mask & self._of_form(outlook, group) for mask, group in zip(masks, groups, strict=True)]
+
+    def _drawn_to(self, outlook: Outlook, shown: Standing) -> Floats:
+        """Return the distance from which on each blade is left out [m], shape (m, blades)."""
+        patches, rows = outlook.patches, shown.rows
+        drawn_to = self._stock.drawn_to.take(patches.model[rows] * 4 + patches.turn[rows], axis=0)
+        drawn_to *= np.float32(outlook.lens.zoom)
+        return drawn_to
 
     def _of_form(self, outlook: Outlook, shown: Standing) -> NDArray[np.bool_]:
         """Return a mask of the blades of the form that plants of their rank have now, shape (m, blades)."""
@@ -284,6 +297,7 @@ class BladesPainter(RepresentationPainter):
         self.store.slices.use(self._units["slices"])
         for program in self.passes:
             set_uniform(program, "blades_from", self._first_receiver)
+            set_uniform(program, "viewer", *self._viewer)
         calls = first = 0
         for ribbons, count in zip((self.morph, *self.groups), shelf.counts, strict=True):
             calls += ribbons.fill(shelf.arrays[ribbons is self.morph], count, first=first)

@@ -14,6 +14,7 @@ from ...grow.record import NOTHING, Blades, Form, Growth, forms_of
 from ...space.ground import PRESENT, Ground, quarter_turn, turned
 from ...space.window import window_rows
 from .pool import BLADE, ORGAN, BladePool
+from .thin import left_out_from
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +48,11 @@ class BladeStock:
         records = self.records
         stem = records["stem"] if "stem" in (records.dtype.names or ()) else np.float32(0.0)
         return float((records["height"] + records["width"] + stem).max(initial=0.0))
+
+    @cached_property
+    def drawn_to(self) -> Floats:
+        """Distance from which on each blade is left out [m], without a lens, shape (models * 4, n)."""
+        return left_out_from(self.records)
 
     @cached_property
     def kinds(self) -> NDArray[np.intp]:
