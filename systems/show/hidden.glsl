@@ -7,6 +7,7 @@ const float TRAIL = 0.5;  // greatest width of a trail right in front, on which 
 const int SPANS = 5;  // spans of a line of sight, from the trail on, each twice as long as the one before it
 const float MIDDLE = 1.5;  // distance to the middle of a span, over the distance to its beginning, which is also its length
 const int HALVINGS = 5;  // steps of the search for the height
+const float LEAST_BEND = 1e-5;  // least bend of the ground that divides [1/m]
 
 // A span of a line of sight, by its middle.
 struct Span {
@@ -40,6 +41,14 @@ float depth_before(Span spans[SPANS], float high, float slope, float stands) {
     return depth;
 }
 
+// Height over a root [m] above which lines of sight rise past it to the sky: those that fall meet farther land, and those below a
+// height meet the ground right behind, a parabola through the root and two spans before it. `over` is the eye's height over the root.
+float height_before_sky(Span near, Span far, float over, float away) {
+    float first = near.ground / near.away, bend = (far.ground / far.away - first) / (far.away - near.away);
+    float falls = max(over / away - first + bend * near.away, 0.0);  // slope of lines of sight to the ground at the root
+    return max(falls * falls / max(-4.0 * bend, LEAST_BEND), over);
+}
+
 // Whether the eye is among stems. Right in front of it are too few of them to hide what their mean optical depth tells.
 bool eye_among_stems() {
     float above_ground = eye.y - height_filtered(eye.xz);
@@ -63,7 +72,7 @@ float hidden_height(vec3 root, float tall, float stands) {
     Span spans[SPANS];
     for (int number = 0; number < SPANS; number++)
         spans[number] = span_at(root, (eye.xz - root.xz) / away, MIDDLE * TRAIL * exp2(float(number)));
-    vec2 between = vec2(0.0, tall);
+    vec2 between = vec2(0.0, min(tall, height_before_sky(spans[2], spans[3], eye.y - root.y, away)));
     for (int halving = 0; halving < HALVINGS; halving++) {
         float middle = 0.5 * (between.x + between.y);
         if (depth_before(spans, middle, (eye.y - root.y - middle) / away, stands) > HIDDEN)

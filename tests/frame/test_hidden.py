@@ -1,6 +1,7 @@
 """Hidden parts of strips and blades are not drawn, unless the grass before them is gone (G5)."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import esper
 import moderngl
@@ -30,6 +31,9 @@ quality:
 """
 CAMERA = Camera((0.0, 1.1, 20.0), 0.0, -0.1, np.radians(30.0))
 
+HILL = SCENE.replace("[30, 80], noise: flat", "[60, 60], noise: hills, seed: 6, feature: 40, scale: 6").replace(
+    "width: 0.03, blades: 700", "width: 0.04, blades: 500, clumping: 0.95"
+)
 
 IN_GRASS = Camera((0.0, 0.12, 20.0), 0.0, 0.05, np.radians(30.0))
 
@@ -70,6 +74,22 @@ def test_g5_an_eye_among_stems_sees_no_sky_in_place_of_grass_that_others_hide(
     monkeypatch.setattr(painter, "_is_open", lambda *_: True)
     due, _ = drawn(room, prairie, IN_GRASS)
     np.testing.assert_array_equal(seen, due)
+
+
+@pytest.mark.parametrize("lod", ["strips", "blades"])
+def test_g5_no_sky_shows_in_the_gaps_between_tufts_on_a_hilltop(
+    room: Stage, load: Load, monkeypatch: pytest.MonkeyPatch, lod: str
+) -> None:
+    prairie = load(HILL, lod=lod)
+    places = np.stack(np.meshgrid(*[np.linspace(-25.0, 25.0, 41, dtype=np.float32)] * 2), -1).reshape(-1, 2)
+    heights = prairie.height_at(places)
+    low, top = places[heights.argmin()], places[heights.argmax()]
+    aim = Camera((float(low[0]), float(heights.min()) + 1.1, float(low[1])), 0.0, 0.14, np.radians(25.0))
+    uphill = replace(aim, yaw=float(np.arctan2(top[0] - low[0], low[1] - top[1])))
+    seen, _ = drawn(room, prairie, uphill)
+    monkeypatch.setattr(painter, "_is_open", lambda *_: True)
+    due, _ = drawn(room, prairie, uphill)
+    assert (seen - due).max() < 30.0
 
 
 def test_where_blades_are_few_nobody_asks_what_hides_them(
