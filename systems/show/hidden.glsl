@@ -7,7 +7,7 @@ const float TRAIL = 0.5;  // greatest width of a trail right in front, on which 
 const int SPANS = 5;  // spans of a line of sight, from the trail on, each twice as long as the one before it
 const float MIDDLE = 1.5;  // distance to the middle of a span, over the distance to its beginning, which is also its length
 const int HALVINGS = 5;  // steps of the search for the height
-const float LEAST_BEND = 1e-5;  // least bend of the ground that divides [1/m]
+const float LEAST_BEND = 2.5e-6;  // least bend of the ground that divides [1/m]
 
 // A span of a line of sight, by its middle.
 struct Span {
@@ -45,8 +45,8 @@ float depth_before(Span spans[SPANS], float high, float slope, float stands) {
 // height meet the ground right behind, a parabola through the root and two spans before it. `over` is the eye's height over the root.
 float height_before_sky(Span near, Span far, float over, float away) {
     float first = near.ground / near.away, bend = (far.ground / far.away - first) / (far.away - near.away);
-    float falls = max(over / away - first + bend * near.away, 0.0);  // slope of lines of sight to the ground at the root
-    return max(falls * falls / max(-4.0 * bend, LEAST_BEND), over);
+    float half_fall = 0.5 * max(over / away - first + bend * near.away, 0.0);  // of lines of sight to the ground at the root, by slope
+    return max(half_fall * half_fall / max(-bend, LEAST_BEND), over);
 }
 
 // Whether the eye is among stems. Right in front of it are too few of them to hide what their mean optical depth tells.
