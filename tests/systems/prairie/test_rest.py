@@ -11,6 +11,7 @@ from tallgrass.components.pose import Pose
 from tallgrass.systems.around.outlook import Outlook
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.see import See
+from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.testing import looking, watch
 
 from .conftest import Load
@@ -19,9 +20,9 @@ STOOD = 90
 """Number of frames after which all transitions of a new viewer are over."""
 
 
-def follow(prairie: Prairie, *, x: float = 0.0, height: float = 4.0, view: float = 45.0) -> None:
+def follow(prairie: Prairie, *, x: float = 0.0, height: float = 4.0, yaw: float = 0.0, view: float = 45.0) -> None:
     prairie.advance(1 / 60)
-    watch(prairie, looking(x, height, 10.0, pitch=-15, view=view))
+    watch(prairie, looking(x, height, 10.0, yaw=yaw, pitch=-15, view=view))
 
 
 def patch(prairie: Prairie) -> int:
@@ -44,6 +45,10 @@ def dig(prairie: Prairie) -> None:
     terrain = prairie.site.ground.terrain
     corner = [edge + 20 * terrain.cell for edge in terrain.origin]
     prairie.set_heights(corner, terrain.heights[20:40, 20:40] - 3.0)
+
+
+def blow(prairie: Prairie) -> None:
+    prairie.add(Breeze(strength=1.0, gustiness=0.0), pose=Pose())
 
 
 def nothing(prairie: Prairie) -> None:
@@ -83,8 +88,8 @@ def test_r3_for_a_viewer_who_stands_still_nothing_is_seen_anew(load: Load, monke
 @pytest.mark.parametrize(
     ("change", "then"),
     [
-        *((each, {}) for each in (hold, clear, mow, dig)),
-        *((nothing, way) for way in ({"x": 0.7}, {"height": 9.0}, {"view": 20.0})),
+        *((each, {}) for each in (hold, clear, mow, dig, blow)),
+        *((nothing, way) for way in ({"x": 0.7}, {"height": 9.0}, {"yaw": 50.0}, {"view": 20.0})),
     ],
 )
 def test_r3_after_a_rest_a_viewer_sees_what_it_would_have_without(
