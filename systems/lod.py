@@ -58,11 +58,13 @@ def farthest(reach: tuple[int, ...], /) -> tuple[int, ...]:
 
 
 def inputs_of(outlook: Outlook, /) -> tuple[object, ...]:
-    """Return the inputs of levels of detail and appearance besides the patch table, to be compared between frames."""
+    """Return the inputs of levels of detail and appearance besides the patch table, to be compared between frames.
+
+    The view cone is in the table, as what is visible, and the viewer's cell follows from its eye.
+    """
     viewer, lens, mown = outlook.viewer, outlook.lens, outlook.noted(Mown, None)
-    looks = viewer.eye, viewer.cone, viewer.jumped, viewer.centre.tobytes()
     sees = lens.zoom, lens.range, lens.reach, lens.room
-    return *looks, *sees, outlook.mean_index, outlook.heights, outlook.sown, mown and mown.strokes
+    return viewer.eye, viewer.jumped, *sees, outlook.mean_index, outlook.heights, outlook.sown, mown and mown.strokes
 
 
 @dataclass(slots=True)
