@@ -2,6 +2,7 @@
 #include "lib/surface.glsl"
 
 const float LITTER_MEAN = 255.0 / float(LITTER_ONE);  // scale of the texture's brightness, whose mean is 1 then
+const float LITTER_SHARPER = 0.4;  // mip levels by which the texture is read finer, as filtering reduces contrast
 const float FALLEN_TIPPED = 0.3;  // share of the tips' pigment in a kind's litter, for a bloom of 1
 const float LITTER = 0.75;  // coverage of the ground by litter under dense grass
 const float LITTER_FROM = 4.0;  // litter's coverage rises with this times the understorey's: without one, the ground is bare

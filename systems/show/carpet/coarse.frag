@@ -100,9 +100,8 @@ float hides_behind(float slope, float taller, float share) {
 
 // Brightness of the litter on a patch, of which little is seen between the grass: each patch shows another part of the texture.
 float litter_on_patch(uint random_bits) {
-    vec2 part = vec2(random_bits & LOWER_HALF, random_bits >> UPPER_HALF) * exp2(-BITS);
-    vec2 in_patch = fract(place.xz * patches_per_metre) * patch_side;
-    return litter_between(in_patch / LITTER_SIDE + part, dFdx(place.xz), dFdy(place.xz)).x;
+    vec2 part = vec2(random_bits & LOWER_HALF, random_bits >> UPPER_HALF) * exp2(-BITS);  // from where on in the patch
+    return textureLod(repeating, fract(place.xz * patches_per_metre) * (patch_side / LITTER_SIDE) + part, litter_level).g;
 }
 
 void main() {

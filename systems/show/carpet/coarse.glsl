@@ -22,6 +22,7 @@ WITHIN PASSED float leaning;       // shear of images in proportion to it [1/m],
 WITHIN PASSED vec2 stretch;        // lengthening of images along the line of sight: its parts in proportion to their slope, and taken off
 WITHIN PASSED float elevation;     // from elevation_index
 WITHIN PASSED float level;         // mip level of the images
+WITHIN PASSED float litter_level;  // that of litter: a pixel covers a long stripe of ground at a low angle, read as if it were as wide
 WITHIN PASSED float grain;         // gain of contrast about the mean of images
 WITHIN PASSED float past_strips;   // opacity of the grass among strips, from among_strips
 WITHIN PASSED float bent_through;  // transmittance of the additional leaves that a line of sight meets in bent grass

@@ -107,10 +107,12 @@ ByKind filled_covers(ByKind covers) {
     return covers;
 }
 
-// Set mip level, gain of contrast and lengthening at which images are read.
-void set_sharpness(float tall) {
+// Set mip levels, gain of contrast and lengthening at which images and litter are read, at this viewing slope.
+void set_sharpness(float tall, float slope) {
     float across = pixel_height(place), size = float(textureSize(images, 0).x);
     level = log2(max(across * patches_per_metre, THINNEST_PIXEL) * (SHARP * size));
+    float stripe = across * sqrt(1.0 + 1.0 / (slope * slope));
+    litter_level = log2(stripe * float(textureSize(repeating, 0).x) / LITTER_SIDE) - LITTER_SHARPER;
     float steep = smoothstep(STEEP.x, STEEP.y, on_level), filtered = clamp(level + FILTERED - log2(SHARP), 0.0, 1.0);
     stretch = vec2(on_level, 1.0) * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, on_level));
     float far = inversesqrt(1.0 + across / (FEATURE * max(tall, LOWEST_GRASS)));
@@ -136,7 +138,7 @@ void main() {
     blown = sway_of(met, laid.message) * laid.message;
     leaning = image_shear(vec3(1.0, 0.0, laid.stands), on_level, laid.tall).x;
     met = filled_covers(met);
-    set_sharpness(laid.tall);
+    set_sharpness(laid.tall, from_above);
     set_outline(laid);
     gl_Position = clip * vec4(place, 1.0);
 }

@@ -3,7 +3,6 @@
 #include "lib/soil.glsl"
 #include "systems/show/carpet/footprint.glsl"
 
-const float LITTER_SHARPER = 0.4;  // mip levels by which it is read finer, as filtering reduces contrast
 const int HALF_OF_BITS = 65536;
 const vec2 WAVES = vec2(2.9, 0.15);  // waves of the squares' borders, as straight ones would show: wave number [1/m]; amplitude, in sides
 
@@ -25,11 +24,6 @@ const float SHARPENED = exp2(-LITTER_SHARPER) / LITTER_SIDE;
 vec2 litter_at(vec2 at, vec2 dx, vec2 dy, float bare) {
     return textureGrad(repeating, tiled_place(at), dx * SHARPENED, dy * SHARPENED).gb;
 }
-
-// The same at texture coordinates, where hardly any ground is seen between the grass.
-vec2 litter_between(vec2 uv, vec2 dx, vec2 dy) {
-    return textureGrad(repeating, uv, dx * SHARPENED, dy * SHARPENED).gb;
-}
 #else
 const float LITTER_PARTS = 4.0;  // most parts of a long stripe, one behind the other
 const float BARE_ENOUGH = 0.2;   // fraction of the ground seen between grass at which all parts are read
@@ -50,11 +44,5 @@ vec2 litter_at(vec2 at, vec2 dx, vec2 dy, float bare) {
         sum += textureLod(repeating, first + part * step, level + (part - 0.5 * count + 0.5) * apart).gb;
     while (++part < count);
     return sum / count;
-}
-
-// The same at texture coordinates, where hardly any ground is seen between the grass: read once, for a stripe as long as wide.
-vec2 litter_between(vec2 uv, vec2 dx, vec2 dy) {
-    float texels = float(textureSize(repeating, 0).x) / LITTER_SIDE, longest = max(dot(dx, dx), dot(dy, dy));
-    return textureLod(repeating, uv, 0.5 * log2(longest * texels * texels) - LITTER_SHARPER).gb;
 }
 #endif
