@@ -15,7 +15,7 @@ PASSED vec2 spot;           // place in the trees' maps of the sun
 flat PASSED vec2 past;      // from halvings_before for the column; the sun's part of the light
 #endif
 #ifdef HEADS
-flat PASSED float heads;    // factor on the coverage of heads, beyond that of leaves
+flat PASSED vec2 heads;     // factor on the coverage of heads, beyond that of leaves; from levels_to_heads
 #endif
 #ifdef THIN
 flat PASSED vec2 form_fade; // opacity over rank while a kind changes its form: slope, and value at rank 0

@@ -54,7 +54,7 @@ void main() {
     float page = packed_extra(lit).x, level = packed_extra(lit).y, boost = packed_extra(lit).z;
     vec4 texel = textureLod(atlas, vec3(uv.xy, page), level);
 #ifdef HEADS
-    boost += heads * head_part(texel.r / max(texel.a, LEAST_PAINT));
+    boost += heads.x * head_part(texel.r / max(texel.a, LEAST_PAINT));
 #endif
     float painted = min(texel.a * boost, 1.0), opacity = root_pigment.a;
     if (opacity * painted < FAINT) {
@@ -96,7 +96,11 @@ void main() {
 #endif
 #ifdef THIN
     float rank = textureLod(ranks, vec3(uv.xy, page), level).r / max(texel.a, LEAST_PAINT);
+#ifdef HEADS
+    painted = at_density(painted, rank, level - heads.y);
+#else
     painted = at_density(painted, rank, level);
+#endif
     opacity *= clamp(grain_cos.a * rank + grain_sin.a, 0.0, 1.0) * clamp(form_fade.x * rank + form_fade.y, 0.0, 1.0);
 #endif
     float covered = opacity * painted;

@@ -247,9 +247,24 @@ vec2 form_fade_of(Column column, float soft) {
     return column.form == column.kind ? vec2(0.0, 1.0) - comes : comes;
 }
 
+#ifdef HEADS
+const float BLADE = 2.83;  // breadth of a blade [texels]: `MANY` of thin.glsl is half of it, and twice
+
+// Mip levels by which texels of a kind may be coarser than those of blades and still show single plants, whose heads are broader.
+// There are `fine` texels in a metre.
+float levels_to_heads(int kind, float fine) {
+    return log2(max(sqrt(kinds[kind].head.y) * fine / BLADE, 1.0));
+}
+#endif
+
 // Set the varyings by which blades are missing: the density, `dense` at the column's edges, and opacity over rank. Blades fade
-// out over a span of ranks, narrow where a texel is one blade, and wide where a pixel is the mean of many.
-void set_rank_fade(Column column, vec2 dense, float across, float texels) {
+// out over a span of ranks, narrow where a texel is one blade, and wide where a pixel is the mean of many. There are `fine` texels in a
+// metre.
+void set_rank_fade(Column column, vec2 dense, float across, float texels, float fine) {
+#ifdef HEADS
+    heads.y = levels_to_heads(column.kind, fine);
+    texels *= exp2(-heads.y);
+#endif
     float soft = clamp(SOFTER * log2(max(texels, 1.0)), SHARPEST, 1.0);
 #ifdef EDGED
     pigment_change.a = soft;
@@ -286,8 +301,8 @@ void main() {
     float texels = side.y / (tall * blade_distance(middle, run, top + vec3(back.x, 0.0, back.y)));
     float boost = coverage_factor(k, run, middle, top, back), level = log2(texels) - SHARPER;
 #ifdef HEADS
-    heads = head_coverage_factor(k, run, middle, top, back) - boost;
-    level += log2(1.0 + heads / boost);  // heads that cover more than is painted have to spread
+    heads = vec2(head_coverage_factor(k, run, middle, top, back) - boost, 0.0);
+    level += log2(1.0 + heads.x / boost);  // heads that cover more than is painted have to spread
 #endif
     vec2 pixel = 1.0 / (pixels * vec2(distance(a.foot.xz, b.foot.xz), tall));
     vec2 corner = corner_of(column, extent, pixel, level, side, hidden);
@@ -323,6 +338,6 @@ void main() {
     number = place_number(rooted.xz);
 #endif
 #ifdef THIN
-    set_rank_fade(column, vec2(a.dense, b.dense), corner.x, 0.5 * texels);
+    set_rank_fade(column, vec2(a.dense, b.dense), corner.x, 0.5 * texels, side.y / tall);
 #endif
 }
