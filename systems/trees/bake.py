@@ -96,16 +96,16 @@ def tree_levels(values: Floats, /) -> tuple[list[Bytes], list[Bytes]]:
     return mip_levels(values[:1]), dilated(coarser[1], coarser[0, ..., 3], LEVELS - COARSER.bit_length() + 1)
 
 
-def card_texels(layers: Bytes, /, *, as_drawn: bool = False) -> Bytes:
+def card_texels(layers: Bytes, /) -> Bytes:
     """Return a twig's pictures (2 n, rows, columns, 4) as cards read them: tone, normal across and along, coverage.
 
     Leaves face out of their card, so the normal's third part follows from the others. The tones of one twig's few
-    leaves are random, but all cards show them: unless they are left `as_drawn`, they are scaled to the mean of all
-    twigs. The first layer's second channel is the tone if all leaves had a tone of 1.
+    leaves are random, but all cards show them: they are scaled to the mean of all twigs. The first layer's second
+    channel is the tone if all leaves had a tone of 1.
     """
     shows, faces = layers[::2], layers[1::2]
     drawn, brightest = shows[..., :2].sum(axis=(1, 2), dtype=np.float64).T
-    gain = np.ones(len(shows)) if as_drawn else MEAN_TONE * brightest / np.maximum(drawn, 1.0)
+    gain = MEAN_TONE * brightest / np.maximum(drawn, 1.0)
     tone = np.round(np.minimum(gain[:, None, None] * shows[..., 0], shows[..., 3])).astype(np.uint8)
     return np.ascontiguousarray(np.concatenate([tone[..., None], faces[..., :2], shows[..., 3:]], axis=-1))
 

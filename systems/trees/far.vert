@@ -7,6 +7,7 @@
 #include "systems/trees/outline.py"
 #include "systems/trees/shade.py"
 #ifndef CAST
+#define OF_TREE
 #include "systems/trees/normals.glsl"
 #endif
 

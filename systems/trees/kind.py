@@ -96,25 +96,25 @@ class GpuKind:
         found = kept_pictures(key)
         if found is None:
             found = [self._twig_pictures(programs)]
-            self._load_card(found[0], as_drawn=True)
+            self._load_card(found[0])
             for model in self.models:
                 found += self._model_pictures(programs, model)
             keep_pictures(key, found)
         self._load_card(found[0])
         for model, seen, depths in zip(self.models, found[1::2], found[2::2], strict=True):
             model.far, model.depths = texture_of(self.ctx, seen), texture_of(self.ctx, depths)
-            model.normals = tree_normals(model.model.twigs, self._normals, turn=self.habit.leaf.form == NEEDLES)
+            turn = self.habit.leaf.form == NEEDLES
+            model.normals, model.leaf_depths = tree_normals(model.model.twigs, self._normals, turn=turn)
             cover = coverage(seen[0], model.model.wide, model.model.lines)
             model.outline = picture_outline(cover)
             model.solid_outline = solid_outline(cover, FULL * CLOSED, model.outline)
 
-    def _load_card(self, twig: list[Bytes], *, as_drawn: bool = False) -> None:
-        """Make the card's texture, outlines and normals from its twig's pictures; `as_drawn` is of `card_texels`."""
+    def _load_card(self, twig: list[Bytes]) -> None:
+        """Make the card's texture, outlines and normals from its twig's pictures."""
         release_all(self.card)
         shown = [each[::2, ..., 3].max(axis=0) for each in twig]
         self.solid = solid_above(twig[1][0, ..., 3])  # the largest level of such cards on screen, about
-        texels = [card_texels(each, as_drawn=as_drawn) for each in twig]
-        self.card = texture_of(self.ctx, [equalised(each, FULL * self.solid) for each in texels])
+        self.card = texture_of(self.ctx, [equalised(card_texels(each), FULL * self.solid) for each in twig])
         solid = covered_at(shown, FULL * self.solid)
         self.outline, self.triangle = _outlines(shown[0] > FAINTEST, MARGIN)
         self.solid_outline, self.solid_triangle = _outlines(solid, CLOSE_MARGIN) if solid.any() else ([], [])
@@ -193,6 +193,7 @@ class GpuKind:
             uniforms += pack_array(program, parameter.NAME, self._vectors[key]) + pack_array(
                 program, "leaf_normals", normals
             )
+            uniforms += pack_array(program, "leaf_depths", model.leaf_depths)
             program.extra[key] = model, uniforms
         found: PackedUniforms = program.extra[key][1]
         return found

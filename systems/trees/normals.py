@@ -1,16 +1,27 @@
 """Normals of leaves, clustered into a few directions."""
 
+import sys
+
 import numpy as np
 from numpy.typing import NDArray
 
-from ...components.arrays import Bytes, Doubles
+from ...components.arrays import Bytes, Doubles, Indices
 
 AZIMUTHS, TILTS = 5, 2
 """Clusters around the normal of a card, and tilts of each: an odd number around distinguishes sides as finely as twice
 as many, as leaves are seen from both sides."""
 
 NORMALS = AZIMUTHS * TILTS
-"""Number of clusters."""
+"""Number of clusters of a card."""
+
+SIDES = 2
+"""Sides of a tree whose leaves are clustered apart: of leaves that lie alike, near ones hide those on the far side."""
+
+TREE_NORMALS = SIDES * NORMALS
+"""Number of clusters of a tree."""
+
+UPWARD = 1e-6
+"""What is added to the direction out of a crown, so that there is one in its middle, too: up."""
 
 LEAST_COVER = 128
 """Coverage from which on a texel's normal counts, of 255: fainter ones have too few bits of it."""
@@ -21,11 +32,14 @@ LEAST_FACING = 0.2
 LEAST_AREA = 1e-3
 """Part of the leaf area added to that in a picture, as that is a divisor."""
 
-GLSL = {"NORMALS": NORMALS}
+GLSL = {"NORMALS": NORMALS, "TREE_NORMALS": TREE_NORMALS}
 
 
 Normals = list[tuple[float, float, float, float]]
 """Mean normals, and the share of the leaf area that each stands for."""
+
+Depths = list[tuple[float, float, float, float]]
+"""Mean optical depths outwards of the leaves of each, as `crown.shading` has them."""
 
 CARD_TURNS = 4
 """Angles around a twig of needles that its card is sampled at, as it turns to the eye."""
@@ -40,14 +54,15 @@ def card_normals(picture: Bytes, /) -> Normals:
     texel = texels[1, texels[0, :, 3] >= LEAST_COVER]
     normal = 2.0 * texel[:, :3] - texel[:, 3:]
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1.0)
-    return _clustered(normal, 1.0 / np.maximum(normal[:, 2], LEAST_FACING))  # from the area that is seen
+    area = 1.0 / np.maximum(normal[:, 2], LEAST_FACING)  # from the area that is seen
+    return _means(normal, area, _clusters(normal, area, TILTS))
 
 
-def tree_normals(twigs: NDArray[np.void], card: Normals, /, *, turn: bool) -> Normals:
-    """Return the normals of all leaves of a tree (x, y, z), and the share of area of each.
+def tree_normals(twigs: NDArray[np.void], card: Normals, /, *, turn: bool) -> tuple[Normals, Depths]:
+    """Return the normals of all leaves of a tree (x, y, z), the share of area of each, and their optical depths.
 
-    `twigs` are records of `TWIG`, and `card` the result of `card_normals`. Cards that `turn` lie at any angle around
-    their twigs.
+    Normals are those of the sides that face out of the crown. `twigs` are records of `TWIG`, and `card` the result of
+    `card_normals`. Cards that `turn` lie at any angle around their twigs.
     """
     along, face = twigs["along"].astype(np.float64), twigs["face"].astype(np.float64)
     aside, card_values = np.cross(along, face), np.array(card)
@@ -60,10 +75,13 @@ def tree_normals(twigs: NDArray[np.void], card: Normals, /, *, turn: bool) -> No
             + card_values[:, 2, None, None] * out
         )
         normal.append(direction.reshape(-1, 3))
-    normals_of_twigs = np.concatenate(normal)[:, [0, 2, 1]]
-    normals_of_twigs[normals_of_twigs[:, 2] < 0.0] *= -1.0  # a leaf has two sides
-    area = card_values[:, 3, None] * twigs["span"].astype(np.float64) ** 2
-    return [(x, up, z, share) for x, z, up, share in _clustered(normals_of_twigs, np.tile(area.ravel(), len(normal)))]
+    leaves, copies = np.concatenate(normal), len(card_values) * len(normal)
+    depths = np.tile(twigs["shading"].astype(np.float64), (copies, 1))
+    leaves[np.einsum("ij,ij->i", leaves, (0.0, UPWARD, 0.0) - depths[:, :3]) < 0.0] *= -1.0  # a leaf has two sides
+    area = np.tile((card_values[:, 3, None] * twigs["span"].astype(np.float64) ** 2).ravel(), len(normal))
+    clusters = _clusters(leaves[:, [0, 2, 1]], area, SIDES * TILTS)
+    means = [(x, up, z, share) for x, z, up, share in _means(leaves[:, [0, 2, 1]], area, clusters)]
+    return means, [tuple(_mean_of(depths[each], area[each]).tolist()) for each in clusters]
 
 
 def pictured(normals: Normals, /) -> tuple[float, ...]:
@@ -74,30 +92,36 @@ def pictured(normals: Normals, /) -> tuple[float, ...]:
     return *(part @ each[:, :3] / area).tolist(), area
 
 
-def _clustered(normal: Doubles, area: Doubles) -> Normals:
-    """Return mean normals of clusters of normals (n, 3) with areas (n,), and the share of area of each.
+def _clusters(normal: Doubles, area: Doubles, tilts: int) -> list[Indices]:
+    """Return the indices in each cluster of normals (n, 3) with areas (n,).
 
-    Normals are divided by azimuth about the third axis, and each part is halved by tilt.
+    Normals are divided by azimuth about the third axis, and each part by tilt, into parts of the same area.
     """
     part = ((np.arctan2(normal[:, 1], normal[:, 0]) / (2.0 * np.pi) + 0.5) * AZIMUTHS).astype(np.intp) % AZIMUTHS
-    clusters = np.zeros((NORMALS, 4))
-    clusters[:, 2] = 1.0
+    clusters = list[Indices]()
     for number in range(AZIMUTHS):
         inside = np.flatnonzero(part == number)
         steep = inside[np.argsort(normal[inside, 2])]
-        halves = np.searchsorted(np.cumsum(area[steep]), 0.5 * area[steep].sum())
-        for tilt, half in enumerate((steep[:halves], steep[halves:])):
-            if len(half):
-                clusters[TILTS * number + tilt] = *_mean(normal[half], area[half]), area[half].sum()
-    whole = clusters[:, 3].sum()
-    clusters[:, 3] /= whole if whole > 0.0 else 1.0
-    return [(x, y, z, share) for x, y, z, share in clusters.tolist()]
+        limits = area[steep].sum() * np.arange(1, tilts) / tilts
+        clusters += np.split(steep, np.searchsorted(np.cumsum(area[steep]), limits))
+    return clusters
 
 
-def _mean(normal: Doubles, area: Doubles) -> Doubles:
-    """Return the mean (3,) of normals (n, 3), weighted by area: out of the card where there is none.
+def _means(normal: Doubles, area: Doubles, clusters: list[Indices]) -> Normals:
+    """Return the mean direction of each cluster, and its share of the area.
 
-    It is shorter than 1 where they differ: less of the leaves is seen from there, and less light falls on them.
+    It is a unit vector, however much its normals differ: the light seen on leaves goes by the product of two cosines,
+    and a shorter mean would lessen both.
     """
-    mean = (normal * area[:, None]).sum(axis=0)
-    return np.asarray(mean / area.sum() if np.linalg.norm(mean) > 0.0 else (0.0, 0.0, 1.0))
+    whole, means = max(float(area.sum()), LEAST_AREA), Normals()
+    for each in clusters:
+        mean = _mean_of(normal[each], area[each])
+        length = float(np.linalg.norm(mean))
+        x, y, z = (mean / length if length > 0.0 else np.array([0.0, 0.0, 1.0])).tolist()
+        means.append((x, y, z, float(area[each].sum()) / whole))
+    return means
+
+
+def _mean_of(values: Doubles, area: Doubles) -> Doubles:
+    """Return the mean of values (n, k), weighted by area: 0 of none."""
+    return np.asarray((values * area[:, None]).sum(axis=0) / max(float(area.sum()), sys.float_info.min))

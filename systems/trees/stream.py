@@ -12,7 +12,7 @@ from ...engine.gl.stream import Records, Stream, release_all
 from .bark import PACKED, PIXEL_RADII, packed, ranges_of
 from .bounds import blocks_inside
 from .model import Model
-from .normals import Normals
+from .normals import Depths, Normals
 from .outline import NOWHERE
 from .segments import Segment, Segments
 from .shells import RINGS, SHELLS
@@ -111,6 +111,8 @@ class GpuModel:
         self.depths: moderngl.TextureArray | None = None
         self.normals = Normals()
         """Normals of its leaves."""
+        self.leaf_depths = Depths()
+        """Mean optical depths of the leaves of each."""
         self.outline = self.solid_outline = NOWHERE
         """Outlines of its pictures, and of what in them is dense enough to be drawn as opaque."""
 

@@ -13,7 +13,7 @@ from tallgrass.systems.reference import draw_truth, without_trees
 from tallgrass.systems.trees import standing
 from tallgrass.systems.trees.bake import CARD
 from tallgrass.systems.trees.draw import TreePart
-from tallgrass.systems.trees.normals import NORMALS, Normals, card_normals
+from tallgrass.systems.trees.normals import TREE_NORMALS, Normals, card_normals
 from tallgrass.systems.trees.outline import ROUNDED_UP, solid_above
 from tallgrass.systems.trees.stream import CARDS, FAR
 from tallgrass.systems.trees.twig import PICTURES
@@ -180,7 +180,7 @@ def test_far_off_level_leaves_let_the_sun_through_to_who_looks_up_at_them(stage:
         part["_calls"].clear()
 
     for lies in ([(0.0, 1.0, 0.0, 1.0)], [(1.0, 0.0, 0.0, 0.5), (0.0, 0.0, 1.0, 0.5)]):
-        let_lie([lies + [(0.0, 1.0, 0.0, 0.0)] * (NORMALS - len(lies))] * len(kept))
+        let_lie([lies + [(0.0, 1.0, 0.0, 0.0)] * (TREE_NORMALS - len(lies))] * len(kept))
         seen = stage.shot(prairie, aim)[30:60, 30:60].mean(axis=(0, 1))
         blue.append(seen[2] / seen[1])
     let_lie(kept)
