@@ -38,7 +38,7 @@ LeafMean leaf_mean(mat3 own, vec3 ray, Light above, vec3 below) {
     float from_below = 0.5 * brightness(albedo * below), from_above = 0.5 * brightness(albedo * above.sky), gain = from_above - from_below;
     float always = RANDOM_SHARE * brightness(in_sun * random_leaves) + brightness(above.haze) + from_below + from_above;
     float side = to_eye.z < 0.0 ? -1.0 : 1.0, visible = LEAST_PART, brightness_sum = 0.0;
-    float sunny_area = LEAST_PART, lit_more = 0.0;
+    float sunny_area = 0.0, lit_more = 0.0;
     vec3 turned_area = vec3(0.0), brighter_side = 0.5 * (reflected - transmitted) * to_sun + gain * to_zenith;
     LeafMean leaves = LeafMean(vec3(0.0), 0.0, 0.0, 0.0);
     vec2 mean = vec2(side * dot(pictured_normal.xyz, to_sun), 0.0), spread = vec2(0.0);
@@ -57,7 +57,7 @@ LeafMean leaf_mean(mat3 own, vec3 ray, Light above, vec3 below) {
         mean.y += part * bright;
         spread += part * lit * vec2(lit, bright);
     }
-    leaves.radiance = FACED * 0.5 / sunny_area * (lit_area + lit_more + (lit_area - lit_more) * TRANSMITTED) + RANDOM_SHARE * random_leaves;
+    leaves.radiance = FACED * 0.5 / max(sunny_area, LEAST_PART) * (lit_area + lit_more + (lit_area - lit_more) * TRANSMITTED) + RANDOM_SHARE * random_leaves;
     leaves.up = dot(turned_area, to_zenith) / visible;
     mean.y /= pictured_normal.w;
     spread = spread * vec2(1.0, side) / pictured_normal.w - mean.x * mean;
