@@ -333,7 +333,7 @@ class Walk:
     def matrices(self, size: tuple[int, int]) -> tuple[Floats, Floats]:
         """Return view and projection of this instant, (4, 4) each, for a picture of this size [pixels]."""
         camera = self.camera
-        return view_matrix(camera), projection_matrix(camera.view, size[0] / max(1, size[1]))
+        return view_matrix(camera), projection_matrix(camera.view, max(1, size[0]) / max(1, size[1]))
 
     def _write_notes(self) -> None:
         lines: list[str] = list(self.keys) if self.helping else []

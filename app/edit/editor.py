@@ -1,5 +1,6 @@
 """The editor of a scene: changes, undo and saving, without a window."""
 
+import logging
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import count
@@ -10,6 +11,7 @@ from pydantic import BaseModel
 
 from ...components.arrays import Place
 from ...components.wind import WindPrimitive
+from ...engine.complaint import said
 from ...engine.declared.scene import Scene
 from ...engine.plugins import wind_kinds
 from ...engine.scene import LoadedScene, SceneError, load_maps
@@ -17,6 +19,7 @@ from ...engine.scene.document import Document, noded
 from ...engine.scene.read import load_document
 from ...engine.terrain.density import Picture
 from ...systems.prairie import Prairie
+from ...systems.wind.quarantine import QuarantinedError
 from .anchors import PLACE, Anchor, declared_anchors
 from .brush import Brush, new_picture, read_picture, stroked
 from .fields import first_part, keys_of
@@ -24,6 +27,8 @@ from .history import Draft, History
 from .pen import Pen
 from .remake import Remaking
 from .values import NOTHING, Way, value_at, with_value
+
+log = logging.getLogger("tallgrass")
 
 CENTIMETRES = 2
 """Decimals of a dragged place [m]."""
@@ -120,10 +125,9 @@ class Editor:
             values[PLACE] = [round(each, CENTIMETRES) for each in self.spot]
         if not self.add_wind(values):
             return False
-        time, number = self.prairie.time, len(self.winds) - 1
-        if not self.winds[number].parts(time=time, seed=self.scene.seed):
+        if self._is_over(self.winds[-1]):
             self.history.undo()
-            return self.add_wind(values | {"start": round(time, 1)})
+            return self.add_wind(values | {"start": round(self.prairie.time, 1)})
         return True
 
     def remove(self, way: Way) -> bool:
@@ -179,8 +183,10 @@ class Editor:
         """Take over what has grown since the last frame; undo what could not grow."""
         try:
             self.remaking.step()
-        except SceneError as error:
-            self.refusal = Refusal((), _reasons(error))
+        except Exception as error:  # memory may run out: what is unsaved must not be lost with it
+            log.debug("growing", exc_info=error)
+            reasons = _reasons(error) if isinstance(error, SceneError) else (f"it cannot grow: {said(error)}",)
+            self.refusal = Refusal((), reasons)
             self.history.change(self._shown, subject=None)
             self._go(done=True, keep=self.refusal)
         if not self.remaking.is_growing:
@@ -212,6 +218,17 @@ class Editor:
     def close(self) -> None:
         """Cancel what is still growing."""
         self.remaking.close()
+
+    def _is_over(self, wind: WindPrimitive) -> bool:
+        """Return whether a wind has no parts now; False for a plugin's that fails."""
+        time, winds = self.prairie.time, self.prairie.winds
+        source = next((each for each in winds.sources() if each.primitive == wind), None)
+        try:
+            return source is not None and not winds.quarantine.ask(
+                source, "parts", lambda: wind.parts(time=time, seed=self.scene.seed)
+            )
+        except QuarantinedError:
+            return False
 
     def _begin(self, loaded: LoadedScene) -> None:
         self.pen, self.loaded = Pen(loaded), loaded

@@ -61,6 +61,13 @@ def tell_button(button: int, modifiers: int, *, down: bool) -> None:
         imgui.get_io().add_mouse_button_event(BUTTONS[button], down)
 
 
+def let_go() -> None:
+    """Release every key and button: another window takes over, which is told of their releases."""
+    io = imgui.get_io()
+    io.clear_input_keys()
+    io.clear_input_mouse()
+
+
 def tell_wheel(x: float, y: float) -> None:
     """Forward a turn of the wheel."""
     imgui.get_io().add_mouse_wheel_event(x, y)

@@ -51,7 +51,9 @@ class Gui:
         self.use()
         io = imgui.get_io()
         io.display_size = imgui.ImVec2(*size)
-        io.display_framebuffer_scale = imgui.ImVec2(pixels[0] / max(1, size[0]), pixels[1] / max(1, size[1]))
+        io.display_framebuffer_scale = imgui.ImVec2(
+            *(max(1, count) / max(1, side) for count, side in zip(pixels, size, strict=True))
+        )
         io.delta_time = max(dt, 1e-4)
         imgui.new_frame()
 

@@ -40,14 +40,12 @@ class Panel:
         """Boxes of buttons and tabs in the last frame, by name."""
         self._held = False
         self._picked: int | None = None
+        self._size = (0.0, 0.0)
+        """Size of the window in the last frame [pixels]."""
 
     def show(self, frames_ms: Sequence[float]) -> None:
         """Show the panel in the current frame; `frames_ms` are the last intervals between frames [ms]."""
-        size = imgui.get_io().display_size
-        once = imgui.Cond_.first_use_ever
-        width = min(WIDTH, size.x / 2)
-        imgui.set_next_window_pos(imgui.ImVec2(size.x - width - _EDGE, _EDGE), once)
-        imgui.set_next_window_size(imgui.ImVec2(width, size.y - 2 * _EDGE), once)
+        self._lay()
         imgui.set_next_window_bg_alpha(0.86)
         imgui.begin(f"{self.editor.pen.path.name}{'' if self.editor.history.is_saved else ' *'}###scene")
         self._menu()
@@ -71,6 +69,15 @@ class Panel:
     def save(self) -> None:
         """Save, and show which files were written."""
         self.message = self.editor.save()
+
+    def _lay(self) -> None:
+        """Lay the panel along the right edge of a window of another size; it then stays where it is dragged."""
+        size = imgui.get_io().display_size
+        when = imgui.Cond_.first_use_ever if (size.x, size.y) == self._size else imgui.Cond_.always
+        self._size = size.x, size.y
+        width = min(WIDTH, size.x / 2)
+        imgui.set_next_window_pos(imgui.ImVec2(size.x - width - _EDGE, _EDGE), when)
+        imgui.set_next_window_size(imgui.ImVec2(width, size.y - 2 * _EDGE), when)
 
     def _menu(self) -> None:
         history = self.editor.history

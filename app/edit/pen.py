@@ -6,6 +6,7 @@ from collections.abc import Container, Mapping
 from io import BytesIO
 from itertools import count
 from pathlib import Path
+from stat import S_IWGRP, S_IWOTH, S_IWUSR
 from typing import Any
 
 from PIL import Image
@@ -18,6 +19,9 @@ from .rewrite import rewritten
 from .values import value_at
 
 _BOM = b"\xef\xbb\xbf"
+
+WRITABLE = S_IWUSR | S_IWGRP | S_IWOTH
+"""Permissions of a file, any of which lets somebody write it."""
 
 
 class Pen:
@@ -43,25 +47,26 @@ class Pen:
         after = bom + rewritten(before, values).encode()
         maps = {name: each for name, each in pictures.items() if self._written.get(name) is not each}
         maps = {name: each for name, each in maps.items() if name in maps_of(values)}
-        if after == self._bytes and not maps:
+        same = after == self._bytes and self.path.exists()
+        if same and not maps:
             return []
         painted = {name: picture_bytes(picture, name) for name, picture in maps.items()}
         try:
             _require(self.path, self._bytes)
             folder = self._copied()
+            scene = [] if same and folder == self.path.parent else [self.path.name]
             for name in painted:
-                if (folder / name).exists():
-                    _require(folder / name, self._files.get(name))
+                _require(folder / name, self._files.get(name))
+            for name in [*scene, *painted]:
+                _require_writable(folder / name)
             for name, data in painted.items():
                 _write(folder / name, data)
-            scene = [self.path.name] if after != self._bytes or folder != self.path.parent else []
+                self._written[name], self._files[name] = maps[name], data
             if scene:
                 _write(folder / self.path.name, after)
         except OSError as error:
-            raise ValueError(f"{error.filename}: {error.strerror}") from error
+            raise ValueError(f"{self._folder} cannot be written to: {error.strerror}") from error
         self.path, self._bytes = folder / self.path.name, after
-        self._written.update(maps)
-        self._files.update(painted)
         return [*scene, *maps]
 
     def new_map(self, kind: str, taken: Container[str]) -> str:
@@ -113,11 +118,17 @@ def picture_bytes(picture: Picture, name: str, /) -> bytes:
 
 
 def _require(path: Path, data: bytes | None) -> None:
-    """Raise ValueError where a file does not contain `data`."""
-    if path.read_bytes() != data:
+    """Raise ValueError where a file that is there does not contain `data`."""
+    if path.exists() and path.read_bytes() != data:
         raise ValueError(
             f"{path.name} has been changed by somebody else: F5 reads it again, and what is not saved is gone"
         )
+
+
+def _require_writable(path: Path) -> None:
+    """Raise ValueError for a file that nobody may write: as a new one takes its place, the system would allow it."""
+    if path.exists() and not path.stat().st_mode & WRITABLE:
+        raise ValueError(f"{path.name} is read-only: allow writing it, and save again")
 
 
 def _write(path: Path, data: bytes) -> None:

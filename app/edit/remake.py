@@ -46,7 +46,7 @@ class Remaking:
         self._wanted = None
 
     def step(self) -> None:
-        """Take over what has grown since the last frame; raises SceneError where growing failed."""
+        """Take over what has grown since the last frame; raises the error of what could not grow."""
         if self._growing is None or not self._growing[1].done():
             return
         loaded, future = self._growing
@@ -55,14 +55,14 @@ class Remaking:
             return
         try:
             self._prairie.reload(loaded, site=future.result())
-        except SceneError:
+        except Exception:
             self._wanted = None if wanted is loaded else wanted
             self._start()
             raise
         self.follow(wanted)
 
     def wait(self) -> None:
-        """Wait until everything has grown; raises SceneError where growing failed."""
+        """Wait until everything has grown; raises the error of what could not grow."""
         while self._growing is not None:
             self._growing[1].exception()
             self.step()

@@ -8,7 +8,7 @@ from typing import Any
 from ...engine.scene import SceneError
 from ...engine.scene.compose import read_document
 from ...engine.scene.document import Node
-from .values import yaml_text
+from .values import Way, value_at, yaml_text
 
 Splice = tuple[int, int, str]
 """A replacement: the index of its first character, the index after its last, and the new text."""
@@ -33,13 +33,23 @@ def rewritten(text: str, values: dict[str, Any], /) -> str:
     try:
         read = read_document(result, file="").root.data
     except SceneError as error:
-        raise RewriteError(_NOT_HERE) from error
+        raise RewriteError(f"what was changed {_REPEATED}") from error
     if not _same(read, values):
-        raise RewriteError(_NOT_HERE)
+        raise RewriteError(
+            f"with what was changed, {'.'.join(map(str, _other(read, values)))} changes, too: it {_REPEATED}"
+        )
     return result
 
 
-_NOT_HERE = "what was changed is written once and used at several places (& and *): change it in the file itself"
+_REPEATED = "is written once and used at several places (& and *); change it in the file itself"
+
+
+def _other(one: Any, other: Any) -> Way:
+    """Return the way to the first difference of two values."""
+    steps = one if isinstance(one, dict) else range(len(one)) if isinstance(one, list) else ()
+    found = (step for step in steps if not _same(value_at(one, (step,)), value_at(other, (step,))))
+    step = next(found, None)
+    return () if step is None else (step, *_other(value_at(one, (step,)), value_at(other, (step,))))
 
 
 def _same(one: Any, other: Any) -> bool:

@@ -184,6 +184,8 @@ class EditWalk(Walk):
     def on_deactivate(self) -> None:
         """Let go of everything when another window takes over."""
         self._grip = self._stroke = None
+        self.gui.use()
+        events.let_go()
         self.editor.rest()
         super().on_deactivate()
 
@@ -219,7 +221,8 @@ class EditWalk(Walk):
         return self._sight().ground(self._pointer)
 
     def _sight(self) -> Sight:
-        size = self.window.get_size()
+        width, height = self.window.get_size()
+        size = max(1, width), max(1, height)
         return Sight(size, View(*self.matrices(size)), self.prairie.site.ground.terrain)
 
     def _take_hold(self, place: Place | None) -> None:

@@ -1,6 +1,7 @@
 """The editor: what it changes, refuses, undoes and saves, without a window."""
 
 from collections.abc import Iterator
+from contextlib import AbstractContextManager
 from dataclasses import replace
 from pathlib import Path
 
@@ -8,10 +9,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from tallgrass.app.edit import pen
 from tallgrass.app.edit.brush import Brush
 from tallgrass.app.edit.editor import Editor
 from tallgrass.app.edit.pen import Pen
 from tallgrass.app.edit.values import NOTHING, with_value
+from tallgrass.engine.kept import replacing
 from tallgrass.engine.scene import read_scene
 from tallgrass.systems.prairie import Prairie
 
@@ -288,19 +291,77 @@ def test_a_bundled_scene_stays_and_a_copy_with_its_maps_is_written_here(
     loaded = read_scene("meadow")
     bundled, values = loaded.file.read_text(), loaded.document.root.data
     changed = with_value(values, ("light", "elevation"), 45.0)
-    pen = Pen(loaded)
-    assert pen.write(changed, {}) == ["meadow.yaml"]
-    assert pen.path == tmp_path / "meadow.yaml"
-    assert pen.path.read_text() == bundled.replace("elevation: 30", "elevation: 45")
-    assert read_scene(pen.path).scene.light.elevation == 45.0
+    writer = Pen(loaded)
+    assert writer.write(changed, {}) == ["meadow.yaml"]
+    assert writer.path == tmp_path / "meadow.yaml"
+    assert writer.path.read_text() == bundled.replace("elevation: 30", "elevation: 45")
+    assert read_scene(writer.path).scene.light.elevation == 45.0
     assert loaded.file.read_text() == bundled
-    assert pen.write(values, {}) == ["meadow.yaml"]
+    assert writer.write(values, {}) == ["meadow.yaml"]
     with pytest.raises(ValueError, match=r"meadow\.yaml is in this folder already"):
         Pen(loaded).write(changed, {})
-    pen.path.unlink()
+    writer.path.unlink()
     (tmp_path / next(name for name in loaded.files if name.endswith(".png"))).write_bytes(b"another picture")
     with pytest.raises(ValueError, match=r"another .* is in this folder already"):
         Pen(loaded).write(changed, {})
+
+
+@pytest.mark.parametrize("name", ["little.yaml", "high.png"])
+def test_a_file_that_nobody_may_write_stays_and_the_others_with_it(editor: Editor, path: Path, name: str) -> None:
+    editor.set(("light", "elevation"), 45.0)
+    editor.paint([(-10.0, -10.0)], Brush("high"))
+    map_before = path.with_name("high.png").read_bytes()
+    path.with_name(name).chmod(0o444)
+    assert editor.save() == ""
+    assert editor.refusal is not None
+    assert editor.refusal.reasons == (f"{name} is read-only: allow writing it, and save again",)
+    assert (path.read_text(), path.with_name("high.png").read_bytes()) == (SCENE, map_before)
+    path.with_name(name).chmod(0o644)
+    assert editor.save() == "little.yaml and high.png are written"
+
+
+def test_a_scene_whose_file_is_gone_is_written_again(editor: Editor, path: Path) -> None:
+    editor.set(("light", "elevation"), 45.0)
+    path.unlink()
+    assert editor.save() == "little.yaml is written"
+    assert read_scene(path).scene == editor.scene
+    path.unlink()
+    assert editor.save() == "little.yaml is written"
+
+
+def test_maps_that_were_written_before_the_scene_could_not_be_are_known_the_next_time(
+    editor: Editor, path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    editor.set(("light", "elevation"), 45.0)
+    editor.paint([(-10.0, -10.0)], Brush("high"))
+
+    def full(file: Path) -> AbstractContextManager[Path]:
+        if file.suffix == ".yaml":
+            raise OSError(28, "No space left on device", ".3f2a.part")
+        return replacing(file)
+
+    monkeypatch.setattr(pen, "replacing", full)
+    assert editor.save() == ""
+    assert editor.refusal is not None
+    assert editor.refusal.reasons == (f"{path.parent} cannot be written to: No space left on device",)
+    monkeypatch.undo()
+    assert editor.save() == "little.yaml is written"
+
+
+def test_what_fails_while_it_grows_is_taken_back_and_told(editor: Editor, monkeypatch: pytest.MonkeyPatch) -> None:
+    editor.set(("light", "elevation"), 45.0)
+    editor.rest()
+
+    def grow(*_: object, **__: object) -> None:
+        raise MemoryError("no room")
+
+    monkeypatch.setattr("tallgrass.systems.site.cached_growth", grow)
+    assert editor.set(("grass", "low", "height", 1), 0.37)
+    while editor.remaking.is_growing:
+        editor.step()
+    assert editor.refusal is not None
+    assert editor.refusal.reasons == ("it cannot grow: MemoryError: no room",)
+    assert (editor.scene.grass["low"].height[1], editor.scene.light.elevation) == (0.3, 45.0)
 
 
 def test_a_brush_for_a_kind_that_is_gone_does_nothing(editor: Editor) -> None:

@@ -1,6 +1,6 @@
 """Every key of a scene in the panel, those of a stranger's wind too."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +11,7 @@ from pydantic import BaseModel, Field
 from tallgrass.app.edit.fields import keys_of
 from tallgrass.app.edit.values import Way
 from tallgrass.components.arrays import Floats
-from tallgrass.components.wind import Extent, Grass
+from tallgrass.components.wind import Extent, Grass, WindPrimitive
 from tallgrass.engine.plugins import WindKinds, wind_kinds
 from tallgrass.engine.scene import bundled_scenes
 from tallgrass.systems.wind.placed import PlacedWind
@@ -90,6 +90,24 @@ def test_n13_a_strangers_wind_is_added_where_one_looks_and_has_its_fields(
     added = [line for line in (tmp_path / "lawn.yaml").read_text().splitlines() if line not in SCENE.splitlines()]
     (line,) = added
     assert line.startswith("  - { kind: draught, position: [")
+
+
+class Broken(Draught):
+    """A plugin's wind that fails."""
+
+    kind: str = "broken"
+    """A broken one."""
+
+    def parts(self, *, time: float, seed: int) -> Sequence[WindPrimitive]:
+        raise RuntimeError("no parts")
+
+
+def test_a_strangers_wind_that_fails_is_added_and_left_out(walk: "EditWalk", own_kinds: WindKinds) -> None:
+    own_kinds.add("broken", Broken)
+    assert walk.editor.add_wind_of("broken")
+    frames(walk, 2)
+    assert walk.editor.picked == 1
+    assert [*walk.prairie.wind_failures.values()] == ["wind[1] broken: parts raised RuntimeError: no parts"]
 
 
 @pytest.fixture

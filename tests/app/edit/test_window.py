@@ -14,7 +14,7 @@ import pytest
 
 from tallgrass.engine.scene import read_scene
 
-from .driving import SCENE, SIZE, button, drag, field, frames, on_ground, opened, seen, shown, strike, tell
+from .driving import LEFT, SCENE, SIZE, button, drag, field, frames, on_ground, opened, seen, shown, strike, tell
 
 if TYPE_CHECKING:
     from tallgrass.app.edit.window import EditWalk
@@ -134,6 +134,37 @@ def test_the_panel_is_whole_in_a_window_that_was_made_taller(walk: "EditWalk") -
     frames(walk, 2)
     walk.on_draw()
     np.testing.assert_array_equal(shown()[12:24, 370:700], bar)
+
+
+def test_the_panel_stays_at_the_right_edge_of_a_window_of_another_size(walk: "EditWalk") -> None:
+    walk.window.set_size(SIZE[0] + 500, SIZE[1])
+    frames(walk, 2)
+    assert walk.panel.buttons["save"][0] > SIZE[0]
+
+
+def test_a_window_without_pixels_is_walked_in_and_edited_all_the_same(
+    walk: "EditWalk", monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(walk.window, "get_size", lambda: (0, 0))
+    monkeypatch.setattr(walk.window, "get_framebuffer_size", lambda: (0, 0))
+    drag(walk, (0.0, 0.0), (1.0, 1.0))
+    monkeypatch.undo()
+    frames(walk, 2)
+    assert walk.panel.buttons["save"][0] > 0
+
+
+def test_a_slider_is_let_go_when_another_window_takes_over(walk: "EditWalk") -> None:
+    opened(walk, ("light",))
+    x, y = field(walk, ("light", "elevation"), 0.4)
+    tell(walk, "on_mouse_motion", x, y, 0, 0)
+    frames(walk)
+    tell(walk, "on_mouse_press", x, y, LEFT, 0)
+    frames(walk)
+    tell(walk, "on_deactivate")
+    before = walk.editor.scene.light.elevation
+    tell(walk, "on_mouse_motion", x + 60, y, 60, 0)
+    frames(walk, 2)
+    assert walk.editor.scene.light.elevation == before
 
 
 def test_n7_who_walks_stands_on_a_terrain_that_was_changed(walk: "EditWalk") -> None:
