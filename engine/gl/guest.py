@@ -162,14 +162,14 @@ def aside(ctx: moderngl.Context, target: moderngl.Framebuffer, *, alike: bool = 
             _saved[-1].restrict_colour()
 
 
-def clear(target: moderngl.Framebuffer, *, depth: float | None = None) -> None:
-    """Clear a framebuffer that is bound: all colours to 0, and its depth to `depth` where it has one.
+def clear(target: moderngl.Framebuffer, *, depth: float | None = None, color: float = 0.0) -> None:
+    """Clear a framebuffer that is bound: all colours to `color`, and its depth to `depth` where it has one.
 
     moderngl's own `clear` would leave these as the clear values of the host, who may have set them once for all frames.
     """
-    gl, nothing = functions_of(target.ctx), (c_float * 4)()
+    gl, colors = functions_of(target.ctx), (c_float * 4)(*[color] * 4)
     for number in range(len(target.color_attachments or ())):
-        gl.glClearBufferfv(ENUMS["COLOR"], number, nothing)
+        gl.glClearBufferfv(ENUMS["COLOR"], number, colors)
     if depth is not None:
         gl.glClearBufferfv(ENUMS["DEPTH"], 0, (c_float * 1)(depth))
 

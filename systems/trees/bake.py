@@ -22,6 +22,9 @@ CARD = 256
 DEPTH_RANGES = 4.0, 2.0
 """Depth range of pictures to the front and back: of a tree, in half heights; of a twig, in its usual lengths."""
 
+KNOWN = 0x5A
+"""Value by which a texel that was drawn is known again [bytes]; memory that was not drawn into hardly has it."""
+
 COARSEST = 1 << (LEVELS - 1)
 """Texels in a row of the finest mip level that the coarsest has one of."""
 
@@ -39,7 +42,7 @@ def pictures(ctx: moderngl.Context, columns: int, rows: int, wide: int, tall: in
     """Return pictures drawn side by side in rows, each of `wide` by `tall` texels; two outputs are two layers.
 
     They have shape (2, rows, columns, 4), and are premultiplied by the coverage, the last channel of the first layer:
-    each texel is the mean of what it shows [bytes].
+    each texel is the mean of what it shows [bytes]. They are empty where the driver draws nothing.
     """
     fine = wide * FINER, tall * FINER
     size, before = (columns * fine[0], rows * fine[1]), ctx.fbo
@@ -55,10 +58,22 @@ def pictures(ctx: moderngl.Context, columns: int, rows: int, wide: int, tall: in
             draw(number)
         ctx.enable_only(moderngl.NOTHING)
         texels = np.stack([np.frombuffer(each.read(), np.uint8).reshape(size[1], size[0], 4) for each in colors])
+        if not _is_drawn(target):
+            texels[...] = 0  # what was read is whatever lay in memory
     finally:
         before.use()  # a target bound when released would be bound again
         release_all(target, depth, *colors)
     return _levels(texels, FINER.bit_length())[-1]  # empty texels are 0 in both
+
+
+def _is_drawn(target: moderngl.Framebuffer) -> bool:
+    """Return whether what is drawn into a framebuffer, which is bound, can be read: not after its context was lost.
+
+    Drivers that draw nothing, as for measurements, leave in it what lay in memory.
+    """
+    clear(target, color=KNOWN / 255.0)
+    read = (target.read(viewport=(0, 0, 1, 1), components=4, attachment=number) for number in range(2))
+    return all(texel == bytes([KNOWN] * 4) for texel in read)
 
 
 def texture_of(ctx: moderngl.Context, levels: list[Bytes], /) -> moderngl.TextureArray:

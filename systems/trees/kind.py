@@ -120,7 +120,7 @@ class GpuKind:
         self.solid_outline, self.solid_triangle = _outlines(solid, CLOSE_MARGIN) if solid.any() else ([], [])
         self._normals = card_normals(twig[0][:2])
         cover = twig[0][::2, ..., 3].mean(axis=(1, 2))
-        self._picture_cover = tuple((cover / cover[0]).tolist())
+        self._picture_cover = tuple((cover / (cover[0] or 1.0)).tolist())
 
     def _twig_pictures(self, programs: Programs) -> list[Bytes]:
         """Return the pictures of its twig, each with more and smaller leaves; the depth test is on meanwhile."""

@@ -1,9 +1,11 @@
 """Pictures of trees: as broad as the tree, and how light has come to what they show (F3)."""
 
+import moderngl
 import numpy as np
 import pytest
 
-from tallgrass.systems.trees.bake import COARSEST, card_texels, dilated, equalised, picture_size, tree_levels
+from tallgrass.engine.gl.guest import guest
+from tallgrass.systems.trees.bake import COARSEST, card_texels, dilated, equalised, picture_size, pictures, tree_levels
 from tallgrass.systems.trees.far import COARSER, LINES
 from tallgrass.systems.trees.noise import FINER, NOISE_CELLS, bark_noise
 from tallgrass.systems.trees.twig import MEAN_TONE
@@ -32,6 +34,22 @@ def test_how_light_has_come_is_the_mean_of_what_is_covered_and_goes_on_where_not
     assert ((levels[0] >= 90) & (levels[0] <= 200)).all()
     nothing = np.zeros((32, 48), np.float32)
     assert not dilated(light, nothing, 3)[0].any()  # as where a driver draws nothing
+
+
+@pytest.mark.gl
+def test_pictures_are_empty_where_the_driver_draws_nothing_into_what_lay_in_memory(
+    ctx: moderngl.Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = ctx.fbo
+
+    def shown() -> float:
+        with guest(ctx):
+            return float(pictures(ctx, 2, 1, 8, 16, lambda _: ctx.fbo.clear(0.5, 0.5, 0.5, 0.5)).mean())
+
+    assert shown() == pytest.approx(127.5, abs=1.0)
+    monkeypatch.setattr("tallgrass.systems.trees.bake.clear", lambda *_, **__: None)
+    assert shown() == 0.0
+    before.use()
 
 
 def test_of_a_tree_texels_are_larger_that_tell_how_light_has_come() -> None:
