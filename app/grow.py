@@ -11,7 +11,7 @@ from ..engine.kept import cache_folder, keep_in
 from ..engine.scene import read_scene
 from ..systems.site import seed_of
 from ..systems.stock.archive import pack
-from ..systems.stock.cache import MOST, SUFFIX, growth_key, is_kept
+from ..systems.stock.cache import SUFFIX, growth_key, is_kept
 from ..systems.stock.models import grow as grow_kind
 from .studio.errors import MachineError
 from .studio.progress import counted
@@ -85,6 +85,6 @@ def grown(kind: GrassKind, quality: Quality, seed: int, key: str, /) -> bytes:
 
 def _keep(data: bytes, key: str, folder: Path) -> None:
     try:
-        keep_in(folder, key, SUFFIX, data, most=MOST)
+        keep_in(folder, key, SUFFIX, data, room=None)  # all that was asked for stays, however much it is
     except OSError as error:
         raise MachineError(f"{folder}: {error.strerror}; name another folder: TALLGRASS_CACHE") from None

@@ -10,12 +10,16 @@ from hashlib import blake2b
 from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
 from importlib.resources.abc import Traversable
+from itertools import accumulate
+from operator import itemgetter
 from pathlib import Path
 from secrets import token_hex
 
 import numpy as np
 
 log = logging.getLogger("tallgrass")
+
+MEGABYTE = 1 << 20
 
 DIGEST = 32
 """Length of a checksum [bytes]."""
@@ -92,24 +96,28 @@ def kept(key: str, suffix: str, /) -> memoryview | None:
     return None
 
 
-def keep(key: str, suffix: str, data: bytes, /, *, most: int) -> None:
-    """Cache bytes for `kept`, and remove the oldest files of this suffix beyond `most`; a failure is logged once."""
+def keep(key: str, suffix: str, data: bytes, /, *, room: int) -> None:
+    """Cache bytes for `kept`, and make room for them; a failure is logged once.
+
+    The files of this suffix that were not used for longest are removed, until all together fit into `room` [bytes].
+    """
     folder = cache_folder()
     if folder is None:
         tell_nothing_is_kept("the home folder", "there is none")
         return
     try:
-        keep_in(folder, key, suffix, data, most=most)
+        keep_in(folder, key, suffix, data, room=room)
     except OSError as error:
         tell_nothing_is_kept(str(folder), error.strerror or "it cannot be written to")
 
 
-def keep_in(folder: Path, key: str, suffix: str, data: bytes, /, *, most: int) -> None:
-    """Do what `keep` does in a folder; raises OSError where it cannot be written."""
+def keep_in(folder: Path, key: str, suffix: str, data: bytes, /, *, room: int | None) -> None:
+    """Do what `keep` does in a folder, without a bound where `room` is None; raises OSError if it cannot be written."""
     folder.mkdir(parents=True, exist_ok=True)
     with replacing(folder / (key + suffix)) as part:
         part.write_bytes(_checksum(data, key) + data)
-    _forget_oldest(folder, suffix, most)
+    if room is not None:
+        _make_room(folder, suffix, room)
 
 
 def _checksum(data: bytes | memoryview, key: str) -> bytes:
@@ -128,18 +136,24 @@ def replacing(path: Path, /) -> Iterator[Path]:
         part.unlink(missing_ok=True)
 
 
-def _forget_oldest(folder: Path, suffix: str, most: int) -> None:
-    """Remove the least recently used files of a suffix beyond `most`.
+def _make_room(folder: Path, suffix: str, room: int) -> None:
+    """Remove the least recently used files of a suffix that do not fit into `room` [bytes]; the last one always stays.
 
     Other programs and threads may do so at the same time: a file that is gone, or in use, is no error.
     """
-    for path in sorted(folder.glob("*" + suffix), key=_used)[:-most]:
-        with suppress(OSError):
-            path.unlink()
+    found = [(path, *_used(path)) for path in folder.glob("*" + suffix)]
+    found.sort(key=itemgetter(1), reverse=True)
+    sizes = accumulate(size for _, _, size in found)
+    for (path, _, _), taken in [*zip(found, sizes, strict=True)][1:]:
+        if taken > room:
+            with suppress(OSError):
+                path.unlink()
 
 
-def _used(path: Path) -> float:
+def _used(path: Path) -> tuple[float, int]:
+    """Return when a file was last used [s], and its size [bytes]."""
     try:
-        return path.stat().st_mtime
+        found = path.stat()
     except OSError:
-        return 0.0
+        return 0.0, 0
+    return found.st_mtime, found.st_size

@@ -49,8 +49,8 @@ settings.load_profile("tallgrass")
 Python = Callable[..., str]
 OnCard = list[tuple[Receiving, NDArray[np.float32]]]
 
-REMEMBERED, KEPT = 24, 120
-"""Numbers of growths kept in memory, of a few megabytes each, and in the cache."""
+REMEMBERED, KEPT = 24, 2 << 30
+"""Number of growths kept in memory, of a few megabytes each, and room for them in the cache [bytes]."""
 
 PROGRAMS = 40
 """Number of released programs kept for the next prairie; each takes 5 MB in a software rasteriser."""
@@ -191,7 +191,7 @@ def _grown_once() -> Iterator[None]:
     levels = lru_cache(SEEDS)(repeating.repeating_levels.__wrapped__)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(site, "cached_growth", remembered)
-        patch.setattr(cache, "MOST", KEPT)
+        patch.setattr(cache, "ROOM", KEPT)
         patch.setattr(repeating, "repeating_levels", levels)
         yield
 

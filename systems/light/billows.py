@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Floats
 from ...engine.gl.functions import ENUMS, functions_of
-from ...engine.kept import code_hash, keep, kept
+from ...engine.kept import MEGABYTE, code_hash, keep, kept
 from .repeating import CLOUDS_SIDE, heaps
 
 SIDE = 64
@@ -34,8 +34,8 @@ SEED = 0x62696C6C
 LEVELS = 5
 """Number of mip levels. The last is 4 texels wide, the number of heaps in the second octave."""
 
-SUFFIX, MOST_FILES = ".billows", 2
-"""Suffix of cache files, and largest number of them."""
+SUFFIX, ROOM = ".billows", 4 * MEGABYTE
+"""Suffix of cache files, and room for them: each has a megabyte [bytes]."""
 
 BLOCKS = 9
 """Blocks along a side of the cloud map's square: the length of the columns of `BLOCK` in `clouding.glsl`."""
@@ -63,7 +63,7 @@ def billow_levels() -> tuple[NDArray[np.uint8], ...]:
     texels = kept(key, SUFFIX)
     if texels is None:
         made = b"".join(each.tobytes() for each in _computed_levels())
-        keep(key, SUFFIX, made, most=MOST_FILES)
+        keep(key, SUFFIX, made, room=ROOM)
         texels = memoryview(made)
     parts = np.split(np.frombuffer(texels, np.uint8), np.cumsum([prod(shape) for shape in shapes])[:-1])
     return tuple(part.reshape(shape) for part, shape in zip(parts, shapes, strict=True))

@@ -12,7 +12,7 @@ from ...components.arrays import Doubles, Floats
 from ...components.wind import WindPrimitive
 from ...engine.gl.mipmaps import mipmapped_image
 from ...engine.gl.rasteriser import anisotropy
-from ...engine.kept import code_hash, keep, kept, key_of
+from ...engine.kept import MEGABYTE, code_hash, keep, kept, key_of
 from ..grow.raster import Fragments, along_ribbons, interpolate, rasterise, ribbon_triangles
 from ..wind.blow import mean_wind
 
@@ -56,8 +56,8 @@ LITTER_ONE = 128
 CACHED_SEEDS = 4
 """Number of seeds whose maps stay in memory, less than a megabyte each: a scene read again often has the same seed."""
 
-SUFFIX, MOST_FILES = ".ground", 24
-"""Suffix of cache files, and largest number of them, one per seed."""
+SUFFIX, ROOM = ".ground", 24 * MEGABYTE
+"""Suffix of cache files, one per seed, and room for them: each has less than a megabyte [bytes]."""
 
 CLOUDS_SIDE = 2600.0
 """Side of the cloud map's square [m]."""
@@ -244,7 +244,7 @@ def repeating_levels(*, seed: int) -> tuple[NDArray[np.uint8], ...]:
     cached = kept(key, SUFFIX)
     if cached is None:
         texels = np.stack([cloud_map(seed=seed), *ground_maps(seed=seed)], axis=-1)
-        keep(key, SUFFIX, texels.tobytes(), most=MOST_FILES)
+        keep(key, SUFFIX, texels.tobytes(), room=ROOM)
     else:
         texels = np.frombuffer(cached, np.uint8).reshape(SIDE, SIDE, 3)
     levels, mean = [texels], texels.astype(np.float64)

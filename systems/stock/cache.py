@@ -4,7 +4,7 @@ from dataclasses import asdict
 
 from ...engine.declared.grass import GrassKind
 from ...engine.declared.quality import Quality
-from ...engine.kept import code_hash, keep, kept, key_of
+from ...engine.kept import MEGABYTE, code_hash, keep, kept, key_of
 from ..grow.layout import layout_of
 from ..grow.record import Growth
 from ..show.registry import REPRESENTATIONS
@@ -16,8 +16,8 @@ CODE = "systems/grow", "systems/stock", *(f"systems/show/{each.name}/grow.py" fo
 
 SUFFIX = ".growth"
 
-MOST = 48
-"""Number of growths kept in a folder."""
+ROOM = 1024 * MEGABYTE
+"""Room for growths in a folder [bytes]: at `high`, some 48."""
 
 
 def cached_growth(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
@@ -31,7 +31,7 @@ def cached_growth(kind: GrassKind, quality: Quality, /, *, seed: int) -> Growth:
     if data is not None:
         return unpack(data)
     growth = grow(kind, quality, seed=seed)
-    keep(key, SUFFIX, pack(growth), most=MOST)
+    keep(key, SUFFIX, pack(growth), room=ROOM)
     return growth
 
 

@@ -7,7 +7,7 @@ from zlib import compress, decompress
 import numpy as np
 
 from ...components.arrays import Bytes
-from ...engine.kept import code_hash, keep, kept, key_of
+from ...engine.kept import MEGABYTE, code_hash, keep, kept, key_of
 from ...engine.zipped import zipped
 
 SUFFIX = ".trees"
@@ -15,8 +15,8 @@ SUFFIX = ".trees"
 CODE = "systems/trees", "engine/shaders/lib"
 """Sources that grow and draw trees."""
 
-MOST = 24
-"""Number of files that are kept, one a kind of tree, of some megabytes each."""
+ROOM = 512 * MEGABYTE
+"""Room for files in a folder [bytes], one a kind of tree, of 4 to 10 MB each."""
 
 QUICKLY = 1
 """Compression level: a fifth of the usual time, for files a tenth larger."""
@@ -53,4 +53,4 @@ def keep_pictures(key: str, pictures: list[Picture], /) -> None:
     if not all(texels[..., 3].any() for texels in shown):
         return
     levels = {f"{one}.{level}": texels for one, each in enumerate(pictures) for level, texels in enumerate(each)}
-    keep(key, SUFFIX, compress(zipped(levels), QUICKLY), most=MOST)
+    keep(key, SUFFIX, compress(zipped(levels), QUICKLY), room=ROOM)

@@ -61,7 +61,7 @@ def believed(data: bytes, *, key: str = "key") -> Growth | None:
 
 def filed(key: str = "key") -> bytes:
     """Return the bytes of the file in which the cache keeps `GROWN` under a key."""
-    keep(key, SUFFIX, PACKED, most=1)
+    keep(key, SUFFIX, PACKED, room=1)
     folder = cache_folder()
     assert folder is not None
     return (folder / (key + SUFFIX)).read_bytes()
@@ -212,9 +212,9 @@ def test_a_full_disk_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.M
 def test_what_was_not_used_for_longest_is_forgotten(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr("tallgrass.systems.stock.cache.MOST", 48)
+    monkeypatch.setattr("tallgrass.systems.stock.cache.ROOM", 47 * 1000 + DIGEST + len(PACKED))
     for number in range(60):
-        (tmp_path / f"{number}.growth").write_bytes(b"")
+        (tmp_path / f"{number}.growth").write_bytes(b"x" * 1000)
         os.utime(tmp_path / f"{number}.growth", (number, number))
     (tmp_path / "mine.txt").write_text("not ours")
     (tmp_path / "gone.growth").symlink_to(tmp_path / "another program was first")

@@ -68,7 +68,10 @@ def test_where_nothing_can_be_written_that_is_said_once(
 
 
 def test_no_more_files_are_kept_than_there_is_room_for(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(kept, "MOST", 2)
-    for seed in range(4):
+    for seed in range(40):
         keep_pictures(kind_key("oak", seed, "a card"), pictures()[:1])
+    files = list(folder.glob("*" + SUFFIX))
+    assert len(files) == 40, "a game with many kinds of trees would draw them anew at each start"
+    monkeypatch.setattr(kept, "ROOM", 2.5 * files[0].stat().st_size)
+    keep_pictures(kind_key("oak", 40, "a card"), pictures()[:1])
     assert len(list(folder.glob("*" + SUFFIX))) == 2
