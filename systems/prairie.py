@@ -1,6 +1,6 @@
 """A prairie: the object that a game loads, advances and draws."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, get_args
@@ -8,7 +8,7 @@ from weakref import WeakKeyDictionary
 
 import moderngl
 
-from ..engine.camera import View, as_origin, camera_at, projection_matrix, view_matrix, view_of
+from ..engine.camera import View, camera_at, projection_matrix, view_matrix, view_of
 from ..engine.declared.parts import DEPTHS, as_parts
 from ..engine.declared.quality import PRESETS, LodName
 from ..engine.gl.guest import guest_view
@@ -214,21 +214,6 @@ class Prairie(Tending):
         with self._screen.opened(self.site) as painter:
             if painter is not None:
                 painter.cast(guest_view(seen), self.viewers[viewer])
-
-    @property
-    def origin(self) -> tuple[float, float, float]:
-        """Position (x, y, z) [m] of the scene's origin in the world of `draw`'s matrices.
-
-        Set it when your own origin moves. Far from your origin, pass float64 matrices: float32 loses precision. All
-        positions that you pass and get elsewhere stay relative to the scene's origin. Setting it raises ValueError for
-        anything but three finite numbers up to 1e9 m.
-        """
-        return self._origin
-
-    @origin.setter
-    def origin(self, place: Sequence[float]) -> None:
-        self._must_be_there("set its origin")
-        self._origin = as_origin(place)
 
     def preparing(self) -> Iterator[tuple[int, int]]:
         """Do what `prepare` does step by step, for a loading screen; yield the steps done and their total number.

@@ -1,6 +1,6 @@
 """The changes that a game makes to a prairie: of winds, grass, ground and light."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from reprlib import repr as shortened
 
 import numpy as np
@@ -10,6 +10,7 @@ from ..components.footprint import Footprint, Road
 from ..components.pose import HERE, Pose
 from ..components.shadow_map import ShadowMap
 from ..components.wind import WindPrimitive
+from ..engine.camera import as_origin
 from ..engine.scene.validate import changed
 from ..engine.terrain.change import set_heights
 from .answering import Answering
@@ -26,6 +27,21 @@ class Tending(Answering):
 
     _origin = 0.0, 0.0, 0.0
     _seasons: Seasons
+
+    @property
+    def origin(self) -> tuple[float, float, float]:
+        """Position (x, y, z) [m] of the scene's origin in the world of `draw`'s matrices.
+
+        Set it when your own origin moves. Far from your origin, pass float64 matrices: float32 loses precision. All
+        positions that you pass and get elsewhere stay relative to the scene's origin. Setting it raises ValueError for
+        anything but three finite numbers up to 1e9 m.
+        """
+        return self._origin
+
+    @origin.setter
+    def origin(self, place: Sequence[float]) -> None:
+        self._must_be_there("set its origin")
+        self._origin = as_origin(place)
 
     def add(self, primitive: WindPrimitive, *, pose: Pose | None = None, name: str | None = None) -> int:
         """Add a wind and return its entity, the handle for `move` and `remove`.
