@@ -80,3 +80,20 @@ def test_f4_many_steps_wear_the_same_together_as_one_by_one_and_cost_far_less(pr
     np.testing.assert_array_equal(worn[0], worn[1])
     assert worn[0].min() < 0.2
     assert times[1] < 0.3 * times[0]
+
+
+def test_n5_whoever_wears_a_path_goes_on_with_it_where_a_state_left_it(prairie: Prairie) -> None:
+    again = Prairie.load(prairie.scene)
+    walker = esper.create_entity(Presser(radius=0.4, wear=0.2))
+    for step in range(40):
+        esper.add_component(walker, Pose(0.0, 0.1 * step))
+        prairie.bent_at([(0.0, 0.0)])
+        if step == 13:  # a quarter of a step after the third that is worn as a whole
+            again.restore(prairie.state(), {walker: walker})
+        elif step > 13:
+            again.bent_at([(0.0, 0.0)])
+    way = np.stack([np.zeros(50), np.linspace(0.0, 4.0, 50)], axis=1)
+    worn, too = (each.grass_at(way).density for each in (prairie, again))
+    assert (worn.min(), worn.max()) == pytest.approx((0.4, 0.5), abs=0.01)
+    np.testing.assert_array_equal(worn, too)
+    again.release()

@@ -395,36 +395,3 @@ def test_what_a_game_has_deleted_is_not_saved_even_if_esper_still_defers_that(wo
     assert [len(esper.get_component(each)) for each in (WindSource, Presser)] == counts
     assert (len(esper.get_component(Tree)), esper.get_component(Lamp)) == (1, [])
     again.release()
-
-
-def test_f4_time_that_goes_on_after_a_state_is_the_same_to_the_microsecond(world: World) -> None:
-    del world
-    steps = 0.1234564, 3e-7  # their sum is rounded up, and the first alone is rounded down
-    made, again = Prairie.load(SCENE), Prairie.load(SCENE)
-    made.advance(steps[0])
-    again.restore(made.state())
-    assert again.time == made.time == 0.123456
-    for each in (made, again):
-        each.advance(steps[1])
-    assert again.time == made.time == 0.123457
-    for each in (made, again):
-        each.release()
-
-
-def test_n5_whoever_wears_a_path_goes_on_with_it_where_a_state_left_it(world: World) -> None:
-    del world
-    made, again = Prairie.load(SCENE), Prairie.load(SCENE)
-    walker = esper.create_entity(Presser(radius=0.4, wear=0.2))
-    for step in range(40):
-        esper.add_component(walker, Pose(0.0, 0.1 * step))
-        made.bent_at(PLACES[:1])
-        if step == 13:  # a quarter of a step after the third that is worn as a whole
-            again.restore(made.state(), {walker: walker})
-        elif step > 13:
-            again.bent_at(PLACES[:1])
-    way = np.stack([np.zeros(50), np.linspace(0.0, 4.0, 50)], axis=1)
-    worn, too = (each.grass_at(way).density for each in (made, again))
-    assert (worn.min(), worn.max()) == pytest.approx((0.4, 0.5), abs=0.01)
-    np.testing.assert_array_equal(worn, too)
-    for each in (made, again):
-        each.release()

@@ -121,3 +121,17 @@ def test_ground_is_trodden_and_worn_alike_at_any_frame_rate_where_it_is_asked_in
     assert prairie.grass_at([(0.0, 3.0)]).density < 1.0
     esper.delete_entity(walker, immediate=True)
     seldom.release()
+
+
+def test_f4_time_that_goes_on_after_a_state_is_the_same_to_the_microsecond(world: World) -> None:
+    del world
+    steps = 0.1234564, 3e-7  # their sum is rounded up, and the first alone is rounded down
+    made, again = Prairie.load(SCENE), Prairie.load(SCENE)
+    made.advance(steps[0])
+    again.restore(made.state())
+    assert again.time == made.time == 0.123456
+    for each in (made, again):
+        each.advance(steps[1])
+    assert again.time == made.time == 0.123457
+    for each in (made, again):
+        each.release()
