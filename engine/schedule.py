@@ -230,7 +230,8 @@ class Schedule:
     def run(self, *, first: Phase = Phase.INPUT, last: Phase = Phase.DRAW) -> None:
         """Run every enabled system from the `first` phase to the `last` one once, in order.
 
-        A system that raises an Exception is logged and left out from then on, unless it is trusted. A system that waits
+        A system that raises an Exception is logged and left out from then on, unless it is trusted. SystemExit goes
+        through, and is logged: a game may end itself. A system that waits
         for longer than `WAITED`, for a disk or another program, is logged once; in a `live` schedule it is left out
         after `PATIENCE` waits in its latest `WINDOW` turns. A system that leaves a change for `come_back` to undo is
         left out at once.
@@ -283,11 +284,15 @@ class Schedule:
         start, spent = perf_counter(), 0.0 if system.trusted else thread_time()
         try:
             system.run()
-        except Exception as error:
+        except BaseException as error:
             if system.trusted:
                 raise
-            log.debug("%s", system.name, exc_info=error)
             self.come_back()
+            if isinstance(error, SystemExit):
+                log.warning("system '%s' of %s ends the program: run raised %s", *_called(system), said(error))
+            if not isinstance(error, Exception):
+                raise
+            log.debug("%s", system.name, exc_info=error)
             self._leave_out(system, f"run raised {said(error)}")
         else:
             took, now = perf_counter() - start, self._systems.get(system.name)
@@ -305,7 +310,7 @@ class Schedule:
             self._leave_out(system, what)
         elif waits and system.name not in self._logged:
             self._logged.add(system.name)
-            log.warning("system '%s' of %s: %s", system.name, system.origin, what)
+            log.warning("system '%s' of %s: %s", *_called(system), what)
 
     def _leave_out(self, system: System, what: str) -> None:
         why = f"system '{system.name}' of {system.origin}: {what}"
@@ -334,6 +339,10 @@ class Schedule:
     def _unknown(self, name: object) -> str:
         near = guess(str(name), self._systems) or f"; there are {', '.join(self._systems) or 'none'}"
         return f"no system '{name}'{near}"
+
+
+def _called(system: System) -> tuple[str, str]:
+    return system.name, system.origin
 
 
 def _earlier(one: System, other: System) -> str:

@@ -27,7 +27,7 @@ def saved_wind(
     wind = source.primitive
     try:
         known, values = wind_kinds().find(wind.kind), json.loads(wind.model_dump_json())
-    except Exception as error:  # a stranger's wind may raise anything
+    except (Exception, SystemExit) as error:  # a stranger's wind may raise anything
         raise ValueError(f"the wind '{source.name}' cannot be saved: {error}") from error
     if known is not type(wind):
         raise ValueError(f"the wind '{source.name}' cannot be saved: another class is registered as '{wind.kind}'")
@@ -43,7 +43,7 @@ def wind_of(kind: str, values: dict[str, Any], reading: Reading, /) -> WindPrimi
     try:
         known = reading["wind"](kind)
         return known.model_validate_json(json.dumps(values), context=reading)
-    except Exception as error:  # a stranger's wind may raise anything
+    except (Exception, SystemExit) as error:  # a stranger's wind may raise anything
         said = errors_in_words(error, known, kind) if isinstance(error, ValidationError) else error
         raise ValueError(f"a wind of this state, a {kind}, cannot be made: {said}") from error
 
@@ -51,7 +51,7 @@ def wind_of(kind: str, values: dict[str, Any], reading: Reading, /) -> WindPrimi
 def _count_rates(wind: WindPrimitive) -> int:
     try:
         return len(wind.rates())
-    except Exception as error:  # a stranger's wind may raise anything
+    except (Exception, SystemExit) as error:  # a stranger's wind may raise anything
         raise ValueError(f"a wind of this state, a {wind.kind}, cannot tell its rates: {error}") from error
 
 

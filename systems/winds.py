@@ -180,7 +180,7 @@ class Winds(Feature):
         for name in wind_kinds().names():
             try:
                 found.append(wind_kinds().find(name)(kind=name))
-            except Exception as error:  # a plugin may raise anything, or ask for a field
+            except (Exception, SystemExit) as error:  # a plugin may raise anything, or ask for a field
                 log.debug("kind '%s' is not prepared", name, exc_info=error)
         return found
 

@@ -105,7 +105,7 @@ class Report:
             answer, took = timed(ask)
             if took > self.most:  # the first time it may have imported or compiled something
                 answer, took = timed(ask)
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             raise self.fail(f"{what} raises", f"{what} raised {said(error)} ({when})") from error
         if took > self.most:
             cost = f"{what} takes {1000.0 * took:.0f} ms of processor time ({when}), over {1000.0 * self.most:.0f} ms"

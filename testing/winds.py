@@ -79,7 +79,7 @@ def wind_problems(primitive: WindPrimitive | type[WindPrimitive], /, *, seed: in
     if isinstance(primitive, type):
         try:
             wind = kind()
-        except Exception as error:  # noqa: BLE001 - its validators may raise anything
+        except (Exception, SystemExit) as error:  # noqa: BLE001 - its validators may raise anything
             text = words_of(error) or type(error).__name__
             return [*problems, f"{kind.__name__} cannot be made from its defaults alone: {text}"]
     with np.errstate(divide="raise", over="raise", invalid="raise", under="ignore"):

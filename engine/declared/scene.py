@@ -79,7 +79,7 @@ def _validated(primitive: type[WindPrimitive], value: dict[str, Any], info: Vali
         return primitive.model_validate(value, context=info.context)
     except ValidationError:
         raise
-    except Exception as error:  # a plugin's own validators may raise anything
+    except (Exception, SystemExit) as error:  # a plugin's own validators may raise anything
         raise ValueError(f"kind '{value['kind']}' failed on these values: {type(error).__name__}: {error}") from error
 
 

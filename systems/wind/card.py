@@ -179,7 +179,7 @@ class CardWinds:
                 values = primitive.twin_values(time=time, seed=wind.seed)
                 numbers, sheets = self._layouts[twin].packed(primitive, values), values.sheets
                 check_values(self._twins[twin], numbers, sheets)
-            except Exception as error:  # noqa: BLE001 - a plugin may raise anything
+            except (Exception, SystemExit) as error:  # noqa: BLE001 - a plugin may raise anything
                 self._reject(type(primitive), error)
                 twin, numbers, sheets = NO_TWIN, (), ()
         after = self._winds[number + 1].primitive.priority if number + 1 < len(self._winds) else None
@@ -312,7 +312,7 @@ class CardWinds:
             try:
                 twin = twin_of(kind)
                 self._numbers[kind] = NO_TWIN if twin is None else self._admit(twin, wind, time, seed)
-            except Exception as error:  # noqa: BLE001 - a plugin may raise anything
+            except (Exception, SystemExit) as error:  # noqa: BLE001 - a plugin may raise anything
                 self._reject(kind, error)
         return self._numbers[kind]
 
@@ -325,7 +325,7 @@ class CardWinds:
             self._twins, self._layouts = twins, layouts
         return self._twins.index(twin)
 
-    def _reject(self, kind: type[WindPrimitive], error: Exception) -> None:
+    def _reject(self, kind: type[WindPrimitive], error: Exception | SystemExit) -> None:
         """Use numpy instead of a twin from now on, and log the reason."""
         self._numbers[kind] = NO_TWIN
         log.debug("%s", kind.__name__, exc_info=error)

@@ -107,7 +107,7 @@ class Quarantine:
         self._asked += is_timed
         try:
             answer = ask()
-        except Exception as error:  # a plugin may raise anything
+        except (Exception, SystemExit) as error:  # a plugin may raise anything
             log.debug("%s", source.name, exc_info=error)
             self.come_back()
             raise self.leave_out(source, f"{what} raised {said(error)}") from error

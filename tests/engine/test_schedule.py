@@ -348,16 +348,31 @@ def test_of_a_trusted_system_errors_go_through_until_a_game_replaces_it() -> Non
     assert (heard, list(plan.failures)) == (["before", "before", "after"], ["fails"])
 
 
-@pytest.mark.parametrize("error", [KeyboardInterrupt, SystemExit])
-def test_a_user_can_still_stop_the_program(error: type[BaseException]) -> None:
-    def stop() -> None:
-        raise error
+@pytest.mark.parametrize(
+    ("error", "told"),
+    [
+        (KeyboardInterrupt(), []),
+        (SystemExit(3), [f"system 'stop' of {__name__}._raised ends the program: run raised SystemExit: 3"]),
+    ],
+)
+def test_a_user_and_a_system_can_stop_the_program_and_a_system_that_does_is_named(
+    error: BaseException, told: list[str], caplog: pytest.LogCaptureFixture
+) -> None:
+    came_back = list[str]()
 
-    plan = Schedule()
-    plan.add("blow", "stop", stop)
-    with pytest.raises(error):
+    def come_back() -> str:
+        came_back.append("")
+        return ""
+
+    plan = Schedule(come_back=come_back)
+    plan.add("blow", "stop", partial(_raised, error))
+    with pytest.raises(type(error)):
         plan.run()
-    assert plan.failures == {}
+    assert (plan.failures, came_back, caplog.messages) == ({}, [""], told)
+
+
+def _raised(error: BaseException) -> None:
+    raise error
 
 
 def test_an_error_in_a_single_step_goes_through_for_a_test_to_see() -> None:

@@ -30,7 +30,7 @@ class UnspeakableError(Exception):
         raise RuntimeError("there is nothing to say")
 
 
-def _raise(error: Exception) -> Any:
+def _raise(error: BaseException) -> Any:
     raise error
 
 
@@ -70,6 +70,7 @@ ANSWERS: dict[str, Answer] = {
     "raises": lambda *_: _raise(ZeroDivisionError("division by zero\nsecond line")),
     "raises silently": lambda *_: _raise(RecursionError()),
     "raises unspeakably": lambda *_: _raise(UnspeakableError()),
+    "leaves": lambda *_: _raise(SystemExit(3)),
     "shape": lambda right, _: right[:, None],
     "short": lambda right, _: right[:-1],
     "list": lambda right, _: right.tolist(),
@@ -100,6 +101,7 @@ FAILURES = [
     ("extent", "raises", "extent raised ZeroDivisionError: division by zero second line"),
     ("action", "raises silently", "action raised RecursionError"),
     ("mask", "raises unspeakably", "mask raised UnspeakableError"),
+    ("mask", "leaves", "mask raised SystemExit: 3"),
     ("mask", "shape", "mask returned an array of shape (25, 1) where shape (25,) is due"),
     ("action", "short", "action returned an array of shape (24, 2) where shape (25, 2) is due"),
     ("mask", "list", "mask returned list where shape (25,) is due"),
