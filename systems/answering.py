@@ -14,6 +14,7 @@ from ..components.patch import Clearings
 from ..components.sun import Sun
 from ..engine.declared.light import Light
 from ..engine.declared.scene import Scene
+from ..engine.fixed import Fixed
 from ..engine.handed import as_rays, must_be_seconds, must_be_viewer, to_microseconds
 from ..engine.terrain.pick import pick
 from ..engine.terrain.sample import density_at, height_at, natural_at, normal_at
@@ -42,7 +43,7 @@ MessagesAt = Callable[[Floats, int], Floats]
 """Returns the present messages (n, 2) at ground positions (n, 2) [m] to grass of the kind with a number."""
 
 
-class Answering(Underflowing):
+class Answering(Underflowing, Fixed):
     """A site with its winds, pressers and clearings at one time, which answers questions about them."""
 
     viewers: Outlooks

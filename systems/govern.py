@@ -11,6 +11,7 @@ from reprlib import repr as shortened
 from statistics import median
 from time import perf_counter
 
+from ..engine.fixed import Fixed
 from ..engine.handed import NUMBER_TYPES
 from .around.outlook import Outlook
 from .around.pace import change_step
@@ -157,7 +158,7 @@ LONGEST = 5.0
 """Longest time that can be held [s]: more is rather a rate in frames a second, or milliseconds."""
 
 
-class Governor:
+class Governor(Fixed):
     """Holds the time of a prairie's draws, for each viewer separately."""
 
     def __init__(self, hold: float | None = None) -> None:
@@ -170,6 +171,7 @@ class Governor:
         """Rung at which the present frame is drawn, by viewer."""
         self._begun = 0.0
         """Reading of the clock when the present frame began [s]."""
+        self._fix(Governor)
 
     @property
     def hold(self) -> float | None:

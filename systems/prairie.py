@@ -91,6 +91,7 @@ class Prairie(Tending):
         for phase, name, system in self._built:
             self.systems.add(phase, name, system, trusted=True)
         bring_systems(self, self.world.come_back, brought.by)
+        self._fix(Prairie)
 
     @classmethod
     def load(

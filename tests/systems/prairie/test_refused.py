@@ -15,7 +15,7 @@ from pyglet.math import Mat4
 
 from tallgrass.components.pose import Pose
 from tallgrass.components.wind import WindSource
-from tallgrass.engine.scene import SceneError
+from tallgrass.engine.scene import LoadedScene, SceneError
 from tallgrass.engine.world import World
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.wind.gust import Gust
@@ -389,6 +389,35 @@ def test_entities_that_are_no_mapping_are_refused(prairie: Prairie) -> None:
 def test_a_state_is_restored_partly_or_not(prairie: Prairie) -> None:
     with pytest.raises(TypeError, match=r"^partly is True or False, not 'yes'$"):
         prairie.restore(prairie.state(), partly="yes")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("hold", r"'hold' of a Prairie cannot be set, as it has none, did you mean 'governor.hold'\?"),
+        ("presett", r"'presett' of a Prairie cannot be set, as it has none, did you mean 'preset'\?"),
+        ("xylophone", "'xylophone' of a Prairie cannot be set, as it has none"),
+    ],
+)
+def test_an_attribute_that_there_is_not_is_refused_and_told(prairie: Prairie, name: str, told: str) -> None:
+    with pytest.raises(AttributeError, match=f"^{told}$"):
+        setattr(prairie, name, 0.02)
+    with pytest.raises(AttributeError, match=r"^'holds' of a Governor cannot be set.*did you mean 'hold'\?$"):
+        prairie.governor.holds = 0.02  # type: ignore[attr-defined]
+
+
+def test_a_double_replaces_what_there_is_and_a_games_own_class_has_attributes_of_its_own(
+    prairie: Prairie, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Land(Prairie):
+        def __init__(self, loaded: LoadedScene) -> None:
+            super().__init__(loaded)
+            self.owner = "me"
+
+    monkeypatch.setattr(prairie, "draw", print)
+    land = Land(prairie.loaded)
+    land.rent = 3  # type: ignore[attr-defined]
+    land.release()
 
 
 def test_heights_too_large_for_single_precision_are_told_as_what_they_are(prairie: Prairie) -> None:
