@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from ..components.arrays import Floats, Mask
+from ..components.arrays import Floats, Ints, Mask
 from ..engine.stored import refuse, unfit
 from ..engine.terrain.change import as_loaded
+from ..engine.terrain.record import Terrain
 from .saved import SavedScene, State
 from .site import Site
 from .space.ground import Ground
@@ -30,8 +31,7 @@ def lie_of(ground: Ground, /) -> Floats:
     parts = list(as_loaded(ground.terrain))
     if ground.terrain.blocks is not None:
         return np.concatenate([_open(heights, holes)[::LINES, ::LINES].ravel() for heights, holes in parts])
-    rows, columns = ground.terrain.heights.shape
-    along, across = (np.unique(np.linspace(0, count - 1, LINES).astype(int)) for count in (rows, columns))
+    along, across = _lines(ground.terrain)
     first, found = 0, list[Floats]()
     for heights, holes in parts:
         own = along[(along >= first) & (along < first + len(heights))] - first
@@ -58,6 +58,30 @@ def lies_alike(state: State, site: Site, lie: Floats, /) -> bool:
     then, now = state.scene, scene_of(site)
     same = (then.size, then.cell) == (now.size, now.cell) and state.lie.shape == lie.shape
     return same and np.allclose(state.lie, lie, rtol=0.0, atol=SAME, equal_nan=True)
+
+
+def alike_at(state: State, site: Site, lie: Floats, /) -> Mask | None:
+    """Return where a site's ground is still that of a state, for each sample, shape (rows, columns).
+
+    That is between four samples of `lie` that agree. None for a ground of other samples, and for one that streams.
+    """
+    then, now, terrain = state.scene, scene_of(site), site.ground.terrain
+    if terrain.blocks is not None or (then.size, then.cell) != (now.size, now.cell) or state.lie.shape != lie.shape:
+        return None
+    lines, shape = _lines(terrain), terrain.heights.shape
+    same = np.isclose(state.lie, lie, rtol=0.0, atol=SAME, equal_nan=True).reshape([len(each) for each in lines])
+    between = same[:-1, :-1] & same[:-1, 1:] & same[1:, :-1] & same[1:, 1:]
+    at = [
+        np.clip(np.searchsorted(each, np.arange(count), side="right") - 1, 0, len(each) - 2)
+        for each, count in zip(lines, shape, strict=True)
+    ]
+    return np.asarray(between[np.ix_(*at)])
+
+
+def _lines(terrain: Terrain) -> tuple[Ints, Ints]:
+    """Return the rows and the columns of a terrain's samples that `lie_of` takes."""
+    along, across = (np.unique(np.linspace(0, count - 1, LINES).astype(np.int32)) for count in terrain.heights.shape)
+    return along, across
 
 
 def _open(heights: Floats, holes: Mask) -> Floats:

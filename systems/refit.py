@@ -6,11 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from ..components.arrays import Floats, Ints, Place
+from ..components.arrays import Floats, Ints, Mask, Place
 from ..components.wind import WindPrimitive, WindSource
 from ..engine.declared.scene import Reading
+from ..engine.terrain.change import loaded_heights, parts_of
 from ..engine.terrain.plots import Plots
-from .fitting import lies_alike, scene_of
+from ..engine.terrain.record import Terrain
+from ..engine.terrain.rectangle import Rectangle
+from .examine import ground_of
+from .fitting import alike_at, lies_alike, scene_of
 from .pressers import Pressers
 from .saved import SavedWind, State
 from .site import Site
@@ -65,19 +69,43 @@ def _onto_ground(state: State, site: Site, lie: Floats) -> Refitted:
     """Leave out what is dug into another ground, what lies beyond its edge, and cleared patches of another side."""
     then, now, lost = state.scene, scene_of(site), list[str]()
     if not lies_alike(state, site, lie):
-        if len(state.ground):
-            lost.append("the ground that was dug")
+        state, lost = _dug_onto(state, site, lie)
         mown, sown = (_within(where, site.ground.density.sown) for where in (state.mown, state.sown))
         if len(mown) + len(sown) < len(state.mown) + len(state.sown):
             lost.append("what was cut or sown beyond its edge")
-        state = _changed(
-            state, lie=lie, ground=state.ground[:0], ground_heights=state.ground_heights[:0],
-            ground_holes=state.ground_holes[:0], mown=mown, sown=sown,
-        )  # fmt: skip
+        state = _changed(state, lie=lie, mown=mown, sown=sown)
     if len(state.cleared) and then.patch != now.patch:
         lost.append(f"cleared patches of {then.patch:g} m")
         state = _changed(state, cleared=state.cleared[:0])
     return state, lost
+
+
+def _dug_onto(state: State, site: Site, lie: Floats) -> Refitted:
+    """Leave out what is dug where the ground lies otherwise now; there it is as the scene has it."""
+    if not len(state.ground):
+        return state, []
+    terrain, alike, kept = site.ground.terrain, alike_at(state, site, lie), list[Mask]()
+    if alike is not None:
+        ground_of(state, terrain)  # raises where its squares are none of the terrain
+        parts = parts_of(terrain, state.ground)
+        kept = [alike[part.slices] for part in parts]
+    if not any(each.any() for each in kept):
+        empty = {name: getattr(state, name)[:0] for name in ("ground", "ground_heights", "ground_holes")}
+        return _changed(state, **empty), ["the ground that was dug"]
+    stays, loaded = np.concatenate([each.ravel() for each in kept]), loaded_heights(terrain, state.ground)
+    heights, holes = (
+        np.where(stays, then, now) for then, now in zip((state.ground_heights, state.ground_holes), loaded, strict=True)
+    )
+    state = _changed(state, ground_heights=heights, ground_holes=holes)
+    return state, [] if stays.all() else [f"the ground that was dug {_elsewhere(terrain, parts, kept)}"]
+
+
+def _elsewhere(terrain: Terrain, parts: Sequence[Rectangle], kept: Sequence[Mask]) -> str:
+    """Return in words the least box about all samples of some parts that are not kept."""
+    gone = [np.add(np.argwhere(~each), (part.row, part.column)) for part, each in zip(parts, kept, strict=True)]
+    every = np.concatenate(gone)[:, ::-1]
+    (x0, z0), (x1, z1) = (terrain.origin + terrain.cell * each for each in (every.min(axis=0), every.max(axis=0)))
+    return f"between ({x0:.6g}, {z0:.6g}) and ({x1:.6g}, {z1:.6g}), where it lies otherwise now"
 
 
 def _within(where: Ints, plots: Plots) -> Ints:

@@ -142,6 +142,21 @@ def changed_squares(terrain: Terrain, /) -> Squares:
     return where, np.concatenate([np.zeros(0, np.float32), *heights]), np.concatenate([np.zeros(0, np.bool_), *holes])
 
 
+def parts_of(terrain: Terrain, where: Ints, /) -> list[Rectangle]:
+    """Return the parts of a terrain that does not stream which squares (n, 2) cover, by row and column."""
+    return [_within(terrain, (row, column)) for row, column in where.tolist()]
+
+
+def loaded_heights(terrain: Terrain, where: Ints, /) -> tuple[Floats, Mask]:
+    """Return heights and holes of squares (n, 2) as they were loaded, in turn, each (m,); not of a streaming ground."""
+    found = [
+        terrain.changes.loaded.get((row, column), (terrain.heights[part.slices], terrain.holes_in(part)))
+        for (row, column), part in zip(where.tolist(), parts_of(terrain, where), strict=True)
+    ]
+    heights, holes = ([each[which].ravel() for each in found] for which in (0, 1))
+    return np.concatenate([np.zeros(0, np.float32), *heights]), np.concatenate([np.zeros(0, np.bool_), *holes])
+
+
 def must_be_squares(terrain: Terrain, squares: Squares, /) -> None:
     """Raise ValueError for squares that cannot be `changed_squares` of a terrain."""
     where, heights, holes = squares
@@ -149,7 +164,7 @@ def must_be_squares(terrain: Terrain, squares: Squares, /) -> None:
     counts = np.ceil(np.divide(terrain.heights.shape if terrain.blocks is None else terrain.blocks.most, SQUARE))
     if ((where < -counts * streams) | (where >= counts)).any() or len({*map(tuple, where.tolist())}) != len(where):
         raise ValueError("a changed square of ground is off the terrain or comes twice")
-    parts = [_within(terrain, (row, column)) for row, column in where.tolist()]
+    parts = parts_of(terrain, where)
     if streams:
         parts = [Rectangle(0, 0, SQUARE, SQUARE)] * len(where)
     due = sum(part.rows * part.columns for part in parts)

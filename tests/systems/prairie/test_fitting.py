@@ -265,6 +265,33 @@ def test_what_has_a_place_in_a_later_version_comes_back_and_the_rest_is_said_in_
     assert_played(other, *lost)
 
 
+def raised(value: float) -> dict[str, Any]:
+    """Return a terrain with samples every 2.5 m whose left third is raised [m]."""
+    heights = np.zeros((25, 25), np.float32)
+    heights[:, :9] = value
+    return {"terrain": {"heights": heights, "cell": 2.5}}
+
+
+@pytest.mark.parametrize("other", [raised(2.0)], indirect=True)
+def test_what_was_dug_stays_where_the_ground_is_as_it_was_and_the_log_says_where_it_is_not(
+    other: Prairie, caplog: pytest.LogCaptureFixture
+) -> None:
+    made = Prairie.load(SCENE | raised(0.0))
+    made.set_heights((10.0, 0.0), [[-1.0, -1.0], [-1.0, -1.0]])
+    made.set_heights((-25.0, 0.0), [[-1.0, -1.0]])
+    state = made.state()
+    made.release()
+    with pytest.raises(ValueError, match="its ground has other heights or holes"):
+        other.restore(state)
+    other.restore(state, partly=True)
+    heights = other.height_at([(10.0, 0.0), (12.5, 0.0), (10.0, 2.5), (-25.0, 0.0), (-22.5, 0.0), (-12.5, 20.0)])
+    np.testing.assert_allclose(heights, [-1.0, -1.0, -1.0, 2.0, 2.0, 2.0])
+    where = "between (-30, -30) and (-10, 7.5), where it lies otherwise now"
+    assert caplog.messages == [
+        f"a state was restored without what has no place in this scene: the ground that was dug {where}"
+    ]
+
+
 @pytest.mark.parametrize("other", [{"wind": [{"kind": "breeze"}]}], indirect=True)
 def test_a_wind_that_no_package_brings_any_more_is_left_out_alone(
     state: bytes, other: Prairie, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
