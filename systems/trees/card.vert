@@ -11,7 +11,7 @@ in uvec4 hung_look;
 uniform vec3 hung_from;  // origin of its places [m]
 
 uniform vec2 corners[CARD_CORNERS]; // of its outline: across from -1 to 1, and up from 0 to 1, more beyond the card
-uniform vec4 card;                  // as in twig.glsl
+uniform vec4 card;                  // extent: left and right, back from its foot, and along [usual length of a twig]
 
 out vec2 on;
 flat out float picture; // index of the card's picture

@@ -47,7 +47,7 @@ from .outline import (
 )
 from .programs import Programs
 from .segments import Segments
-from .stream import LEAVES, PICTURED, QUAD, WOOD, GpuModel, Uniforms
+from .stream import LEAVES, PICTURED, WOOD, GpuModel, Uniforms
 from .twig import BEHIND, FINER_EACH, HANGING_OFF, SHOOTS_OFF, card_reach
 from .twig import PICTURES as OF_TWIGS
 from .wood import CLOSED, SOLID
@@ -96,7 +96,6 @@ class GpuKind:
         found = kept_pictures(key)
         if found is None:
             found = [self._twig_pictures(programs)]
-            self._load_card(found[0])
             for model in self.models:
                 found += self._model_pictures(programs, model)
             keep_pictures(key, found)
@@ -137,23 +136,24 @@ class GpuKind:
         def draw_twig(_: int) -> None:
             self.set_uniforms(twig.program, self.models[0], numbers)
             _set_matrix(twig.program, matrix)
-            twig.render(moderngl.TRIANGLES, vertices=QUAD * leaf.quads, instances=1)
+            twig.render(moderngl.TRIANGLES, vertices=TRIANGLE * leaf.quads, instances=1)
 
         return mip_levels(pictures(self.ctx, 1, 1, CARD, CARD, draw_twig))
 
     def _model_pictures(self, programs: Programs, model: GpuModel) -> tuple[list[Bytes], list[Bytes]]:
         """Return a model's pictures from all sides, and the optical depths before what they show."""
-        wood, cards = (programs.array(sort, model.bare, model, baked=True) for sort in (WOOD, PICTURED))
+        wood, twigs = (programs.array(sort, model.bare, model, baked=True) for sort in (WOOD, PICTURED))
+        triangles, leaves = len(model.model.wood[0].whole.triangles), self.habit.leaf.quads
 
         def draw_tree(number: int) -> None:
             matrix = view_matrix(number, model.model.middle, model.model.half, model.model.aspect)
-            for array, count in (
-                (wood, 3 * len(model.model.wood[0].whole.triangles)),
-                (cards, QUAD * len(model.model.twigs)),
+            for array, count, instances in (
+                (wood, triangles, 1),
+                (twigs, leaves, len(model.model.twigs)),
             ):
                 self.set_uniforms(array.program, model, {}, noise=array is wood)
                 _set_matrix(array.program, matrix)
-                array.render(moderngl.TRIANGLES, vertices=count, instances=1)
+                array.render(moderngl.TRIANGLES, vertices=TRIANGLE * count, instances=instances)
 
         return tree_levels(pictures(self.ctx, COLUMNS, ROWS, model.model.wide, model.model.lines, draw_tree))
 

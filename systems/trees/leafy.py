@@ -8,6 +8,7 @@ import numpy as np
 from ...components.arrays import Doubles, Indices, Mask
 from ..space.frustum import outside_planes
 from .bounds import Balls, inside_picture
+from .habit import NEEDLES
 from .look import Look, Slack
 from .model import Model
 from .twig import BLOCK, RANKS
@@ -33,6 +34,10 @@ class Blocks(NamedTuple):
     twigs: Indices
     """Number of each model's twigs, (models,)."""
 
+    first_near: Indices
+    """1 where near blocks of a model are drawn first, so that they hide farther ones; -1 where far ones are, as most
+    of what is seen of needles is blended, (models,)."""
+
 
 class InSight(NamedTuple):
     """Blocks of neighbouring twigs of trees, as they are seen."""
@@ -54,7 +59,9 @@ def blocks_of_models(models: Sequence[Model], /) -> Blocks:
     for number, model in enumerate(models):
         count = len(model.blocks.radius)
         middle[number, :, :count], radius[number, :count] = model.blocks.middle.T, model.blocks.radius
-    return Blocks(middle, radius, np.array([len(model.twigs) for model in models], np.intp))
+    twigs = np.array([len(model.twigs) for model in models], np.intp)
+    first_near = np.array([-1 if model.habit.leaf.form == NEEDLES else 1 for model in models], np.intp)
+    return Blocks(middle, radius, twigs, first_near)
 
 
 def blocks_in_sight(
@@ -80,7 +87,7 @@ def blocks_shown(blocks: Blocks, model: Indices, share: Doubles, sight: InSight,
     count = -(-twigs_drawn(blocks.twigs[model[sampled]], share[sampled]) // BLOCK)
     number = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
     whose, block = np.nonzero(sight.shown & grouped[:, None])
-    order = np.lexsort((sight.away[whose, block], whose))
+    order = np.lexsort((sight.away[whose, block] * blocks.first_near[model[whose]], whose))
     tree = np.concatenate([np.repeat(sampled, count), whose[order]])
     first = np.concatenate([BLOCK * number, -1 - BLOCK * block[order]]).astype(np.float64)
     order = np.argsort(tree, kind="stable")

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from ...engine.gl.shaders import Texts
 from ...engine.gl.stream import Stream, release_all
 from ..frame.block import FrameBlock, joined
-from .grow import MOST_TWIGS
 from .habit import HABITS
 from .segments import Segment
 from .standing import HUNG, HUNG_LEAVES
@@ -17,8 +16,8 @@ from .stream import CAST, FAR, IN_ROWS, LEAVES, NEAR, PICTURED, WOOD, GpuModel
 
 SORTS: Mapping[str, tuple[str, str, Mapping[str, str | int]]] = {
     NEAR: ("card", "card", {}),
-    PICTURED: ("twig", "twig", {}),
-    LEAVES: ("twig", "twig", {"LEAVES": 1}),
+    PICTURED: ("twig", "twig", {"OF_TREE": 1}),
+    LEAVES: ("twig", "twig", {}),
     WOOD: ("wood", "wood", {"STANDS": 1}),
     FAR: ("far", "far", {"STANDS": 1}),
     IN_ROWS: ("far", "far", {"STANDS": 1, "IN_ROWS": 1}),
@@ -40,8 +39,8 @@ FEEDBACK: Mapping[str, tuple[str, tuple[str, ...], Mapping[str, str | int]]] = {
 }
 """Vertex shader, outputs and defines of each of these passes."""
 
-MOST_QUADS = max(MOST_TWIGS, *(habit.leaf.quads for habit in HABITS.values()))
-"""Greatest number of quads of a draw: a baked tree's twigs on cards, or a twig's leaves."""
+MOST_QUADS = max(habit.leaf.quads for habit in HABITS.values())
+"""Greatest number of quads of a draw: a twig's leaves."""
 
 
 Content = tuple[moderngl.Buffer | str, ...]
@@ -89,10 +88,10 @@ class Programs:
         if key not in self._arrays:
             program = self._program(sort, edges=edges, baked=baked)
             bark = [model.bark(program)] if sort == WOOD and model is not None else []
-            indices = model.triangles if sort == WOOD and model is not None else self._quads
-            self._arrays[key] = self._reading(
-                program, stream, *bark, indices=None if sort in (NEAR, FAR, IN_ROWS) else indices
-            )
+            quads = None if baked or sort in (NEAR, FAR, IN_ROWS) else self._quads
+            indices = model.triangles if sort == WOOD and model is not None else quads
+            each = "/r" if baked else "/i"  # of a baked tree, an instance is a twig
+            self._arrays[key] = self._reading(program, stream, *bark, indices=indices, each=each)
         return self._arrays[key]
 
     def feedback(self, what: str, stream: Stream | Segment) -> moderngl.VertexArray:
@@ -141,9 +140,11 @@ class Programs:
 def _shaders(sort: str, *, edges: str, baked: bool) -> tuple[str, str, Mapping[str, str | int]]:
     """Return the vertex shader, fragment shader and defines of a way to draw."""
     vertex, fragment, defines = SORTS[sort]
-    defines = (
-        {**defines, edges: 1} if not baked else {**{k: v for k, v in defines.items() if k != "STANDS"}, "BAKED": 1}
-    )
+    if baked:
+        still = {name: value for name, value in defines.items() if name != "STANDS"}
+        defines = {**still, "BAKED": 1, SAMPLED: 1}
+    else:
+        defines = {**defines, edges: 1}
     return f"systems/trees/{vertex}.vert", f"systems/trees/{fragment}.frag", defines
 
 

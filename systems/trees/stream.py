@@ -25,7 +25,7 @@ Uniforms = Mapping[str, tuple[float, ...]]
 
 NEAR, FAR, LEAVES, WOOD, CAST, PICTURED = "near", "far", "leaves", "wood", "cast", "pictured"
 """Ways to draw trees: twigs on cards, pictures far off, twigs leaf by leaf, and wood; far pictures into shade maps, and
-twigs on cards into far pictures."""
+twigs leaf by leaf into far pictures."""
 
 IN_ROWS = "in rows"
 """Way to draw pictures far off where some stand for rows of trees, in a large forest."""

@@ -6,7 +6,6 @@
 
 uniform int form;           // outline of its leaves
 uniform int twigs;          // number of its model's twigs
-uniform vec4 card;          // extent: left and right, back from its foot, and along [usual length of a twig]
 uniform vec3 picture_cover; // coverage of each picture of its card, relative to the first one's
 uniform vec3 leaf_shape;    // length, half the greatest width, angle from the twig [usual length of a twig; rad]
 #ifdef BAKED
@@ -38,19 +37,15 @@ float twig_size(float rank, int picture) {
     return kept * inversesqrt(max(twig_share, LEAST_KEPT) * picture_cover[picture]);
 }
 
+#ifndef BAKED
 // Normal of a twig's card: needles stand all around their twig, so their card turns to the eye.
 vec3 card_normal(Twig twig) {
     if (form != NEEDLES)
         return twig.face;
-#ifdef BAKED
-    vec3 to = -vec3(baked[0].z, baked[1].z, baked[2].z);
-#else
     vec3 to = to_model(eye - root) - scale * twig.foot;
-#endif
     return normalize(to - dot(to, twig.along) * twig.along + ASKEW * twig.face);
 }
 
-#ifndef BAKED
 // Share of twigs at a place of its model that are drawn leaf by leaf, by the size of leaves.
 float leaf_share(vec3 place) {
     float off = max(distance(eye, root + scale * to_world(place)), NEAREST_TWIG);

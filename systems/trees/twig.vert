@@ -1,5 +1,5 @@
-// Twigs: leaf by leaf with LEAVES, else on their cards. With BAKED they are drawn into a texture. What no vertex buffer holds follows
-// from the vertex's index.
+// Twigs leaf by leaf. With BAKED they are drawn into a texture: one for its card, or with OF_TREE all of a tree. What no vertex buffer
+// holds follows from the vertex's index.
 #include "systems/trees/twig.glsl"
 #ifndef BAKED
 #include "systems/trees/behind.glsl"
@@ -21,9 +21,8 @@ uniform float finer;      // ratio of a twig's leaves and stems to those drawn
 out vec2 on;
 #ifdef BAKED
 out vec3 facing;
-out vec4 inside;  // optical depths; or tone, 1 on a stem, and coverage
-flat out float tone;
-flat out float picture;  // index of the card's picture
+out vec4 inside;     // optical depths
+flat out vec2 part;  // tone; narrowing of a stem's tip, or below 0 on a leaf
 #else
 out float stem_cover;        // coverage of a stem; below 0 on a leaf
 flat out vec3 leaf_colour;   // its displayed colour
@@ -76,8 +75,12 @@ vec3 leaf_corner(int twig, int leaf, vec2 corner, out vec3 normal) {
     return foot + size * (leaf_shape.x * (corner.y + STALK) * along + leaf_shape.y * corner.x * flat_to);
 }
 
-// Half the width of the stem of a shoot, at a part of its length [the twig's usual length].
+// Half the width of the stem of a shoot, at a part of its length [the twig's usual length]. A baked one has parallel sides that its
+// pixels narrow, so that a triangle may reach beyond it.
 float stem_width(int shoot, float along) {
+#ifdef BAKED
+    along = 0.0;
+#endif
     return STEM / finer * (1.0 - STEM_TAPERS * along) * (shoot == 0 ? STEM_OF_TWIG : 1.0);
 }
 
@@ -106,33 +109,27 @@ vec3 corner_on(int twig, int leaf, vec2 corner, float narrowest, out vec3 normal
 }
 
 #ifdef BAKED
+const int CORNERS = 3;
+const vec2 REACHES = vec2(4.0, 2.0);  // of a triangle about a quad: of leaves so small, each triangle costs more than its area
+
 void main() {
-    int number = gl_VertexID / 4;
-    vec3 shape, normal = vec3(0.0, 0.0, 1.0);
-    on = corner_of(gl_VertexID);
-#ifdef LEAVES
-    vec3 values;
-    Twig twig = Twig(vec3(0.0), twig_length, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 1.0, vec4(0.0));
-    shape = corner_on(0, number, on, 0.0, normal, values);
-    inside = vec4(values, 0.0);
-    float size = 1.0;
-    tone = 1.0;
-    picture = 0.0;
-#else
+    int corner = gl_VertexID % CORNERS;
+    on = vec2(REACHES.x * float(corner == 1) - 1.0, REACHES.y * float(corner == 2));
+#ifdef OF_TREE
+    int number = gl_InstanceID;
     Twig twig = twig_of(number);
-    vec4 chance = random(number, 0, 3);
-    tone = CARD_TONES.x + CARD_TONES.y * chance.z;
-    picture = twig_picture(chance.y);
-    float size = twig_size((float(number) + 0.5) / float(twigs), int(picture));
-    shape = vec3(on.x * card.x, mix(card.y, card.z, on.y), 0.0);
-    inside = twig.shading;
-    twig.face = card_normal(twig);
+    float size = twig_size((float(number) + 0.5) / float(twigs), 0);
+#else
+    const int number = 0;
+    const float size = 1.0;
+    Twig twig = Twig(vec3(0.0), twig_length, vec3(0.0, 1.0, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 1.0, vec4(0.0));
 #endif
-    vec3 aside = cross(twig.along, twig.face);
-    float length_of = size * twig.span;
-    twig.foot -= 0.5 * max(length_of - twig.span, 0.0) * twig.along;  // it grows about its middle: a crown stays as wide
+    vec3 normal, values, aside = cross(twig.along, twig.face);
+    vec3 shape = size * twig.span * corner_on(number, gl_VertexID / CORNERS, on, 0.0, normal, values);
+    inside = twig.shading;
+    part = vec2(values.x, values.y > 0.5 ? STEM_TAPERS : -1.0);
     facing = normal.x * aside + normal.y * twig.along + normal.z * twig.face;
-    gl_Position = baked * vec4(twig.foot + length_of * (shape.x * aside + shape.y * twig.along + shape.z * twig.face), 1.0);
+    gl_Position = baked * vec4(twig.foot + shape.x * aside + shape.y * twig.along + shape.z * twig.face, 1.0);
     if (size <= 0.0)
         gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 }

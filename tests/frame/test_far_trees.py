@@ -115,7 +115,7 @@ def test_over_the_top_of_a_tree_that_is_few_pixels_high_there_is_sky(
 
 
 @pytest.mark.parametrize("aim", [AWAY, ABOVE])
-def test_a_bush_has_an_outline_and_grain_as_with_every_leaf(
+def test_a_bush_is_as_bright_and_has_an_outline_and_grain_as_with_every_leaf(
     ctx: moderngl.Context, prairie: Prairie, aim: Camera
 ) -> None:
     """Of a hedge twenty-five metres off."""
@@ -127,6 +127,7 @@ def test_a_bush_has_an_outline_and_grain_as_with_every_leaf(
     hidden = np.abs(truth.picture.astype(np.int32) - bare).max(axis=-1) > 12
     told = tree_figures(drawn, truth, Behind(bare, np.ones_like(hidden), hidden))
     assert told is not None
+    assert float(str(told["luminance_ratio"])) == pytest.approx(1.0, abs=0.05)
     assert float(str(told["contrast"])) > 0.85
     assert float(str(told["roughness_ratio"])) > 0.87
 

@@ -14,7 +14,8 @@ from tallgrass.systems.space.frustum import picture_sides
 from tallgrass.systems.space.window import cell_of
 from tallgrass.systems.trees.batch import Batch
 from tallgrass.systems.trees.choice import Choice
-from tallgrass.systems.trees.habit import NEEDLES
+from tallgrass.systems.trees.habit import HABITS, NEEDLES
+from tallgrass.systems.trees.leafy import InSight, blocks_of_models, blocks_shown
 from tallgrass.systems.trees.look import Look
 from tallgrass.systems.trees.model import MODELS, Model, models_of
 from tallgrass.systems.trees.shells import RINGS, SHELL
@@ -243,6 +244,20 @@ def drawn_of(found: Sequence[Batch], models: list[Model]) -> dict[tuple[object, 
             for twig in [first] if name == LEAVES else block.tolist():
                 drawn["twig", *key, twig] = far_fade, twig_share
     return drawn
+
+
+def test_blocks_of_leaves_are_drawn_from_near_to_far_and_those_of_needles_as_soft_edges_are_from_far_to_near() -> None:
+    """The former hide one another, and most that is seen of the latter is blended."""
+    birch = models_of("birch", 4)[0]
+    models = [birch, replace(birch, habit=HABITS["pine"])]
+    blocks, tree = blocks_of_models(models), np.arange(2)
+    away = np.random.default_rng(5).random((2, blocks.radius.shape[1]))
+    sight = InSight(blocks.radius > 0.0, away, np.zeros_like(away))
+    whose, first = blocks_shown(blocks, tree, np.ones(2), sight)
+    for model, sign in enumerate((1.0, -1.0)):
+        steps = np.diff(away[model, (-1 - first[whose == model]).astype(int) // BLOCK])
+        assert len(steps) > 10
+        assert (sign * steps > 0.0).all()
 
 
 STEPS = [((0.02 * step, 4.0 + 0.01 * step, -0.05 * step), 0.1 * step) for step in range(16)]
