@@ -187,7 +187,7 @@ def patch_distances(prairie: Prairie, view: object, projection: object, size: tu
     """Return the discrete distance of the patch that each pixel shows, top row first, shape (height, width).
 
     It is -1 for the sky, and for ground beyond the terrain, where there are no patches. The patch is found at half the
-    grass's height.
+    mean height of the kinds of grass.
     """
     seen, every = view_of(view, projection), prairie.painter
     if every is None:
@@ -199,10 +199,10 @@ def patch_distances(prairie: Prairie, view: object, projection: object, size: tu
     try:
         target.use()
         clear(target, depth=1.0)
-        carpet = carpet_painter(every)
-        carpet.lay_everywhere(prairie.viewers["main"], height=0.5)  # half the grass's height
-        every.draw(seen, blades=[])
-        carpet.lay_as_always()
+        carpet_painter(every).lay(prairie.viewers["main"], None)
+        raised = np.eye(4)
+        raised[1, 3] = 0.5 * np.mean(prairie.site.canopy)
+        every.draw(view_of(seen.view @ raised, seen.projection), blades=[])
         fine = np.frombuffer(depth.read(alignment=1), np.float32).reshape(height, width)[::-1]
     finally:
         host.use()

@@ -34,7 +34,7 @@ from .layer import (
     unmet,
 )
 from .pieces import ByLayer
-from .stock import CarpetStock
+from .stock import RAISED, CarpetStock
 from .textures import image_count
 from .tiles import PIECE, TILE, in_orders, order_toward, skirted_grid, tile_grid
 
@@ -44,11 +44,8 @@ Defines = dict[str, str | int]
 Variants = Mapping[str, Defines]
 """Definitions of the programs of one pass, by what they draw."""
 
-RAISED = 0.66
-"""Height of the carpet, as a fraction of the grass's: what it shows keeps its place in the picture."""
-
-OUTLINE = 0.88
-"""Height of the carpet along outlines, as a fraction of the grass's: only a few thin tips stand out above."""
+OUTLINE = 0.88 / RAISED
+"""Height of the carpet along outlines, as a fraction of that elsewhere: only a few thin tips stand out above."""
 
 APART = 1e-6
 """Depth added to the layer under the carpet, in the usual clip range of -1 to 1: kilometres away, depth is too coarse
@@ -69,7 +66,7 @@ THIN_UP_TO = 10.0
 WHOLE, DENSE, THIN = 0, 1, 2
 """Parts of the carpet that a pass draws: all, where it covers at least half a pixel, or the rest."""
 
-GLSL = {"RAISED": RAISED, "APART": APART}
+GLSL = {"RAISED": RAISED, "HIGHER_OUTLINE": OUTLINE, "APART": APART}
 
 
 class GroundPainter:
@@ -88,7 +85,6 @@ class GroundPainter:
     ) -> None:
         self.stock, self._block = stock, block
         self._came: tuple[float, ...] = ()
-        self._raised = RAISED, OUTLINE
         self.units, self._side = units, side
         self._ctx, self.rims = ctx, ctx.texture((1, 1), 1, dtype="f4")
         self._no_earth = ctx.texture((1, 1), 4, bytes(4))
@@ -230,12 +226,6 @@ class GroundPainter:
             if not stream.count:
                 stream.write(np.zeros(1, TILE))
 
-    def raise_carpet(self, part: float, *, outline: float = 0.0) -> None:
-        """Lay the carpet at a fraction `part` of the grass's height, along outlines at `outline` of it if above 0."""
-        self._raised = part, outline
-        self._set_uniform("outline", outline / part)
-        self.come(self._came)
-
     def fits(self, stock: CarpetStock, /) -> bool:
         """Return whether the programs can draw another stock too."""
         counts = (image_count(each.growths) for each in (stock, self.stock))
@@ -248,13 +238,12 @@ class GroundPainter:
         is_whole = stack_for(self._ctx, image_count(stock.growths)) > 1
         for name, value in stock.layer_uniforms(self._seed, whole=is_whole).items():
             self._set_uniform(name, value)
-        part, outline = self._raised
-        self.raise_carpet(part, outline=outline)
+        self.come(self._came)
 
     def come(self, came: tuple[float, ...], /) -> None:
         """Set the fraction of each kind's plants that have become what the kind is to become."""
         self._came = came
-        for name, value in self.stock.uniforms(came, self._raised[0]).items():
+        for name, value in self.stock.uniforms(came).items():
             self._set_uniform(name, value)
 
     def write_shares(self, shares: Bytes) -> None:

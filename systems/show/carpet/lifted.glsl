@@ -15,7 +15,7 @@ float outline_height(Laid laid, vec3 place) {
 #ifdef EDGED
     return 0.0;
 #else
-    float tops = (laid.tops - 1.0) * laid.tall * max(outline, 1.0);
+    float tops = (laid.tops - 1.0) * laid.tall * HIGHER_OUTLINE;
     return laid.rim_path < NO_RIM || over_hosts > 0.0 ? 0.0 : laid.share * laid.crest_weight * (tops + 0.5 * pixel_height(place));
 #endif
 }

@@ -27,8 +27,8 @@ from ..representation import Canvas, RepresentationPainter
 from .air import Air
 from .edges import Edges
 from .found import Found
-from .ground import DENSE, OUTLINE, RAISED, THIN, WHOLE, GroundPainter
-from .pieces import ByLayer, PieceEdges, by_layer, find_edges, no_edges
+from .ground import DENSE, THIN, WHOLE, GroundPainter
+from .pieces import ByLayer, PieceEdges, by_layer, find_edges
 from .pool import CarpetKept
 from .stock import CarpetStock
 from .textures import bent_texture, sending_carpet
@@ -37,7 +37,6 @@ from .tiles import (
     Tiles,
     bare_within,
     finest_spacing,
-    ground_tiles,
     meets_terrain,
     on_terrain,
     records_of,
@@ -249,20 +248,6 @@ class CarpetPainter(RepresentationPainter):
         if self._rims_sent != self._rims.version:
             self._rims_sent = self._rims.version
             self.ground.write_rims(self._rims.distance)
-
-    def lay_everywhere(self, outlook: Outlook, /, *, height: float) -> None:
-        """Upload a carpet that lies everywhere, at a fraction `height` of the grass's height."""
-        viewer, rims = outlook.viewer, self._rims if self._rims.any else None
-        tiles = ground_tiles(self._ground.terrain, viewer.eye, viewer.cone, spacing=self._spacing, rims=rims)
-        self.ground.write(by_layer(tiles, np.ones(len(tiles), np.bool_), no_edges(tiles), viewer.eye))
-        everywhere = np.full(len(outlook.patches.progress), 255, np.uint8)
-        self.ground.write_shares(everywhere)
-        self.ground.look_from(viewer, beyond=1.0)
-        self.ground.raise_carpet(height)
-
-    def lay_as_always(self) -> None:
-        """Lay the carpet at its own height again."""
-        self.ground.raise_carpet(RAISED, outline=OUTLINE)
 
     def draw_ground(self, *, alone: bool) -> int:
         """Draw the bare ground, if `alone` also where carpet will lie; return the number of draw calls."""

@@ -76,12 +76,6 @@ def _rectangles(tiles: Tiles, quads: int, starts: Doubles, before: Doubles, behi
     )
 
 
-def no_edges(tiles: Tiles | NDArray[np.void], /) -> PieceEdges:
-    """Return that no piece of tiles (n,) has an edge."""
-    none = np.zeros((len(tiles), PIECES), np.bool_)
-    return PieceEdges(none, none)
-
-
 def _slides(stride: int, *, quartered: bool) -> Doubles:
     """Return how many grid points each piece's start slides down at most, as in `on_mesh_at` of mesh.glsl, (ALONG,)."""
     pair = 0.5 / stride * STARTS

@@ -30,8 +30,6 @@ const vec2 ENDS = vec2(0.5, 1.5);  // greatest depths, relative to the carpet's 
 
 const float NO_RIM = 500.0;  // value of rim_path_at from which on a line of sight passes over no rim
 
-uniform float outline;  // height of the carpet along outlines, as a fraction of its height elsewhere; 0: the same
-
 // Greatest depth that a line of sight reaches below the top of the grass, as a fraction of its height `tall` [m], where it enters at
 // this slope over ground of this curvature [1/m].
 float deepest(float slope, float curvature, float tall) {
@@ -65,7 +63,7 @@ float crest_weight(float deep, float curvature) {
 // Height of the carpet, as a fraction of that on level ground, for a line of sight with this greatest depth. Over a crest, where lines
 // of sight pass through the grass, the carpet lies at the first leaves. `stands` is the height of the grass relative to rest.
 float carpet_lift(float deep, float curvature, float stands) {
-    return outline > 0.0 ? mix(1.0, outline * sqrt(stands), crest_weight(deep, curvature)) : 1.0;
+    return mix(1.0, HIGHER_OUTLINE * sqrt(stands), crest_weight(deep, curvature));
 }
 
 // Slope of a line of sight on level ground whose path through the grass is as long as that at this slope over curved ground: from

@@ -19,6 +19,9 @@ from .textures import bents_of
 HEADINGS = 4
 """Number of viewing directions, at each slope."""
 
+RAISED = 0.66
+"""Height of the carpet, as a fraction of the grass's: what it shows keeps its place in the picture."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Images:
@@ -77,15 +80,15 @@ class CarpetStock:
         """The growth of each form."""
         return [form.growth for form in self.forms]
 
-    def uniforms(self, came: Sequence[float], fraction: float, /) -> dict[str, object]:
-        """Return uniforms by name, for a carpet at a `fraction` of the grass's height.
+    def uniforms(self, came: Sequence[float], /) -> dict[str, object]:
+        """Return uniforms by name.
 
         `came` (kinds,) is the fraction of each kind's plants that have become what the kind is to become.
         """
         height = self._blended("height", came)
         uniforms: dict[str, object] = {
             "tops": by_kind((height / self._blended("crown", came)).tolist()),
-            "raised": by_kind((fraction * height).tolist()),
+            "raised": by_kind((RAISED * height).tolist()),
         }
         if self.heads:
             uniforms["profile"] = self._blended("profile", came).reshape(-1, 2).tolist()

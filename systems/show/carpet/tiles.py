@@ -103,11 +103,6 @@ def _in_four(corners: Tiles, side: float) -> Tiles:
     return (corners[:, None, :] + 0.5 * side * np.array([[0, 0], [1, 0], [0, 1], [1, 1]])).reshape(-1, 2)
 
 
-def tiles_seen(tiles: Tiles, eye: tuple[float, float, float], cone: tuple[float, float], /) -> NDArray[np.void]:
-    """Return the tiles, of those of `tiles_around` (n, 4), that may be seen: records of `TILE`, far to near."""
-    return records_of(tiles, which_seen(tiles, eye, cone))
-
-
 def which_seen(tiles: Tiles, eye: tuple[float, float, float], cone: tuple[float, float], /) -> NDArray[np.intp]:
     """Return the row numbers of the tiles, of `tiles_around` (n, 4), that may be seen, far to near."""
     side = tiles[:, 2] * GRID
@@ -122,19 +117,6 @@ def records_of(tiles: Tiles, rows: NDArray[np.intp], /) -> NDArray[np.void]:
     found = np.zeros(len(rows), TILE)
     found["tile"] = tiles.take(rows, axis=0)
     return found
-
-
-def ground_tiles(
-    terrain: Terrain,
-    eye: tuple[float, float, float],
-    cone: tuple[float, float],
-    /,
-    *,
-    spacing: float,
-    rims: Rims | None = None,
-) -> NDArray[np.void]:
-    """Return the tiles that cover the visible ground, records of `TILE`, far to near."""
-    return tiles_seen(tiles_around(terrain, (eye[0], eye[2]), spacing=spacing, rims=rims), eye, cone)
 
 
 def finest_spacing(terrain: Terrain, patch: float, /) -> float:

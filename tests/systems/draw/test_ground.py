@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from tallgrass.components.arrays import Point
 from tallgrass.engine.gl.shaders import program, set_uniform
 from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.record import Terrain
@@ -26,9 +27,9 @@ from tallgrass.systems.show.carpet.tiles import (
     TILE,
     bare_within,
     finest_spacing,
-    ground_tiles,
+    records_of,
     tiles_around,
-    tiles_seen,
+    which_seen,
 )
 from tallgrass.systems.site import Site
 
@@ -42,6 +43,16 @@ ALL_ROUND = (0.0, pi)
 SPACING = 1.25
 
 eyes = st.tuples(st.floats(-310, 310), st.just(1.7), st.floats(-210, 210))
+
+
+def tiles_seen(around: NDArray[np.float64], eye: Point, cone: tuple[float, float]) -> NDArray[np.void]:
+    """Return the records of those tiles that may be seen."""
+    return records_of(around, which_seen(around, eye, cone))
+
+
+def ground_tiles(terrain: Terrain, eye: Point, cone: tuple[float, float], *, spacing: float) -> NDArray[np.void]:
+    """Return the records of the tiles that cover the visible ground."""
+    return tiles_seen(tiles_around(terrain, eye[::2], spacing=spacing), eye, cone)
 
 
 def covering(tiles: NDArray[np.void], place: NDArray[np.float64]) -> NDArray[np.int64]:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from tallgrass.components.arrays import Mask
 from tallgrass.engine.terrain.record import Terrain
 from tallgrass.systems.show.carpet.holes import Rectangles
-from tallgrass.systems.show.carpet.pieces import PIECES, ByLayer, PieceEdges, by_layer, find_edges, no_edges
+from tallgrass.systems.show.carpet.pieces import PIECES, ByLayer, PieceEdges, by_layer, find_edges
 from tallgrass.systems.show.carpet.tiles import (
     GRID,
     PIECE,
@@ -17,7 +17,6 @@ from tallgrass.systems.show.carpet.tiles import (
     Tiles,
     records_of,
     tiles_around,
-    tiles_seen,
     which_seen,
 )
 
@@ -27,6 +26,12 @@ ALL_ROUND = (0.0, pi)
 SPACING = 1.25
 CORNER = (31.0, 11.0)
 """Place (x, z) where grass ends, in a corner of a tile [m]."""
+
+
+def tiles_about() -> NDArray[np.void]:
+    """Return the tiles all around the eye."""
+    around = tiles_around(WIDE, EYE[::2], spacing=SPACING)
+    return records_of(around, which_seen(around, EYE, ALL_ROUND))
 
 
 def touches(rectangles: Rectangles) -> Mask:
@@ -78,9 +83,9 @@ def test_t1_every_place_is_under_one_tile_or_one_piece(*, laid: bool) -> None:
 
 
 def test_without_edges_tiles_are_drawn_whole() -> None:
-    tiles = tiles_seen(tiles_around(WIDE, EYE[::2], spacing=SPACING), EYE, ALL_ROUND)
-    laid = np.arange(len(tiles)) % 2 == 0
-    drawn = by_layer(tiles, laid, no_edges(tiles), EYE)
+    tiles = tiles_about()
+    laid, none = np.arange(len(tiles)) % 2 == 0, np.zeros((len(tiles), PIECES), np.bool_)
+    drawn = by_layer(tiles, laid, PieceEdges(none, none), EYE)
     np.testing.assert_array_equal(drawn.even, tiles[laid])
     np.testing.assert_array_equal(drawn.bare, tiles[~laid])
     assert not any(map(len, (drawn.bare_pieces, drawn.even_pieces, drawn.edged, drawn.edged_carpet)))
@@ -104,7 +109,7 @@ def test_pieces_come_from_far_to_near() -> None:
 
 
 def test_borders_hang_down_but_for_those_between_pieces_with_edges() -> None:
-    tiles = tiles_seen(tiles_around(WIDE, EYE[::2], spacing=SPACING), EYE, ALL_ROUND)[:1]
+    tiles = tiles_about()[:1]
     edged = np.zeros((1, PIECES), np.bool_)
     edged[0, [5, 6]] = True  # one beside the other along x
     drawn = by_layer(tiles, np.ones(1, np.bool_), PieceEdges(edged, edged), EYE)
