@@ -46,7 +46,7 @@ class Installed:
     built in.
     """
 
-    def __init__(self, entries: Iterable[EntryPoint], *, chosen: Collection[str] | None = None) -> None:
+    def __init__(self, entries: Iterable[EntryPoint], *, chosen: Collection[str] | None) -> None:
         self.used: dict[str, list[EntryPoint]] = {}
         self.left_out: dict[str, list[EntryPoint]] = {}
         for entry in entries:

@@ -59,7 +59,7 @@ def system_plugins() -> SystemPlugins:
     return SystemPlugins(entry_points(group=SYSTEMS), chosen=chosen_names())
 
 
-def bring_systems(prairie: object, /, come_back: Callable[[], str] = lambda: "", within: Within = nullcontext) -> None:
+def bring_systems(prairie: object, /, come_back: Callable[[], str], within: Within) -> None:
     """Let every installed package add its systems to a prairie that is being made; it has its `systems` already."""
     system_plugins().bring(prairie, come_back, within)
 

@@ -38,9 +38,7 @@ IN_A_FRAME = (
 class Holding:
     """All GL objects of a site in one context."""
 
-    def __init__(
-        self, ctx: moderngl.Context, features: Sequence[Feature], winds: Winds, *, linear: bool = False
-    ) -> None:
+    def __init__(self, ctx: moderngl.Context, features: Sequence[Feature], winds: Winds, *, linear: bool) -> None:
         self.ctx, self.winds, self.quarantine = ctx, winds, winds.quarantine
         self.block, self.received = FrameBlock(ctx), Received(ctx)
         self.record = self.block.record

@@ -40,9 +40,7 @@ REHEARSED_SCALE = 0.75
 class Painter(Holding):
     """Draws a site in one GL context."""
 
-    def __init__(
-        self, ctx: moderngl.Context, features: Sequence[Feature], winds: Winds, *, linear: bool = False
-    ) -> None:
+    def __init__(self, ctx: moderngl.Context, features: Sequence[Feature], winds: Winds, *, linear: bool) -> None:
         super().__init__(ctx, features, winds, linear=linear)
         self.smaller, self.stopwatch = Smaller(ctx, floats=linear), Stopwatch(ctx)
         self._hand_over = early_flush(ctx)

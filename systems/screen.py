@@ -40,7 +40,7 @@ class Screen:
         features: Sequence[Feature],
         winds: Winds,
         *,
-        linear: bool = False,
+        linear: bool,
     ) -> None:
         self.ctx, self.linear = ctx, linear
         self._features, self._winds = features, winds

@@ -115,7 +115,7 @@ def lay_out(
     )
 
 
-def numbers_of(scene: Scene, preset: str | None = None, /) -> Quality:
+def numbers_of(scene: Scene, preset: str | None, /) -> Quality:
     """Return the numbers of a scene's quality, or of `preset`.
 
     Kinds have fewer patch models if otherwise the pictures of all would not fit into a texture.

@@ -18,7 +18,7 @@ class DrawingGroup(Group):
     in groups inside it right after it. `visible` hides all of that, as of any group. `delete` takes it out again.
     """
 
-    def __init__(self, draw: Callable[[], None], batch: Batch, *, order: int = 0, parent: Group | None = None) -> None:
+    def __init__(self, draw: Callable[[], None], batch: Batch, *, order: int, parent: Group | None) -> None:
         super().__init__(order, parent)
         self._draw: Callable[[], None] | None = draw
         self._program = get_default_shader()

@@ -42,17 +42,21 @@ def attributes(record: np.dtype[np.void]) -> tuple[str, list[str]]:
     return " ".join(f"{count}{record[name].base.kind}" for count, name in zip(counts, names, strict=True)), names
 
 
+FEWEST = 1024
+"""Number of records that a stream has room for at first."""
+
+
 class Stream:
     """A vertex buffer of records that grows as needed.
 
-    `record` is a dtype of float32 and uint32 fields, named as the shader's attributes; `rows` is the initial capacity.
+    `record` is a dtype of float32 and uint32 fields, named as the shader's attributes.
     """
 
-    def __init__(self, ctx: moderngl.Context, record: np.dtype[np.void], *, rows: int = 1024) -> None:
+    def __init__(self, ctx: moderngl.Context, record: np.dtype[np.void]) -> None:
         self.ctx = ctx
         self.record = record
-        self.buffer = ctx.buffer(reserve=rows * record.itemsize, dynamic=True)
-        self.count, self._capacity = 0, rows
+        self.count, self._capacity = 0, FEWEST
+        self.buffer = ctx.buffer(reserve=FEWEST * record.itemsize, dynamic=True)
 
     def write(self, rows: NDArray[Any]) -> None:
         """Replace the contents by `rows`, shape (n,)."""

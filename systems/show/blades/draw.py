@@ -11,7 +11,6 @@ from ....engine.gl.shaders import Texts, set_uniform
 from ....engine.gl.stream import Stream, release_all
 from ...frame.block import FrameBlock, filled, joined, room_for
 from .organs import organ_defines
-from .pool import BLADE
 
 RIBBON = np.dtype(
     [
@@ -170,7 +169,7 @@ class BladeDrawing:
         block: FrameBlock,
         segments: int,
         units: Mapping[str, int],
-        record: np.dtype[np.void] = BLADE,
+        record: np.dtype[np.void],
     ) -> None:
         organs = organ_defines(record)
         self.ribbons = Ribbons(ctx, block, [segments], units, soft=False, defines=organs)

@@ -81,7 +81,7 @@ class GroundPainter:
         *,
         side: int,
         seed: int,
-        coarse: bool = False,
+        coarse: bool,
     ) -> None:
         self.stock, self._block = stock, block
         self._came: tuple[float, ...] = ()

@@ -217,7 +217,7 @@ def first_met(
     slopes: Doubles,
     patch: float,
     taper: float,
-    section: Section = FLAT,
+    section: Section,
 ) -> Doubles:
     """Return what lines of sight meet in a field of blades that a message bends, shape (slopes, 3).
 

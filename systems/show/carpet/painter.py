@@ -54,7 +54,7 @@ STEP = 0.4
 class CarpetPainter(RepresentationPainter):
     """Draws the ground and the carpet on it."""
 
-    def __init__(self, canvas: Canvas, stock: CarpetStock, ground: Ground, side: int, *, coarse: bool = False) -> None:
+    def __init__(self, canvas: Canvas, stock: CarpetStock, ground: Ground, side: int, *, coarse: bool) -> None:
         self._ground, self._spacing = ground, finest_spacing(ground.terrain, ground.patch)
         self._units, self._block, self._reach = canvas.units, canvas.block, canvas.reach[-2]
         self._around, self._seen = Remembered[Tiles](), Remembered[ByLayer]()

@@ -192,7 +192,7 @@ def tile_grid(stride: int = 1, /, *, quads: int = GRID) -> tuple[NDArray[np.floa
     return corners, (first + quad).astype(np.int32)
 
 
-def skirted_grid(stride: int = 1, /, *, quads: int = GRID) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
+def skirted_grid(stride: int = 1, /, *, quads: int) -> tuple[NDArray[np.float32], NDArray[np.int32]]:
     """Return `tile_grid` with a skirt. Its vertices lie beyond the grid: the upper ones by 0.5, the lower ones by 1."""
     corners, triangles = tile_grid(stride, quads=quads)
     line, beyond = np.arange(quads + 1.0), list[NDArray[np.float32]]()
