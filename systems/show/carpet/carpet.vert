@@ -31,11 +31,12 @@ void light_leaves(float slope, float on, ByKind densities, vec2 message) {
     vec2 messages[KINDS];
     for (int kind = 0; kind < KINDS; kind++)
         messages[kind] = message;
-    Canopy canopy = canopy_lit(met, slope, on, there, lie_at(there.xz), messages);
+    Lie lies = lie_at(there.xz);
+    Canopy canopy = canopy_lit(met, slope, on, there, lies, messages);
 #ifndef HEADS  // among plants in flower, grass is as bright as in its images
     canopy.bent.y *= tip_ratio(met, densities, on);
 #endif
-    slow_noise = slow_noise_at(there, slope, tall);
+    slow_noise = lies.slow;
     lit = pack_light(hazed(canopy.light, place), canopy.bent);
 }
 

@@ -66,11 +66,12 @@ vec3 light_leaves(Laid laid, float slope, float on_strips) {
     vec2 messages[KINDS];
     for (int kind = 0; kind < KINDS; kind++)
         messages[kind] = laid.message;
-    Canopy canopy = canopy_lit(met, slope, on_level, there, lie_at(there.xz), messages);
+    Lie lies = lie_at(there.xz);
+    Canopy canopy = canopy_lit(met, slope, on_level, there, lies, messages);
 #ifndef HEADS  // among plants in flower, grass is as bright as in its images
     canopy.bent.y *= tip_ratio(met, laid.densities, on_level);
 #endif
-    vec3 fresh = dryness_tint(slow_noise_at(there, slope, laid.tall));
+    vec3 fresh = dryness_tint(lies.slow);
     canopy.light.sun *= fresh * fresh;  // a factor of the pigment, whose square is the albedo
     canopy.light.sky *= fresh * fresh;
     bent_through = transmittance(canopy.bent.x);

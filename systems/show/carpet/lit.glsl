@@ -29,12 +29,6 @@ vec3 turned_pigment(int kind, vec3 lean, vec3 ray) {
     return azimuth_tint(kind, seen_azimuth(kind, lean, ray) - seen_azimuth(kind, vec3(0.0, 1.0, 0.0), ray));
 }
 
-// Slow noises of the pigment, averaged over the nearer and farther leaves that are seen.
-vec2 slow_noise_at(vec3 there, float slope, float tall) {
-    vec2 apart = heading_to(there.xz) * min(SPREAD * ground_spread(slope, tall), FARTHEST_SEEN);
-    return 0.5 * (slow_noise_at(there.xz - apart) + slow_noise_at(there.xz + apart));
-}
-
 // The wind's message; far away, where there are no receivers, the mean message.
 vec2 message_at(vec2 at) {
     vec2 on = at * (patches_per_metre * windows_per_patch), apart = abs(on - (carpet_window.xy + 0.5) * windows_per_patch);

@@ -13,7 +13,6 @@ const float LEAST_CURVATURE = 1e-5;  // least curvature that divides [1/m]
 const vec2 LEAVES_BEGIN = vec2(0.5, 2.0);  // depths of lines of sight at an outline, and where they meet as much as on level ground
 const float UPPER = 0.58;  // weight of the upper part of a path through the grass, where most leaves are met
 const float BEFORE = 0.27;  // distance before the carpet at which lines of sight meet the first leaves, in heights over slope
-const float SPREAD = 0.17;  // distance of the leaves that they meet from the mean of these, before and behind, in heights over slope
 const float THINNEST = 0.01;  // least leaf area index for finding where leaves are met
 const float THINNEST_LAYER = 1e-6;  // least leaf area index of a layer
 const float LEAST_MET = 0.004;  // least share of a kind in what is met that is drawn
