@@ -68,7 +68,6 @@ class CarpetPainter(RepresentationPainter):
         )
         self._staged: tuple[CarpetStock, moderngl.TextureArray] | None = None
         """The next stock and its images, already in GL."""
-        self._came: tuple[float, ...] = ()
         self.air = Air(canvas, side)
         self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
         """The viewer's cell, the number of the first receiver, and the receivers that `hear` serves."""

@@ -151,20 +151,14 @@ def bare_within(
 
 def on_terrain(tiles: NDArray[np.void], terrain: Terrain, /) -> NDArray[np.bool_]:
     """Return which tiles (n,) lie wholly on the terrain, shape (n,)."""
-    low = np.asarray(terrain.origin)
-    return _inside(tiles, low, low + terrain.size)
+    low, (first, last) = np.asarray(terrain.origin), _corners(tiles)
+    return np.asarray(((first >= low - 1e-3) & (last <= low + terrain.size + 1e-3)).all(axis=1))
 
 
 def meets_terrain(tiles: NDArray[np.void], terrain: Terrain, /) -> NDArray[np.bool_]:
     """Return which tiles (n,) lie on the terrain at least in part, shape (n,)."""
     low, (first, last) = np.asarray(terrain.origin), _corners(tiles)
     return np.asarray(((first < low + terrain.size) & (last > low)).all(axis=1))
-
-
-def _inside(tiles: NDArray[np.void], low: NDArray[np.floating], high: NDArray[np.floating]) -> NDArray[np.bool_]:
-    """Return which tiles (n,) lie wholly between two corners of a rectangle, each (2,) [m], shape (n,)."""
-    first, last = _corners(tiles)
-    return np.asarray(((first >= low - 1e-3) & (last <= high + 1e-3)).all(axis=1))
 
 
 def _corners(tiles: NDArray[np.void]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
