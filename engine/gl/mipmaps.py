@@ -36,16 +36,19 @@ def stack_for(ctx: moderngl.Context, layers: int, /) -> int:
     return -(-layers // limits_of(functions_of(ctx)).layers)
 
 
-def stacked(texels: Bytes, stack: int, /) -> list[Bytes]:
-    """Return mip levels of layers stacked along their rows, `stack` in each, down to one row of each.
+def stacked(made: list[Bytes], stack: int, /) -> list[Bytes]:
+    """Return mip levels (layers, rows, columns, ...) with layers stacked along their rows, down to one row of each.
 
-    Rows are padded to a power of two, so that no texel of a level covers two layers.
+    There are `stack` layers in each. If the number of rows is no power of two, they are padded, so that no texel of a
+    level covers two layers, and levels are made anew.
     """
-    rows = texels.shape[1]
+    rows = made[0].shape[1]
     padded_rows = 1 << (rows - 1).bit_length()
-    padded = np.pad(texels, [(0, -len(texels) % stack), (0, padded_rows - rows), *[(0, 0)] * (texels.ndim - 2)])
-    made = levels(padded)[: padded_rows.bit_length()]
-    return [each.reshape(len(each) // stack, stack * each.shape[1], *each.shape[2:]) for each in made]
+    if rows < padded_rows:
+        made = levels(np.pad(made[0], [(0, 0), (0, padded_rows - rows), *[(0, 0)] * (made[0].ndim - 2)]))
+    missing = -len(made[0]) % stack
+    padded = [np.pad(each, [(0, missing), *[(0, 0)] * (each.ndim - 1)]) for each in made[: padded_rows.bit_length()]]
+    return [each.reshape(len(each) // stack, stack * each.shape[1], *each.shape[2:]) for each in padded]
 
 
 def mipmapped(ctx: moderngl.Context, made: list[Bytes], /) -> moderngl.TextureArray:
@@ -70,7 +73,7 @@ def mipmapping(ctx: moderngl.Context, made: list[Bytes], /) -> Generator[None, N
     """Do what `mipmapped` does in steps of about `PIECE` bytes, or of one layer; the first also allocates."""
     stack = stack_for(ctx, len(made[0]))
     if stack > 1:
-        made = stacked(made[0], stack)
+        made = stacked(made, stack)
     layers, rows, columns, channels = (*made[0].shape, 1)[:4]
     texture = ctx.texture_array((columns, rows, layers), channels, alignment=1)
     stored, given = (ENUMS[name] for name in _FORMATS[channels])

@@ -119,7 +119,8 @@ Reading reading(Patch grass_patch, Sight sight, vec2 at, float tall, float eleva
     // From the side, blades are stretched along the line of sight as at its own slope, not as at the slopes of the images.
     vec2 longer = max(sight.on_level, FLATTEST) / vec2(slopes[low], slopes[low + 1]) - 1.0;
     longer *= dot(here, sight.heading) * (1.0 - smoothstep(ROOTS_SEEN.x, ROOTS_SEEN.y, sight.on_level));
-    // At a low angle a pixel's footprint is a long stripe of ground, but blades are stretched as far: its width across them counts.
+    // At a low angle a pixel's footprint is a long stripe of ground, but blades are stretched as far: its width across them counts. Mip
+    // levels (levels.py) are means over its length.
     vec2 dx = unsheared(sight.dx, sight.heading, leans) * patches_per_metre;
     vec2 dy = unsheared(sight.dy, sight.heading, leans) * patches_per_metre;
     float across = max(max(abs(dot(dx, beside)), abs(dot(dy, beside))), THINNEST_PIXEL);

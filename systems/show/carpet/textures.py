@@ -7,32 +7,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....components.arrays import Bytes, Floats
-from ....engine.gl.mipmaps import PIECE, mipmapping, stack_for
-from ....engine.gl.stream import released_unless_finished
+from ....engine.gl.mipmaps import mipmapping, stack_for
 from ....engine.gl.texture import interpolated
 from ...grow.record import Growth
 from .grow import carpet_of
+from .levels import seen_levels
 
 
 def sending_carpet(ctx: moderngl.Context, growths: Sequence[Growth]) -> Generator[None, None, moderngl.TextureArray]:
     """Return all carpet images as layers, ordered by form, model, slope and direction; send them a piece at a time."""
-    by_model = [carpet_of(model).texels for growth in growths for model in growth.models]
-    images = [texels.reshape(-1, *texels.shape[2:]) for texels in by_model]
-    layers, (rows, columns) = image_count(growths), images[0].shape[1:3]
-    if stack_for(ctx, layers) > 1:
-        texture = yield from mipmapping(ctx, [_whole(np.concatenate(images))])
-        texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
-        return texture
-    texture = ctx.texture_array((columns, rows, layers), 4)
-    piece, layer = max(PIECE // images[0][0].nbytes, 1), 0
-    with released_unless_finished(texture):
-        for of_model in images:
-            for first in range(0, len(of_model), piece):
-                part = np.ascontiguousarray(of_model[first : first + piece])
-                texture.write(part, viewport=(0, 0, layer, columns, rows, len(part)))
-                layer += len(part)
-                yield
-    texture.build_mipmaps()
+    layers, layer = image_count(growths), 0
+    resampled = _whole if stack_for(ctx, layers) > 1 else np.asarray
+    made: list[Bytes] = []
+    for carpet in (carpet_of(model) for growth in growths for model in growth.models):
+        for images, slope in zip(carpet.texels, carpet.slope.tolist(), strict=True):
+            levels = seen_levels(resampled(images), slope)
+            made = made or [np.empty((layers, *level.shape[1:]), np.uint8) for level in levels]
+            for whole, level in zip(made, levels, strict=True):
+                whole[layer : layer + len(level)] = level
+            layer += len(images)
+            yield
+    texture = yield from mipmapping(ctx, made)
     texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
     return texture
 

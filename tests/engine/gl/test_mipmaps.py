@@ -52,7 +52,7 @@ def test_every_level_of_layers_that_lie_in_one_has_each_of_them_whole(channels: 
     texels = np.random.default_rng(0).integers(0, 256, (5, 12, 16, *channels), np.uint8)
     high = np.zeros((5, 16, 16, *channels), np.uint8)
     high[:, :12] = texels
-    made, alone = stacked(texels, 3), levels(high)
+    made, alone = stacked(levels(texels), 3), levels(high)
     assert [len(level) for level in made] == [2] * 5
     assert made[-1].shape[1:3] == (3, 1)
     for level, each in zip(made, alone, strict=True):

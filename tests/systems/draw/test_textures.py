@@ -6,7 +6,7 @@ import moderngl
 import numpy as np
 import pytest
 
-from tallgrass.engine.gl.mipmaps import at_once
+from tallgrass.engine.gl.mipmaps import at_once, levels
 from tallgrass.engine.gl.stream import release_all
 from tallgrass.engine.terrain.record import Density, Terrain
 from tallgrass.systems.grow.record import Growth
@@ -15,6 +15,7 @@ from tallgrass.systems.land.part import density_texture, posture_texture
 from tallgrass.systems.light.lie import slow_map
 from tallgrass.systems.light.repeating import LITTER_ONE, SIDE, ground_maps, repeating_levels
 from tallgrass.systems.show.carpet.grow import carpet_of
+from tallgrass.systems.show.carpet.levels import seen_levels
 from tallgrass.systems.show.carpet.textures import sending_carpet
 from tallgrass.systems.show.strips.pages import ALIGNMENT, packed
 from tallgrass.systems.show.strips.stock import stock_strips
@@ -138,9 +139,28 @@ def test_g4_carpet_layers_are_kinds_models_slopes_and_directions(ctx: moderngl.C
     for number, growth in enumerate(growths):
         for model in range(2):
             start = (number * 2 + model) * each
-            carpet = carpet_of(growth.models[model]).texels
-            np.testing.assert_array_equal(texels[start : start + each], carpet.reshape(each, height, width, 4))
+            carpet = carpet_of(growth.models[model])
+            finest = [seen_levels(*row)[0] for row in zip(carpet.texels, carpet.slope.tolist(), strict=True)]
+            np.testing.assert_array_equal(texels[start : start + each], np.concatenate(finest))
     texture.release()
+
+
+def test_g4_mip_levels_of_the_carpet_are_means_over_what_a_pixel_covers() -> None:
+    images = np.random.default_rng(0).integers(0, 256, (4, 8, 8, 4), np.uint8)
+    three_texels = 1.0 / np.sqrt(8.0)
+    for seen, level in zip(seen_levels(images, three_texels)[:2], levels(images)[:2], strict=True):
+        for direction, axis in enumerate((0, 1, 0, 1)):  # along z, along x, and back
+            whole = level[direction].astype(float)
+            three = [np.roll(whole, by, axis) for by in (-1, 0, 1)]
+            np.testing.assert_allclose(seen[direction], np.mean(three, axis=0), atol=0.5001)
+
+
+def test_g4_flat_lines_of_sight_see_whole_rows_of_the_carpet_at_once() -> None:
+    images = np.random.default_rng(0).integers(0, 256, (4, 8, 8, 4), np.uint8)
+    finest = seen_levels(images, 0.02)[0]
+    assert np.ptp(finest[::2], axis=1).max() == np.ptp(finest[1::2], axis=2).max() == 0
+    assert np.ptp(finest[::2], axis=2).mean() > 50.0
+    np.testing.assert_allclose(finest.mean(axis=(1, 2)), images.mean(axis=(1, 2)), atol=0.5)
 
 
 def test_t1_heights_are_kept_to_the_last_bit_which_tells_of_holes(ctx: moderngl.Context, hills: Terrain) -> None:
