@@ -276,9 +276,9 @@ class Prairie(Tending):
         """Read the scene again, or another one, and continue with it at the present time; keep what did not change.
 
         Only terrain, kinds of grass and textures whose values, maps or preset have changed are made anew. Unchanged
-        winds and those that you added blow on. Your changes to `systems` stay, and so do those to ground and grass if
-        the terrain is the same. With the `site` that `finding`'s function returned nothing has to grow here; the scene
-        is then the one that the site was made for. Raises `SceneError` with every problem, and then nothing has
+        winds and those that you added blow on. Your changes to `systems` and to grass stay, and so do those to ground
+        if the terrain is the same. With the `site` that `finding`'s function returned nothing has to grow here; the
+        scene is then the one that the site was made for. Raises `SceneError` with every problem, and then nothing has
         changed; ValueError if there is no scene to read; TypeError for another `site`; RuntimeError after `release`,
         in a system, and while another esper world is current.
         """
@@ -352,7 +352,7 @@ class Prairie(Tending):
     def __del__(self) -> None:
         """Warn of a prairie that was drawn and then dropped, and have it released when another is drawn."""
         if "_screen" in vars(self):  # else it could not be loaded
-            self._screen.release_later(self.release, self.path)
+            self._screen.release_later(self.release, self.loaded.path)  # `self.path` asks numpy, which may be gone
 
     def _advance_kinds(self, stage: Stage = lambda *_: True) -> None:
         """Advance changed kinds of grass to the present time; `stage` uploads what has grown anew."""
