@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cache
+from math import isfinite
 from types import NoneType
 from typing import Annotated, Any, Literal, get_args, get_origin
 
@@ -197,8 +198,10 @@ def _middle(key: Key) -> float:
 def tidied(key: Key, number: float, /, *, pulled: bool) -> float:
     """Return a field's number rounded for the file: to fewer digits if it was pulled than if it was typed.
 
-    A number pulled to an exclusive bound is moved a little beyond the bound.
+    A number pulled to an exclusive bound is moved a little beyond the bound. NaN and infinity stay, to be refused.
     """
+    if not isfinite(number):
+        return number
     if key.form == "whole":
         return round(number)
     if not pulled:

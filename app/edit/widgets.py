@@ -15,6 +15,9 @@ from .values import NOTHING, yaml_text
 WIDE = 1000.0
 """Range above which a slider is too coarse: wider ones are dragged, or get a logarithmic slider."""
 
+LARGEST = 2**31 - 1
+"""Largest whole number that a field of imgui takes."""
+
 OWN_NUMBERS = "its own numbers"
 """Label of the choice of a part instead of a text."""
 
@@ -54,9 +57,10 @@ def _number(key: Key, value: float) -> Any:
 
 
 def _whole(key: Key, value: int) -> Any:
-    low, high = int(key.low or 0), int(key.high or 0)
-    if high - low <= WIDE:
-        changed, new = imgui.slider_int(f"##{key.name}", value, low, high)
+    if abs(value) > LARGEST:
+        return written(key.name, value)
+    if key.low is not None and key.high is not None and key.high - key.low <= WIDE:
+        changed, new = imgui.slider_int(f"##{key.name}", value, int(key.low), int(key.high))
     else:
         changed, new = imgui.input_int(f"##{key.name}", value)
     return int(new) if changed else NOTHING

@@ -106,3 +106,9 @@ def test_a_key_that_gets_its_first_value_is_accepted_wherever_it_can_be() -> Non
 )
 def test_what_is_pulled_is_short_and_what_is_typed_is_kept(number: float, pulled: bool, written: float) -> None:  # noqa: FBT001
     assert tidied(key(Rocks, "size"), number, pulled=pulled) == written
+
+
+@pytest.mark.parametrize("pulled", [True, False])
+def test_what_is_no_number_stays_to_be_refused(*, pulled: bool) -> None:
+    for number in (float("nan"), float("inf")):
+        assert str(tidied(key(Rocks, "size"), number, pulled=pulled)) == str(number)

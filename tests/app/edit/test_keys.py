@@ -64,6 +64,12 @@ class Draught(PlacedWind):
     chill: float = Field(default=2.0, ge=0.0, le=8.0)
     """How cold it is [degrees]."""
 
+    holes: int = Field(default=3, ge=1)
+    """Number of holes that it comes through."""
+
+    leaves: int = Field(default=10**12, ge=0)
+    """Number of leaves that it moves."""
+
     def extent(self, *, time: float) -> Extent:
         return Extent(-2.0, 2.0, -2.0, 2.0)
 
@@ -85,7 +91,9 @@ def test_n13_a_strangers_wind_is_added_where_one_looks_and_has_its_fields(
     assert walk.editor.picked_wind is wind
     assert wind.position == pytest.approx(walk.editor.spot, abs=0.01)
     drag(walk, field(walk, ("wind", 1, "chill"), 0.25), field(walk, ("wind", 1, "chill"), 0.75))
-    assert walk.prairie.scene.wind[1].model_dump()["chill"] == pytest.approx(6.0, abs=0.5)
+    drag(walk, field(walk, ("wind", 1, "holes"), 0.97))  # the button that counts on
+    blown = walk.prairie.scene.wind[1].model_dump()
+    assert (blown["chill"], blown["holes"]) == (pytest.approx(6.0, abs=0.5), 4)
     strike(walk, "S", ctrl=True)
     added = [line for line in (tmp_path / "lawn.yaml").read_text().splitlines() if line not in SCENE.splitlines()]
     (line,) = added
