@@ -27,15 +27,14 @@ const float COARSER_BY = log2(float(COARSER));
 void mix_pictures(vec2 at, vec2 parts, out vec4 texel, out vec4 shading) {
     ivec2 first = ivec2(greaterThanEqual(parts, vec2(1.0))), last = ivec2(greaterThan(parts, vec2(0.0)));
     texel = shading = vec4(0.0);
-    for (int row = first.y; row <= last.y; row++)
-        for (int column = first.x; column <= last.x; column++) {
-            vec2 corner = vec2(column == 0 ? tile_corners.x : tile_corners.z, row == 0 ? tile_corners.y : tile_corners.w);
-            vec2 place = corner + at / vec2(COLUMNS, ROWS);
-            float part = (column == 0 ? 1.0 - parts.x : parts.x) * (row == 0 ? 1.0 - parts.y : parts.y);
-            vec4 shows = part * textureLod(tree_far, vec3(place, 0.0), motion.w);
-            texel += shows;
-            shading += shows.a * textureLod(tree_depths, vec3(place, 0.0), max(motion.w - COARSER_BY, 0.0));
-        }
+    for (int number = first.x + 2 * first.y; number <= last.x + 2 * last.y; number += first.x < last.x ? 1 : 2) {
+        bvec2 second = bvec2(number & 1, number & 2);
+        vec2 place = mix(tile_corners.xy, tile_corners.zw, second) + at / vec2(COLUMNS, ROWS), own = mix(1.0 - parts, parts, second);
+        float part = own.x * own.y;
+        vec4 shows = part * textureLod(tree_far, vec3(place, 0.0), motion.w);
+        texel += shows;
+        shading += shows.a * textureLod(tree_depths, vec3(place, 0.0), max(motion.w - COARSER_BY, 0.0));
+    }
 }
 
 // Position within a picture that reads nothing of its neighbours.
