@@ -21,6 +21,12 @@ uint bits_of(ivec2 cell) {
     return scramble(uint(cell.x * ROWS + cell.y ^ stock.y));
 }
 
+// The carpet's share on a cell: its own near the viewer, where patches differ, and that of the mesh beyond.
+float share_on(ivec2 cell) {
+    vec2 apart = abs(vec2(cell) - carpet_window.xy);
+    return max(apart.x, apart.y) > carpet_window.z ? mesh_share : textureLod(shares, (vec2(cell) + 0.5) * windows_per_patch, 0.0).r;
+}
+
 // Texture coordinates and image that a pixel reads of each kind.
 struct Look {
     vec2 at;        // texture coordinates
@@ -32,7 +38,7 @@ struct Look {
 
 // Of the images of two slopes each patch shows one, chosen at random by their weights.
 Look look_along(vec2 heading, uint random_bits) {
-    vec2 here = unsheared(fract(place.xz * patches_per_metre) - blown * patches_per_metre - 0.5, heading, blown * leaning);
+    vec2 here = fract(place.xz * patches_per_metre) - blown * patches_per_metre - 0.5;
     float upper = float(random_bits >> UPPER_HALF);
     int low = min(int(elevation), SLOPES - 2), slope = min(int(elevation + upper * exp2(-BITS)), low + 1);
     int side = int(random_bits >> UPPER_HALF) & (HEADINGS - 1);
@@ -44,15 +50,14 @@ Look look_along(vec2 heading, uint random_bits) {
     return Look(place_in_image, image.z, image.xy, vec2(1.0 - steeper, steeper), vec2(1.0 - grain - own, own));
 }
 
-// Sums over all kinds, weighted by coverage: pigment and height; coverage; excess of height over the mean.
+// Sums over all kinds, weighted by coverage: pigment and height; and coverage.
 struct Grass {
     vec3 pigment;
     float height;
     float covers;
-    float taller;
 };
 
-void add_kind(inout Grass sum, int kind, Look look, vec2 facing) {
+void add_kind(inout Grass sum, int kind, Look look) {
     float part = OF(met, kind), from = OF(first, kind);
     vec4 lower = layer_mean(images, int(from) + look.between.x, stock.z), steeper = layer_mean(images, int(from) + look.between.y, stock.z);
     vec4 mean = lower * look.weights.x + steeper * look.weights.y;
@@ -66,36 +71,33 @@ void add_kind(inout Grass sum, int kind, Look look, vec2 facing) {
     covers = OF(bears, kind) > 0.0 ? clamp(image.a / max(mean.a, LEAST_MEAN), 0.0, 1.0) : covers;
 #endif
     covers *= part;
-    float cos_double = 2.0 * shown.b - 1.0, eyed = 0.0;
+    float eyed = 0.0;
 #ifdef EYED
-    if (has_eyes(kind, false)) {
+    if (has_eyes(kind, false))
         eyed = eye_share(shown);
-        cos_double = FACING;
-    }
 #endif
-    sum.pigment += covers * pigment_at(kind, at.x, at.x * eyed) * azimuth_tint(kind, facing * cos_double);
+    sum.pigment += covers * pigment_at(kind, at.x, at.x * eyed);
     sum.height += covers * at.y * OF(tops, kind);
     sum.covers += covers;
-    sum.taller += part * (shown.g * mean.a / max(mean.g, LEAST_TEXEL) - 1.0);
 }
 
 Grass grass_seen(vec2 heading, uint random_bits) {
     Look look = look_along(heading, random_bits);
-    Grass sum = Grass(vec3(0.0), 0.0, 0.0, 0.0);
+    Grass sum = Grass(vec3(0.0), 0.0, 0.0);
     for (int kind = 0; kind < KINDS; kind++)
         if (OF(met, kind) > LEAST_MET)
-            add_kind(sum, kind, look, doubled_angle(heading));
+            add_kind(sum, kind, look);
     float all = 1.0 / max(sum.covers, LEAST_TEXEL);
-    return Grass(sum.pigment * all, sum.height * all, min(sum.covers, 1.0), sum.taller);
+    return Grass(sum.pigment * all, sum.height * all, min(sum.covers, 1.0));
 }
 
-// Opacity of the grass along an outline, that of a crest or of a rim, for plants taller than the mean by a fraction `taller`. One image
-// has twice the variance of two that are mixed, hence the root of their factor.
-float hides_behind(float slope, float taller, float share) {
-    vec2 path = max(slope * abs(slope) / crest + in_pixel, 0.0), leaves = crest_leaves * inversesqrt(crest) * path * sqrt(path);
+// Opacity of the grass along an outline, that of a crest or of a rim.
+float hides_behind(float slope) {
+    float wide = inversesqrt(crest);
+    vec2 path = max(slope * abs(slope) * (wide * wide) + in_pixel, 0.0), leaves = crest_leaves * wide * path * sqrt(path);
     if (rim_path < NO_RIM)
         leaves = vec2(rim_leaves * rim_path * rim_path);
-    return 1.0 - dot(transmittance(leaves * sqrt(spike_factor(taller, share))), vec2(HALF));
+    return 1.0 - dot(transmittance(leaves), vec2(HALF));
 }
 
 // Brightness of the litter on a patch, of which little is seen between the grass: each patch shows another part of the texture.
@@ -107,20 +109,19 @@ float litter_on_patch(uint random_bits) {
 void main() {
     ivec2 cell = ivec2(floor(place.xz * patches_per_metre));
     uint random_bits = bits_of(cell);
-    float share = mesh_share > 0.0 ? share_at(cell) : 0.0, covered = 1.0;
+    float share = mesh_share > 0.0 ? share_on(cell) : 0.0, covered = 1.0;
     vec2 shadow = has_casters() ? mix(in_shade, vec2(1.0), casters_visibility(place)) : vec2(1.0);
     vec3 color = soil_seen * (shadow.y * litter_on_patch(random_bits));
     if (share > 0.0) {
-        vec3 ray = place - eye;
-        float nearness = inversesqrt(max(dot(ray.xz, ray.xz), TINY * TINY)), facing = (dot(rise, ray.xz) - ray.y) * nearness;
-        Grass grass = grass_seen(ray.xz * nearness, random_bits);
-        vec3 light = max(ground_light + light_rise * grass.height, 0.0) * shadow.x;
-        vec3 leaves = tone_mapped(grass.pigment * grass.pigment * light + air_light);
+        vec2 ray = place.xz - eye.xz;
+        Grass grass = grass_seen(ray * inversesqrt(max(dot(ray, ray), TINY * TINY)), random_bits);
+        vec3 lit = max(lit_root + root_rise * grass.height, 0.0) * sqrt(shadow.x);
+        vec3 leaves = tone_mapped_root(grass.pigment * lit + air_root);
         float square = max(facing, 0.0) * max(facing, 0.0), covers = grass.covers;
         if (square < outlined_to || rim_path < NO_RIM) {
             float ends = smoothstep(ENDS.x * share, ENDS.y * share, square / crest_deep);
             covers = mix(min(covers / LEAST_COVER, 1.0), covers, ends);
-            covered = mix(1.0, hides_behind(facing, grass.taller, share), min(share / SHOWN_FROM, 1.0));
+            covered = mix(1.0, hides_behind(facing), min(share / SHOWN_FROM, 1.0));
         }
         covers *= past_strips;
         color = color * (1.0 - covers) + leaves * covers;

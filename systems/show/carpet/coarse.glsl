@@ -5,7 +5,7 @@
 
 PASSED vec3 place;
 WITHIN PASSED float mesh_share;    // the carpet's share of the grass, in [0, 1]
-WITHIN PASSED vec2 rise;           // gradient of the ground along x and z [m/m]
+WITHIN PASSED float facing;        // slope of the line of sight to the ground [m/m]
 WITHIN PASSED float crest;         // twice the curvature of the ground along the line of sight [1/m]
 WITHIN PASSED float crest_deep;    // that times the height of the grass
 WITHIN PASSED float crest_leaves;  // optical depth over a crest, by the root of `crest` and the height of a line of sight to the power of 3/2
@@ -18,7 +18,6 @@ WITHIN PASSED ByKind met;          // by kind: weight of its image
 WITHIN PASSED ByKind riper;        // by kind: excess of heads over its image, from kinds_met
 #endif
 WITHIN PASSED vec2 blown;          // displacement of leaves [m]
-WITHIN PASSED float leaning;       // shear of images in proportion to it [1/m], from image_shear
 WITHIN PASSED vec2 stretch;        // lengthening of images along the line of sight: its parts in proportion to their slope, and taken off
 WITHIN PASSED float elevation;     // from elevation_index
 WITHIN PASSED float level;         // mip level of the images
@@ -27,9 +26,9 @@ WITHIN PASSED float grain;         // gain of contrast about the mean of images
 WITHIN PASSED float past_strips;   // opacity of the grass among strips, from among_strips
 WITHIN PASSED float bent_through;  // transmittance of the additional leaves that a line of sight meets in bent grass
 WITHIN PASSED vec4 places;         // place along blades and height of leaves: where images show 0, and the rise to where they show 1
-WITHIN PASSED vec3 ground_light;   // radiance of a white leaf on the ground, as if light were linear in height
-WITHIN PASSED vec3 light_rise;     // its rise to the top of the canopy
-WITHIN PASSED vec3 air_light;      // radiance of haze and gloss before leaves
+WITHIN PASSED vec3 lit_root;       // root of the radiance of a leaf on the ground, by its pigment: as if linear in pigment and height
+WITHIN PASSED vec3 root_rise;      // its rise to the top of the canopy
+WITHIN PASSED vec3 air_root;       // root of the radiance of a black leaf behind haze and gloss
 WITHIN PASSED vec3 soil_seen;      // display colour of the soil, for litter whose brightness is 1
 WITHIN PASSED vec2 in_shade;       // brightness in the shade of a game's own, relative to the sun: of leaves, of the soil
 

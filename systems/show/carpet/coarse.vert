@@ -17,9 +17,9 @@ const float BEHIND_NOTHING = 9.0 * log(2.0);  // optical depth from which on 8 b
 const float PER_PATH = 1.0 / 1.5;  // exponent of the path over a crest, by its optical depth
 
 // Set the varyings of the grass's height over a crest and over a rim.
-void set_outline(Laid laid) {
+void set_outline(Laid laid, float slope) {
     float high = max(laid.tall * laid.stands, LOWEST_GRASS), pixel = pixel_height(place);
-    rise = laid.rise;
+    facing = slope;
     crest = 2.0 * max(laid.curvature, LEAST_CURVATURE);
     crest_deep = crest * high;
     crest_leaves = CREST * laid.leaf_area / (high * high) + BARE_LEAVES * max(1.0 - laid.tall / (2.0 * LOWEST_GRASS), 0.0);
@@ -45,6 +45,14 @@ vec4 set_places(Laid laid, float slope, float on_strips, vec2 bent) {
     return vec4(places.xy + LOWER * places.zw, places.xy + places.zw);
 }
 
+// Mean factor on pigments by the azimuths of the leaves that are met.
+vec3 azimuth_tint_met() {
+    vec3 tint = vec3(0.0);
+    for (int kind = 0; kind < KINDS; kind++)
+        tint += OF(met, kind) * azimuth_tint(kind, FACING * doubled_angle(heading_to(place.xz)));
+    return tint / max(total(met), TINY);
+}
+
 // Set the varyings of light, which is linear in the height of leaves between two of them, as set_places returns them.
 void set_light(Light light, vec4 leaves) {
     vec3 haze = light.haze, albedo = mean_pigment(met, all_kinds(leaves.x));
@@ -53,9 +61,12 @@ void set_light(Light light, vec4 leaves) {
     light.haze = vec3(0.0);
     light.gloss = 0.0;
     vec3 low = shade(leaf_surface(sqrt(albedo), leaves.y), light) / albedo, high = shade(leaf_surface(sqrt(albedo), leaves.w), light) / albedo;
-    light_rise = (high - low) / max(leaves.w - leaves.y, TINY);
-    ground_light = low - light_rise * leaves.y;
-    air_light = haze + sunlight * gloss;
+    // The root of radiance is nearly linear in the pigment: exactly so without air, and always exact for the mean pigment.
+    vec3 air = haze + sunlight * gloss, low_root = sqrt(max(low * albedo + air, TINY)), high_root = sqrt(max(high * albedo + air, TINY));
+    air_root = air * (0.5 / low_root + 0.5 / high_root);
+    vec3 whole = azimuth_tint_met() * inversesqrt(albedo), upper = (high_root - air_root) * whole, lower = (low_root - air_root) * whole;
+    root_rise = (upper - lower) / max(leaves.w - leaves.y, TINY);
+    lit_root = lower - root_rise * leaves.y;
     light.sun = vec3(0.0);
     in_shade.x = brightness(shade(leaf_surface(sqrt(albedo), leaves.y), light) / albedo) / max(brightness(low), DARKEST);
 }
@@ -137,9 +148,8 @@ void main() {
 #endif
     elevation = elevation_index(on_level, laid.leaf_area);
     blown = sway_of(met, laid.message) * laid.message;
-    leaning = image_shear(vec3(1.0, 0.0, laid.stands), on_level, laid.tall).x;
     met = filled_covers(met);
     set_sharpness(laid.tall, from_above);
-    set_outline(laid);
+    set_outline(laid, slope);
     gl_Position = clip * vec4(place, 1.0);
 }
