@@ -60,6 +60,10 @@ class Quality(Declaration):
     strip_rings: list[StripRing] = Field(min_length=1, max_length=16)
     """Sub-levels of the 2.5D strips, from the nearest."""
 
+    edge: float = Field(default=0.5, ge=0.25, le=0.5)
+    """Half the width of the soft edges of blades [pixels]: where they are narrower, blades cost less and are less
+    smooth."""
+
     carpet_to: int = Field(default=40, ge=1, le=160)
     """Largest discrete distance at which patches are kept; the ground beyond is one carpet."""
 
@@ -95,6 +99,7 @@ def _quality(
     carpet_to: int,
     *,
     coarse: bool = False,
+    edge: float = 0.5,
     pixels: float = 1.0,
 ) -> Quality:
     return Quality(
@@ -106,6 +111,7 @@ def _quality(
         ],
         carpet_to=carpet_to,
         coarse=coarse,
+        edge=edge,
         pixels=pixels,
     )
 
@@ -114,8 +120,8 @@ HALF = 0.5
 """Resolution along each side of `minimal`: a quarter of all pixels."""
 
 PRESETS: dict[str, Quality] = {
-    "minimal": _quality(100, [(1, 3), (7, 3)], [(12, 2, 1, 1, 0.012)], 32, coarse=True, pixels=HALF),
-    "low": _quality(160, [(1, 3), (8, 3)], [(12, 2, 1, 1, 0.012)], 32, coarse=True),
+    "minimal": _quality(100, [(1, 3), (7, 3)], [(12, 1, 1, 1, 0.012)], 32, coarse=True, pixels=HALF),
+    "low": _quality(160, [(1, 3), (7, 3)], [(12, 1, 1, 1, 0.012)], 32, coarse=True, edge=0.35),
     "medium": _quality(320, [(1, 4), (6, 4)], [(6, 4, 1, 2, 0.012), (16, 2, 1, 1, 0.012)], 36, coarse=True),
     "high": _quality(
         500,

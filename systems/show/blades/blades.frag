@@ -15,10 +15,10 @@ const float FAINT = 0.004;  // coverage that is left out: in bytes, it would onl
 
 out vec4 pixel;
 
-// Drawn width of a ribbon relative to its own: soft edges reach half a pixel beyond it.
+// Drawn width of a ribbon relative to its own: soft edges reach beyond it.
 float widening() {
 #ifdef SOFT
-    return 1.0 + 0.5 / max(half_width, THINNEST);
+    return 1.0 + EDGE / max(half_width, THINNEST);
 #else
     return 1.0;
 #endif
@@ -45,7 +45,7 @@ void main() {
         outside_slits = outline.coverage;
     }
 #endif
-    float covered = shown * outside_slits * clamp(wide + 0.5 - abs(aside), 0.0, min(1.0, 2.0 * wide));
+    float covered = shown * outside_slits * clamp((wide + EDGE - abs(aside)) * (0.5 / EDGE), 0.0, min(1.0, wide / EDGE));
 #ifdef ORGANS
     covered *= clamp(half_length + 0.5 - abs(onward), 0.0, min(1.0, 2.0 * half_length));
 #endif
@@ -62,7 +62,7 @@ void main() {
     pixel = vec4(0.0);
 #elif defined(FOLDS)
     // Each face of a fold is evenly lit: the ramp between the corners becomes a step.
-    pixel = vec4((radiance + keel * (clamp(2.0 * aside, -1.0, 1.0) - aside / (half_width + 0.5))) * covered, covered);
+    pixel = vec4((radiance + keel * (clamp(2.0 * aside, -1.0, 1.0) - aside / (half_width + EDGE))) * covered, covered);
 #else
     pixel = vec4(radiance * covered, covered);
 #endif

@@ -41,6 +41,9 @@ HIDING = 400
 """Blades per patch from which on it pays to compute the height up to which each is hidden. With 320 that costs a
 graphics card as much as it saves; with 160 it costs more than it saves."""
 
+WHOLE_EDGE = 0.5
+"""Half the width of soft edges that shaders have by themselves [pixels]."""
+
 READY_ROWS = 256
 """Rows of patch records that are allocated once a game has prepared."""
 
@@ -108,6 +111,7 @@ class BladesPainter(RepresentationPainter):
         self._fade, self._patch, self._near = canvas.transitions.fade, quality.patch, PARTED * quality.patch
         defines = {**self.store.defines, "STORED": 1, "RINGS": room_for(len(quality.strip_rings))}
         hiding = {"HIDING": 1} if quality.blades >= HIDING else {}
+        edge = {"EDGE": repr(quality.edge)} if quality.edge < WHOLE_EDGE else {}
         self.hearing = Hearing(canvas, "systems/show/blades/receivers.frag", defines, self._set_uniforms)
         self.passes = [
             blade_program(ctx, block, units, record, defines | hiding | morph)
@@ -120,12 +124,12 @@ class BladesPainter(RepresentationPainter):
         segments = [ring.segments for ring in rings]
         self._parted_rings = 1 + sum(ring.to < PARTED for ring in rings[:-1])
         self.groups = [
-            Ribbons(ctx, block, counts, units, soft=True, parted=parted, defines=self.store.organs)
+            Ribbons(ctx, block, counts, units, soft=True, parted=parted, defines={**self.store.organs, **edge})
             for parted, counts in ((True, segments[: self._parted_rings + 1]), (False, segments[self._parted_rings :]))
             if counts
         ]
         self.morph = Ribbons(
-            ctx, block, segments[-1:], units, soft=True, record=PAINTED, defines={**defines, "MORPH": 1},
+            ctx, block, segments[-1:], units, soft=True, record=PAINTED, defines={**defines, **edge, "MORPH": 1},
             set_uniforms=self._set_uniforms,
         )  # fmt: skip
         self._orders, self._uploads = Remembered[_Order](), Remembered[_Upload]()

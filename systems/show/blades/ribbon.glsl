@@ -15,6 +15,9 @@ PASSED vec2 tooth_side;  // teeth: side, -1 to 1; 1. Ligules: number of the ligu
 #endif
 #endif
 #ifdef SOFT
+#ifndef EDGE
+#define EDGE 0.5  // half the width of soft edges: that of a pixel
+#endif
 noperspective PASSED float aside;       // distance from the middle line, positive to the right [pixel]
 noperspective PASSED float half_width;  // of the ribbon [pixel]
 #ifdef ORGANS

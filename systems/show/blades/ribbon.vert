@@ -116,7 +116,7 @@ bool is_turned(Point point, float side) {
     return side * face * dot(cross(across, up), ahead) < 0.0;  // the triple product is negative in a mirror
 }
 
-// Clip position of a point moved to one side, -1 or 1, on the screen: the ribbon reaches half a pixel beyond its edge.
+// Clip position of a point moved to one side, -1 or 1, on the screen: the ribbon reaches EDGE pixels beyond its edge.
 vec4 widened(Point point, float t, float to) {
     vec4 middle = clip * vec4(point.place, 1.0);
 #ifdef ORGANS
@@ -142,7 +142,7 @@ vec4 widened(Point point, float t, float to) {
     vec2 normal = vec2(-run.y, run.x) / max(length(run), LEAST_SQUARE);
     float out_by = dot(wide, normal);
     half_width = abs(out_by);
-    aside = (half_width + 0.5) * to;
+    aside = (half_width + EDGE) * to;
     // Seen at an angle, the two edges are shifted against each other along the line: that shows in broad petals and leaves.
     vec2 shear = (wide - normal * out_by) * (out_by < 0.0 ? -to : to);
     middle.xy += (normal * aside + shear) / half_screen * middle.w;
