@@ -185,7 +185,7 @@ def test_x5_no_sky_shows_between_grass_on_a_crest_and_a_games_own_ground_a_littl
     above = np.roll(np.maximum.accumulate(sky < 0.3, axis=0), 2, axis=0)
     above[:3] = False
     assert (sky == 1.0).mean() > 0.1
-    assert (sky[above] > 0.3).sum() < 14, "three times as many where grass counts on ground as high as its own"
+    assert (sky[above] > 0.3).sum() < 18, "three times as many where grass counts on ground as high as its own"
     assert sky[above].sum() < 18.0
 
 

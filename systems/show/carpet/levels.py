@@ -7,6 +7,9 @@ import numpy as np
 from ....components.arrays import Bytes
 from ....engine.gl.mipmaps import levels
 
+FINEST = 0.5
+"""Typical size of a pixel that reads the finest level [texels]: smaller ones than at the other levels read it, too."""
+
 
 def seen_levels(images: Bytes, slope: float, /) -> list[Bytes]:
     """Return all mip levels of a slope's images (4, r, r, 4), finest first, as pixels average them.
@@ -17,7 +20,7 @@ def seen_levels(images: Bytes, slope: float, /) -> list[Bytes]:
     next frame: far hillsides would twinkle while one walks.
     """
     covered = math.sqrt(1.0 + slope**-2.0)
-    return [_seen(level, covered) for level in levels(images)]
+    return [_seen(level, covered * (1.0 if number else FINEST)) for number, level in enumerate(levels(images))]
 
 
 def _seen(level: Bytes, covered: float) -> Bytes:
@@ -29,7 +32,7 @@ def _seen(level: Bytes, covered: float) -> Bytes:
 
 def averaged(rows: Bytes, length: float, /) -> Bytes:
     """Return rows (r, ...), which repeat, averaged about each over a `length`, at most over all [rows]."""
-    length = min(length, float(len(rows)))
+    length = min(max(length, 1.0), float(len(rows)))
     part, whole = math.modf(0.5 * (length - 1.0))
     last = 2 * (int(whole) + 1)  # index in a window of its last row, which counts in part, as the first does
     large_enough = np.min_scalar_type(255 * (last + 1))

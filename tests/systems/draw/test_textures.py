@@ -15,7 +15,7 @@ from tallgrass.systems.land.part import density_texture, posture_texture
 from tallgrass.systems.light.lie import slow_map
 from tallgrass.systems.light.repeating import LITTER_ONE, SIDE, ground_maps, repeating_levels
 from tallgrass.systems.show.carpet.grow import carpet_of
-from tallgrass.systems.show.carpet.levels import seen_levels
+from tallgrass.systems.show.carpet.levels import FINEST, seen_levels
 from tallgrass.systems.show.carpet.textures import sending_carpet
 from tallgrass.systems.show.strips.pages import ALIGNMENT, packed
 from tallgrass.systems.show.strips.stock import stock_strips
@@ -147,8 +147,9 @@ def test_g4_carpet_layers_are_kinds_models_slopes_and_directions(ctx: moderngl.C
 
 def test_g4_mip_levels_of_the_carpet_are_means_over_what_a_pixel_covers() -> None:
     images = np.random.default_rng(0).integers(0, 256, (4, 8, 8, 4), np.uint8)
-    three_texels = 1.0 / np.sqrt(8.0)
-    for seen, level in zip(seen_levels(images, three_texels)[:2], levels(images)[:2], strict=True):
+    given = levels(images)
+    for number, covered in ((0, 3.0 / FINEST), (1, 3.0)):
+        level, seen = given[number], seen_levels(images, 1.0 / np.sqrt(covered * covered - 1.0))[number]
         for direction, axis in enumerate((0, 1, 0, 1)):  # along z, along x, and back
             whole = level[direction].astype(float)
             three = [np.roll(whole, by, axis) for by in (-1, 0, 1)]
