@@ -21,9 +21,9 @@ class Fixed:
 
         def __setattr__(self, name: str, value: object) -> None:
             """Set an attribute; raises AttributeError with a sentence for a new name."""
-            if self._is_fixed and name not in vars(self) and not hasattr(type(self), name):
+            if self._is_fixed and name not in self.__dict__ and not hasattr(type(self), name):
                 own = [each for each in dir(self) if not each.startswith("_")]
                 inner = [each for each in own if each in vars(self) and hasattr(type(vars(self)[each]), name)]
                 hint = f", did you mean '{inner[0]}.{name}'?" if inner else guess(name, own)
                 raise AttributeError(f"'{name}' of a {type(self).__name__} cannot be set, as it has none{hint}")
-            super().__setattr__(name, value)
+            object.__setattr__(self, name, value)  # calls less than super, in every frame

@@ -116,7 +116,7 @@ def test_f2_a_coarse_carpet_hides_as_much_of_the_ground_between_the_slopes_of_it
         for text in (CALM, COARSE)
     )
     camera = Camera((0.0, 0.5 - 20.0 * np.tan(pitch), 20.0), 0.0, pitch, np.radians(6.0))
-    assert room.shot(coarse, camera).mean() == pytest.approx(room.shot(whole, camera).mean(), rel=0.018)
+    assert room.shot(coarse, camera).mean() == pytest.approx(room.shot(whole, camera).mean(), rel=0.022)
 
 
 @pytest.mark.parametrize("text", [CALM, COARSE], ids=["whole", "coarse"])

@@ -38,7 +38,7 @@ struct Look {
 
 // Of the images of two slopes each patch shows one, chosen at random by their weights.
 Look look_along(vec2 heading, uint random_bits) {
-    vec2 here = fract(place.xz * patches_per_metre) - blown * patches_per_metre - 0.5;
+    vec2 here = unsheared(fract(place.xz * patches_per_metre) - blown * patches_per_metre - 0.5, heading, blown * leaning);
     float upper = float(random_bits >> UPPER_HALF);
     int low = min(int(elevation), SLOPES - 2), slope = min(int(elevation + upper * exp2(-BITS)), low + 1);
     int side = int(random_bits >> UPPER_HALF) & (HEADINGS - 1);

@@ -18,6 +18,7 @@ WITHIN PASSED ByKind met;          // by kind: weight of its image
 WITHIN PASSED ByKind riper;        // by kind: excess of heads over its image, from kinds_met
 #endif
 WITHIN PASSED vec2 blown;          // displacement of leaves [m]
+WITHIN PASSED float leaning;       // shear of images in proportion to it [1/m], from image_shear
 WITHIN PASSED vec2 stretch;        // lengthening of images along the line of sight: its parts in proportion to their slope, and taken off
 WITHIN PASSED float elevation;     // from elevation_index
 WITHIN PASSED float level;         // mip level of the images

@@ -148,6 +148,7 @@ void main() {
 #endif
     elevation = elevation_index(on_level, laid.leaf_area);
     blown = sway_of(met, laid.message) * laid.message;
+    leaning = image_shear(vec3(1.0, 0.0, laid.stands), on_level, laid.tall).x;
     met = filled_covers(met);
     set_sharpness(laid.tall, from_above);
     set_outline(laid, slope);
