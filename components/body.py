@@ -6,6 +6,8 @@ from typing import Literal, get_args
 
 import numpy as np
 
+from .immutable import immutable
+
 Model = Literal["saucer"]
 """Name of a body's model."""
 
@@ -13,6 +15,7 @@ HIGHEST = 1000.0
 """Greatest height of a body above the grass [m]."""
 
 
+@immutable
 @dataclass(frozen=True, slots=True)
 class Body:
     """A flying body at one instant: turned by `yaw`, then its nose tilted, then banked."""
@@ -32,6 +35,7 @@ class Body:
     model: Model = "saucer"
 
 
+@immutable
 @dataclass(frozen=True, slots=True)
 class Hover:
     """A body that hovers over a wind, as a saucer does over its jet."""

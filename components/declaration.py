@@ -1,11 +1,12 @@
 """The base of everything a scene file can declare."""
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema
 
 from .colour import LONG, SHORT, hex_of
+from .immutable import unset
 
 
 class Declaration(BaseModel):
@@ -14,6 +15,17 @@ class Declaration(BaseModel):
     model_config = ConfigDict(
         extra="forbid", strict=True, frozen=True, allow_inf_nan=False, use_attribute_docstrings=True
     )
+
+    if not TYPE_CHECKING:  # with it, type checkers would take any name
+
+        def __setattr__(self, name: str, value: object) -> None:
+            """Set a private attribute; raises AttributeError with a sentence for all others."""
+            try:
+                super().__setattr__(name, value)
+            except ValidationError as error:
+                if error.errors(include_url=False)[0]["type"] != "frozen_instance":
+                    raise
+                raise AttributeError(unset(self, name, type(self).model_fields)) from None
 
 
 class DeclarationError(ValueError):

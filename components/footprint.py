@@ -7,7 +7,10 @@ from numbers import Real
 from reprlib import repr as shortened
 from typing import TYPE_CHECKING, ClassVar
 
+from .immutable import immutable
 
+
+@immutable
 @dataclass(frozen=True, slots=True)
 class Footprint:
     """A disc; with a `length` a capsule; with `corners` a polygon, which may be hollow but does not cross itself.
@@ -49,6 +52,7 @@ class Footprint:
             )
 
 
+@immutable
 @dataclass(frozen=True, slots=True)
 class Road:
     """A way of one width along a line of places, round at its ends and bends; a `Pose` says where its frame lies.

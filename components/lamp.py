@@ -6,6 +6,7 @@ from reprlib import repr as shortened
 
 from .colour import hex_of, is_colour
 from .footprint import is_between
+from .immutable import immutable
 
 FARTHEST = 1000.0
 """Greatest range of a lamp [m]."""
@@ -14,6 +15,7 @@ BRIGHTEST = 1e7
 """Greatest luminous intensity of a lamp, that of a lighthouse [cd]."""
 
 
+@immutable
 @dataclass(frozen=True, slots=True)
 class Lamp:
     """A light that shines on grass and ground: the component of a game's own entity, whose `Pose` says where it is.

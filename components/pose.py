@@ -5,8 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import Floats
+from .immutable import immutable
 
 
+@immutable
 @dataclass(frozen=True, slots=True)
 class Pose:
     """A frame of reference on the ground: its own x points to the right, and its own -z ahead.

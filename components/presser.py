@@ -6,8 +6,10 @@ from reprlib import repr as shortened
 from typing import TYPE_CHECKING, ClassVar
 
 from .footprint import Footprint, is_between
+from .immutable import immutable
 
 
+@immutable
 @dataclass(frozen=True, slots=True)
 class Presser(Footprint):
     """A footprint that presses grass down: the component of a game's own entity, whose `Pose` says where it is.

@@ -8,10 +8,12 @@ from sys import float_info
 from typing import TYPE_CHECKING
 
 from .footprint import is_between
+from .immutable import immutable
 
 _LARGEST = float_info.max
 
 
+@immutable
 @dataclass(frozen=True, slots=True)
 class Shade:
     """A thing that casts a shadow on the prairie: the component of a game's own entity, in the prairie's world.

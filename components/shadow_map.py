@@ -8,11 +8,13 @@ import numpy as np
 
 from .arrays import Doubles
 from .footprint import is_between
+from .immutable import immutable
 
 FARTHEST_BIAS = 100.0
 """Greatest bias of a shadow map [m]."""
 
 
+@immutable
 @dataclass(frozen=True, slots=True, eq=False)
 class ShadowMap:
     """A game's own shadow map: a depth texture that it draws from the sun.

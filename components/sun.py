@@ -2,7 +2,10 @@
 
 from dataclasses import dataclass
 
+from .immutable import immutable
 
+
+@immutable
 @dataclass(frozen=True, slots=True)
 class Sun:
     """The light on a prairie: linear radiance, before the tone curve and after exposure."""

@@ -4,11 +4,13 @@ from dataclasses import dataclass
 from reprlib import repr as shortened
 
 from .footprint import is_between
+from .immutable import immutable
 
 LOWEST, HIGHEST = 0.5, 60.0
 """Least and greatest height of a tree [m]: none of the habits grows higher."""
 
 
+@immutable
 @dataclass(frozen=True, slots=True)
 class Tree:
     """A tree or bush: the component of an entity whose `Pose` says where it stands and how it is turned.

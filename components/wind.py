@@ -15,6 +15,7 @@ from .arrays import Floats
 from .body import Hover
 from .course import Course
 from .declaration import Declaration, DeclarationError
+from .immutable import immutable
 from .pose import HERE, Pose
 from .presser import Presser
 from .words import Plain
@@ -29,6 +30,7 @@ Mixing = Literal["priority", "weight"]
 """Rule for winds that meet at a place: the highest priority cancels the others, or they are mixed by weight."""
 
 
+@immutable
 @dataclass(frozen=True, slots=True)
 class Extent:
     """A rectangle in a wind's own frame, outside of which its mask is 0."""
@@ -46,6 +48,7 @@ class Extent:
     """Largest z [m]."""
 
 
+@immutable
 @dataclass(frozen=True, slots=True, eq=False)
 class Grass:
     """The response of the grass at some receivers to wind over time (paper, section 3.3, figure 8).
@@ -86,6 +89,7 @@ class Grass:
         return np.asarray(before + (after - before) * (at - low.astype(np.float32)), np.float32)
 
 
+@immutable
 @dataclass(frozen=True, slots=True, eq=False)
 class TwinValues:
     """Values for a wind's twin on the graphics card at one time, in addition to the wind's fields; single precision."""
@@ -266,6 +270,7 @@ def with_course(wind: WindPrimitive, course: Course, first: WindPrimitive, /) ->
     return made
 
 
+@immutable
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class WindSource:
     """The component of a wind entity; the primitive is a field, so that any plugin's type is found."""
