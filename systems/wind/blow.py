@@ -25,6 +25,9 @@ from .shape import smooth
 MARGIN = 1e-3
 """Margin around an extent within which the mask still counts, so that rounding cuts nothing off [m]."""
 
+MOST_PARTS = 1000
+"""Largest number of winds of which a wind consists: each of them takes time and memory in every frame."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Blowing:
@@ -208,6 +211,8 @@ def _parts(
         parts = quarantine.ask(source, "parts", partial(wind.parts, time=time, seed=wind_seed))
         if type(parts) is not tuple:  # the quicker check, as this runs for each wind in each frame
             quarantine.must_be(source, "parts", parts, Sequence)
+        if len(parts) > MOST_PARTS:
+            raise quarantine.leave_out(source, f"parts returned {len(parts)} winds, {MOST_PARTS} at most are due")
         for part in parts:
             if part is not wind:
                 quarantine.must_be(source, "parts", part, WindPrimitive)
