@@ -235,9 +235,13 @@ class Walk:
 
     def save_picture(self) -> None:
         """Write the picture, without overlays, as the next numbered PNG in the working folder."""
+        size = self.window.get_framebuffer_size()
+        if min(size) < 1:
+            self.tell(["a window without pixels has no picture"])
+            return
         stem = Path(self.take.scene).stem
         name = next(name for k in count(1) if not Path(name := f"tallgrass-{stem}-{k:03d}.png").exists())
-        with Offscreen(self.window.get_framebuffer_size(), self.ctx) as offscreen:
+        with Offscreen(size, self.ctx) as offscreen:
             offscreen.begin()
             governor = self.prairie.governor
             held, governor.hold = governor.hold, None

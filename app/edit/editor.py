@@ -4,6 +4,7 @@ import logging
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import count
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -218,6 +219,10 @@ class Editor:
     def close(self) -> None:
         """Cancel what is still growing."""
         self.remaking.close()
+
+    def copy(self, name: str) -> list[Path]:
+        """Write the draft as a file of this name beside the scene; return the files. Raises ValueError or OSError."""
+        return self.pen.copy(self.history.now.values, self._pictures(self.history.now), name)
 
     def _is_over(self, wind: WindPrimitive) -> bool:
         """Return whether a wind has no parts now; False for a plugin's that fails."""

@@ -16,7 +16,7 @@ from ...engine.scene import LoadedScene, bundled_scenes
 from ...engine.scene.compose import decode
 from ...engine.terrain.density import Picture
 from .rewrite import rewritten
-from .values import value_at
+from .values import value_at, with_value
 
 _BOM = b"\xef\xbb\xbf"
 
@@ -45,8 +45,7 @@ class Pen:
         before = decode(self._bytes, file=str(self.path))
         bom = _BOM if self._bytes.startswith(_BOM) else b""
         after = bom + rewritten(before, values).encode()
-        maps = {name: each for name, each in pictures.items() if self._written.get(name) is not each}
-        maps = {name: each for name, each in maps.items() if name in maps_of(values)}
+        maps = self._painted(values, pictures)
         same = after == self._bytes and self.path.exists()
         if same and not maps:
             return []
@@ -65,28 +64,55 @@ class Pen:
             if scene:
                 _write(folder / self.path.name, after)
         except OSError as error:
-            raise ValueError(f"{self._folder} cannot be written to: {error.strerror}") from error
+            raise ValueError(f"{self.folder} cannot be written to: {error.strerror}") from error
         self.path, self._bytes = folder / self.path.name, after
         return [*scene, *maps]
+
+    def copy(self, values: dict[str, Any], pictures: Mapping[str, Picture], name: str) -> list[Path]:
+        """Write the scene as a file of this name beside its own, with painted maps; return the files, the scene first.
+
+        Painted maps get names that begin with the copy's. Raises ValueError or OSError on failure.
+        """
+        painted = {
+            each: (f"{Path(name).stem}-{Path(each).name}", picture_bytes(picture, each))
+            for each, picture in self._painted(values, pictures).items()
+        }
+        for kind, grass in values.get("grass", {}).items():
+            way = "grass", kind, "place", "map"
+            if value_at(grass, way[2:]) in painted:
+                values = with_value(values, way, painted[value_at(grass, way[2:])][0])
+        after = rewritten(decode(self._bytes, file=str(self.path)), values).encode()
+        for each in self._names if self._is_bundled else ():
+            if not (self.folder / each).exists():
+                shutil.copyfile(self.path.parent / each, self.folder / each)
+        contents = {name: after, **dict(painted.values())}
+        for each, data in contents.items():
+            _write(self.folder / each, data)
+        return [self.folder / each for each in contents]
+
+    def _painted(self, values: dict[str, Any], pictures: Mapping[str, Picture]) -> dict[str, Picture]:
+        """Return those maps of a scene's values that are not written as they are painted."""
+        maps = {name: each for name, each in pictures.items() if self._written.get(name) is not each}
+        return {name: each for name, each in maps.items() if name in maps_of(values)}
 
     def new_map(self, kind: str, taken: Container[str]) -> str:
         """Return an unused file name for the map of a kind of grass."""
         stem = f"{self.path.stem}-{re.sub(r'[^A-Za-z0-9_-]+', '-', kind)}"
         names = (f"{stem}{'' if number == 1 else f'-{number}'}.png" for number in count(1))
-        return next(name for name in names if name not in taken and not (self._folder / name).exists())
+        return next(name for name in names if name not in taken and not (self.folder / name).exists())
 
     @property
     def _is_bundled(self) -> bool:
         return self.path in bundled_scenes().values()
 
     @property
-    def _folder(self) -> Path:
+    def folder(self) -> Path:
         """Folder to write into: for a bundled scene the working folder, else the scene's own."""
         return Path.cwd() if self._is_bundled else self.path.parent
 
     def _copied(self) -> Path:
         """Return the folder to write into, after copying a bundled scene's files there."""
-        folder = self._folder
+        folder = self.folder
         if not self._is_bundled:
             return folder
         if (folder / self.path.name).exists():

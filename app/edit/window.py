@@ -1,5 +1,6 @@
 """A walk in which the scene is edited: the panel, and the mouse's actions on the ground."""
 
+import logging
 from dataclasses import replace
 
 import pyglet
@@ -22,6 +23,9 @@ from .gui import Gui
 from .history import Draft
 from .panel import Panel
 from .pick import Sight, nearest
+from .rescue import Rescue, rescued
+
+log = logging.getLogger("tallgrass")
 
 NEAR = 14.0
 """Largest distance between pointer and grip at which the grip is taken [pixels]."""
@@ -51,6 +55,21 @@ class EditWalk(Walk):
         self._dt = 0.0
         self._warned: Draft | None = None
         """The unsaved draft of the last warning."""
+        self._rescue = Rescue()
+        self._gave_up = False
+        """Whether the user has left without saving, and was warned."""
+        pen = self.editor.pen
+        if left := rescued(pen.path, pen.folder):
+            self.tell([f"{left[-1]} has what was not saved when the editor last ended"])
+
+    def run(self, seconds: float | None = None) -> None:
+        """Walk until the window closes; what is not saved by then stays in a copy, unless the user gave it up."""
+        try:
+            super().run(seconds)
+        finally:
+            kept = None if self._gave_up else self._rescue.keep(self.editor)
+            if kept is not None:
+                log.warning("what was not saved is in %s", kept)
 
     def step(self, dt: float) -> None:
         """Move on by `dt` [s], and take over what has grown since the last frame."""
@@ -58,6 +77,7 @@ class EditWalk(Walk):
         self._dt = dt
         terrain = self.prairie.site.ground.terrain
         self.editor.step()
+        self._rescue.step(self.editor, dt)
         if self.prairie.site.ground.terrain is not terrain:
             self.settle()
         self.editor.spot = looked_at(self.camera, self.ground, self.prairie.site.ground.terrain)
@@ -197,7 +217,10 @@ class EditWalk(Walk):
         history = self.editor.history
         may = history.is_saved or self._warned is history.now
         self._warned = history.now
-        if not may:
+        if may:
+            self._rescue.drop()
+            self._gave_up = True
+        else:
             self.tell([UNSAVED])
         return may
 

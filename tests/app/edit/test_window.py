@@ -148,7 +148,9 @@ def test_a_window_without_pixels_is_walked_in_and_edited_all_the_same(
     monkeypatch.setattr(walk.window, "get_size", lambda: (0, 0))
     monkeypatch.setattr(walk.window, "get_framebuffer_size", lambda: (0, 0))
     drag(walk, (0.0, 0.0), (1.0, 1.0))
+    strike(walk, "F12")
     monkeypatch.undo()
+    assert not [*Path().glob("*.png")]
     frames(walk, 2)
     assert walk.panel.buttons["save"][0] > 0
 
@@ -204,6 +206,46 @@ def test_what_is_unsaved_is_left_only_when_asked_twice_and_warned_of_again_after
     strike(walk, "ESCAPE")
     assert not walk.closed
     strike(walk, "ESCAPE")
+    assert walk.closed
+
+
+def test_what_is_unsaved_stays_in_a_copy_when_the_editor_ends_abnormally_and_the_next_walk_names_it(
+    walk: "EditWalk", monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    from tallgrass.app.edit.brush import Brush
+    from tallgrass.app.edit.rescue import rescued
+
+    def ends(interval: float | None) -> None:
+        raise KeyboardInterrupt
+
+    walk.editor.set(("light", "elevation"), 50.0)
+    walk.editor.paint([(0.0, 0.0)], Brush("green", radius=4.0, pressure=1.0, density=0.0))
+    monkeypatch.setattr("pyglet.app.run", ends)
+    with pytest.raises(KeyboardInterrupt):
+        walk.run()
+    assert rescued(Path("lawn.yaml"), Path()) == ["lawn-rescued.yaml"]
+    assert "what was not saved is in" in caplog.text
+    again = read_scene("lawn-rescued.yaml")
+    assert again.scene.light.elevation == 50.0
+    assert again.scene.grass["green"].place is not None
+    assert Path("lawn.yaml").read_text() == SCENE
+
+
+def test_a_copy_of_what_is_unsaved_goes_once_it_is_saved_or_given_up(walk: "EditWalk") -> None:
+    from tallgrass.app.edit.rescue import INTERVAL
+
+    copy = Path("lawn-rescued.yaml")
+    for give_up in (False, True):
+        walk.editor.set(("light", "elevation"), 50.0 + give_up)
+        frames(walk, 1, dt=INTERVAL)
+        assert "elevation: 5" in copy.read_text()
+        if give_up:
+            strike(walk, "ESCAPE")
+            strike(walk, "ESCAPE")
+        else:
+            walk.save()
+            frames(walk, 1, dt=INTERVAL)
+        assert not copy.exists()
     assert walk.closed
 
 
