@@ -6,15 +6,16 @@ from typing import Any
 
 import numpy as np
 
-from ..components.arrays import Floats, Ints, Mask, Place
+from ..components.arrays import Floats, Indices, Ints, Mask, Place
 from ..components.wind import WindPrimitive, WindSource
 from ..engine.declared.scene import Reading
-from ..engine.terrain.change import loaded_heights, parts_of
+from ..engine.terrain.blocks import SQUARE
+from ..engine.terrain.change import lies_at, loaded_heights, parts_of
 from ..engine.terrain.plots import Plots
 from ..engine.terrain.record import Terrain
 from ..engine.terrain.rectangle import Rectangle
 from .examine import ground_of
-from .fitting import alike_at, lies_alike, scene_of
+from .fitting import SAME, alike_at, lies_alike, scene_of
 from .pressers import Pressers
 from .saved import SavedWind, State
 from .site import Site
@@ -23,6 +24,8 @@ from .winds import matched
 
 Refitted = tuple[State, list[str]]
 """A state without what has no place in a scene, and what that is, in words."""
+
+_DUG = "the ground that was dug"
 
 NAMED = 3
 """Most things of a sort that a sentence names; of more it tells their number."""
@@ -84,20 +87,46 @@ def _dug_onto(state: State, site: Site, lie: Floats) -> Refitted:
     """Leave out what is dug where the ground lies otherwise now; there it is as the scene has it."""
     if not len(state.ground):
         return state, []
+    if site.ground.terrain.blocks is not None:
+        return _dug_onto_stream(state, site)
     terrain, alike, kept = site.ground.terrain, alike_at(state, site, lie), list[Mask]()
     if alike is not None:
         ground_of(state, terrain)  # raises where its squares are none of the terrain
         parts = parts_of(terrain, state.ground)
         kept = [alike[part.slices] for part in parts]
     if not any(each.any() for each in kept):
-        empty = {name: getattr(state, name)[:0] for name in ("ground", "ground_heights", "ground_holes")}
-        return _changed(state, **empty), ["the ground that was dug"]
+        return _dug_at(state, np.zeros(0, np.intp)), [_DUG]
     stays, loaded = np.concatenate([each.ravel() for each in kept]), loaded_heights(terrain, state.ground)
     heights, holes = (
         np.where(stays, then, now) for then, now in zip((state.ground_heights, state.ground_holes), loaded, strict=True)
     )
     state = _changed(state, ground_heights=heights, ground_holes=holes)
-    return state, [] if stays.all() else [f"the ground that was dug {_elsewhere(terrain, parts, kept)}"]
+    return state, [] if stays.all() else [f"{_DUG} {_elsewhere(terrain, parts, kept)}"]
+
+
+def _dug_onto_stream(state: State, site: Site) -> Refitted:
+    """Leave out the squares that are dug into a ground that streams where that lies otherwise now."""
+    terrain, where, then = site.ground.terrain, state.ground, state.ground_lies
+    streamed = state.scene.size == scene_of(site).size and len(then) == len(where)
+    if not streamed or state.scene.cell != terrain.cell:
+        return _dug_at(state, np.zeros(0, np.intp)), [_DUG]
+    ground_of(state, terrain)  # raises where its squares are none of the terrain
+    alike = np.isclose(then, lies_at(terrain, where.tolist()), rtol=0.0, atol=SAME, equal_nan=True).all(axis=1)
+    if alike.all():
+        return state, []
+    side, gone = SQUARE * terrain.cell, where[~alike, ::-1]
+    box = _between(side * gone.min(axis=0), side * (gone.max(axis=0) + 1))
+    return _dug_at(state, np.flatnonzero(alike)), [f"{_DUG} {box}"]
+
+
+def _dug_at(state: State, rows: Indices) -> State:
+    """Return a state with these of its dug squares, in turn, of a ground that streams; of others with none."""
+    heights, holes = (
+        each.reshape(len(state.ground), -1)[rows].ravel() if len(rows) else each[:0]
+        for each in (state.ground_heights, state.ground_holes)
+    )
+    lies = state.ground_lies[rows] if len(rows) else state.ground_lies[:0]
+    return _changed(state, ground=state.ground[rows], ground_heights=heights, ground_holes=holes, ground_lies=lies)
 
 
 def _elsewhere(terrain: Terrain, parts: Sequence[Rectangle], kept: Sequence[Mask]) -> str:
@@ -105,7 +134,12 @@ def _elsewhere(terrain: Terrain, parts: Sequence[Rectangle], kept: Sequence[Mask
     gone = [np.add(np.argwhere(~each), (part.row, part.column)) for part, each in zip(parts, kept, strict=True)]
     every = np.concatenate(gone)[:, ::-1]
     (x0, z0), (x1, z1) = (terrain.origin + terrain.cell * each for each in (every.min(axis=0), every.max(axis=0)))
-    return f"between ({x0:.6g}, {z0:.6g}) and ({x1:.6g}, {z1:.6g}), where it lies otherwise now"
+    return _between((x0, z0), (x1, z1))
+
+
+def _between(low: Sequence[float] | Floats, high: Sequence[float] | Floats) -> str:
+    """Return in words where a ground lies otherwise: within a box from one place (x, z) to another."""
+    return f"between ({low[0]:.6g}, {low[1]:.6g}) and ({high[0]:.6g}, {high[1]:.6g}), where it lies otherwise now"
 
 
 def _within(where: Ints, plots: Plots) -> Ints:

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 from zlib import compress, decompressobj
 
 import numpy as np
-from pydantic import ValidationError
+from pydantic import Field, ValidationError
 
 from ..components.arrays import Bytes, Floats, Ints, Mask, Place
 from ..components.course import Course
@@ -18,6 +18,7 @@ from ..components.shade import Shade
 from ..components.tree import Tree
 from ..engine.declared.light import Light
 from ..engine.stored import AS_FIELDS, Stored, Time, refuse
+from ..engine.terrain.change import LIE
 from ..engine.terrain.plots import CELLS
 from ..engine.zipped import zipped
 from .light.shining import Way
@@ -145,6 +146,11 @@ class State(Declaration):
     ground_heights: Annotated[Floats, Stored(np.float32, None)]
     ground_holes: Annotated[Mask, Stored(np.bool_, None)]
     """Changed squares of the ground: what `changed_squares` returned."""
+
+    ground_lies: Annotated[Floats, Stored(np.float32, None, LIE)] = Field(
+        default_factory=lambda: np.zeros((0, LIE), np.float32)
+    )
+    """What `changed_lies` returned; nothing in states of before there was that."""
 
 
 def packed(state: State, /) -> bytes:

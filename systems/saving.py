@@ -17,7 +17,7 @@ from ..engine.handed import is_somewhere, must_be_a, must_be_flags, to_microseco
 from ..engine.plugins import wind_kinds
 from ..engine.scene import LoadedScene
 from ..engine.stored import refuse, unfit
-from ..engine.terrain.change import Squares, changed_squares, restore_squares
+from ..engine.terrain.change import Squares, changed_lies, changed_squares, restore_squares
 from ..engine.world import World
 from .brought import Brought
 from .examine import ground_of, mown_of, must_be_trodden, sown_of
@@ -93,6 +93,7 @@ class Saving:
                 ground=ground,
                 ground_heights=ground_heights,
                 ground_holes=ground_holes,
+                ground_lies=changed_lies(site.ground.terrain),
             )
         )
 
@@ -122,7 +123,7 @@ class Saving:
             felled,
         )
         self.winds.sources()  # raises where another esper world is current
-        restore_squares(site.ground.terrain, made.ground)
+        restore_squares(site.ground.terrain, made.ground, state.ground_lies)
         self.mown.plots.resume(*made.mown)
         site.ground.density.sown.resume(*made.sown)
         last, became = self._became or (None, {})

@@ -23,6 +23,9 @@ REACH = 16384.0
 PARTS = 8
 """Ratio of a window's width to the steps in which it moves."""
 
+APART = 5
+"""Distance between the samples of a changed square that tell where it lay [samples]: 4 by 4 of them, edges included."""
+
 SPARE = 512
 """Number of cached blocks beyond those of a window."""
 
@@ -51,6 +54,9 @@ class Blocks:
 
     changed: dict[Numbers, tuple[Floats, Mask]] = field(default_factory=dict)
     """Heights and holes of each square that a game has changed."""
+
+    lies: dict[Numbers, Floats] = field(default_factory=dict)
+    """Samples of changed squares by the function, `lie` of each: far off it need not be asked again to save them."""
 
     known: dict[Numbers, Piece] = field(default_factory=dict)
     """Cache of blocks as the function returned them."""
@@ -131,6 +137,13 @@ class Blocks:
         heights, holes = self.block(square[0] // per_block, square[1] // per_block)
         inner = tuple(slice(SQUARE * (at % per_block), SQUARE * (at % per_block + 1)) for at in square)
         return heights[inner], np.zeros((SQUARE, SQUARE), np.bool_) if holes is None else holes[inner]
+
+    def lie(self, square: Numbers, /) -> Floats:
+        """Return samples of a square's heights by the function [m], NaN in holes, shape (16,)."""
+        if square not in self.lies:
+            heights, holes = self.original_square(square)
+            self.lies[square] = np.where(holes, np.float32(np.nan), heights)[::APART, ::APART].ravel()
+        return self.lies[square]
 
     def put(self, square: Numbers, now: tuple[Floats, Mask] | None, /) -> None:
         """Set a square's heights and holes; None restores those of the function."""

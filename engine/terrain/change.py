@@ -1,6 +1,6 @@
 """Changing a terrain's heights at run time, and saving and restoring the changes."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from reprlib import repr as shortened
 
 import numpy as np
@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from ...components.arrays import Floats, Ints, Mask
 from ..handed import as_floats
-from .blocks import SQUARE, Blocks
+from .blocks import APART, SQUARE, Blocks
 from .load import HIGHEST
 from .record import Terrain
 from .rectangle import Rectangle
@@ -16,6 +16,9 @@ from .stream import paste
 
 _ON = 0.01
 """Greatest distance of a corner from its sample [cells]: coordinates are rounded."""
+
+LIE = len(range(0, SQUARE, APART)) ** 2
+"""Number of samples that tell where a changed square of a ground that streams lay."""
 
 Squares = tuple[Ints, Floats, Mask]
 """Row and column of each square of samples, shape (n, 2); heights [m] and holes of all squares in turn, each (m,)."""
@@ -41,6 +44,7 @@ def _put(blocks: Blocks, terrain: Terrain, part: Rectangle, new: Floats) -> None
     """Replace heights of a ground that streams; samples of `part` are counted from the origin."""
     for square in _squares_of(part):
         (top, left), (heights, holes) = (SQUARE * at for at in square), blocks.square(square)
+        blocks.lie(square)
         within = part.moved(-top, -left).within(SQUARE, SQUARE)
         assert within is not None
         replacing = new[within.moved(top - part.row, left - part.column).slices]
@@ -142,6 +146,22 @@ def changed_squares(terrain: Terrain, /) -> Squares:
     return where, np.concatenate([np.zeros(0, np.float32), *heights]), np.concatenate([np.zeros(0, np.bool_), *holes])
 
 
+def changed_lies(terrain: Terrain, /) -> Floats:
+    """Return samples of the changed squares of a ground that streams, as the function has it, (n, 16); of others none.
+
+    They are in the order of `changed_squares`.
+    """
+    squares = [] if terrain.blocks is None else sorted(terrain.blocks.changed)
+    return lies_at(terrain, squares)
+
+
+def lies_at(terrain: Terrain, squares: Iterable[Sequence[int]], /) -> Floats:
+    """Return samples of squares of a ground that streams, as its function has it [m], (n, 16)."""
+    blocks = terrain.blocks
+    found = [] if blocks is None else [blocks.lie((row, column)) for row, column in squares]
+    return np.array(found, np.float32).reshape(-1, LIE)
+
+
 def parts_of(terrain: Terrain, where: Ints, /) -> list[Rectangle]:
     """Return the parts of a terrain that does not stream which squares (n, 2) cover, by row and column."""
     return [_within(terrain, (row, column)) for row, column in where.tolist()]
@@ -184,12 +204,14 @@ def _restore_blocks(blocks: Blocks, terrain: Terrain, squares: Squares) -> None:
         paste(blocks, terrain, square)
 
 
-def restore_squares(terrain: Terrain, squares: Squares, /) -> None:
-    """Set these squares, and all other squares as they were loaded."""
+def restore_squares(terrain: Terrain, squares: Squares, lies: Floats | None = None, /) -> None:
+    """Set these squares, and all other squares as they were loaded; `lies` are what `changed_lies` returned."""
     where, heights, holes = squares
     kept, at = {(row, column) for row, column in where.tolist()}, 0
     if terrain.blocks is not None:
         _restore_blocks(terrain.blocks, terrain, squares)
+        if lies is not None and len(lies) == len(where):
+            terrain.blocks.lies.update(zip(map(tuple, where.tolist()), lies, strict=True))
         return
     for square in [each for each in terrain.changes.loaded if each not in kept]:
         terrain.put(_within(terrain, square), *terrain.changes.loaded.pop(square))

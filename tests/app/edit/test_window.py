@@ -215,7 +215,7 @@ def test_what_is_unsaved_stays_in_a_copy_when_the_editor_ends_abnormally_and_the
     from tallgrass.app.edit.brush import Brush
     from tallgrass.app.edit.rescue import rescued
 
-    def ends(interval: float | None) -> None:
+    def ends(**_: object) -> None:
         raise KeyboardInterrupt
 
     walk.editor.set(("light", "elevation"), 50.0)

@@ -292,6 +292,47 @@ def test_what_was_dug_stays_where_the_ground_is_as_it_was_and_the_log_says_where
     ]
 
 
+def streaming(value: float, *, asked: list[float] | None = None) -> dict[str, Any]:
+    """Return a ground that streams, raised to the left of 100 m [m]; `asked` gets where its function is asked (x)."""
+
+    def heights(x: np.ndarray, z: np.ndarray) -> np.ndarray:
+        if asked is not None:
+            asked.append(float(x.min()))
+        return np.where(x < 100.0, value, 0.0) + 0.0 * z
+
+    return {"terrain": {"heights": heights, "window": 512.0, "cell": 1.0}, "pressers": [], "trees": {}}
+
+
+def test_what_was_dug_into_ground_that_streams_stays_where_that_is_as_it_was(
+    world: World, caplog: pytest.LogCaptureFixture
+) -> None:
+    del world
+    made = Prairie.load(SCENE | streaming(0.0))
+    made.set_heights((9000.0, 40.0), [[-1.0, -1.0], [-1.0, -1.0]])
+    made.set_heights((-25.0, 0.0), [[-1.0, -1.0]])
+    state = made.state()
+    made.release()
+    asked = list[float]()
+    again = Prairie.load(SCENE | streaming(0.0, asked=asked))
+    asked.clear()
+    again.restore(state)
+    again.state()  # nothing far off is asked for, in order to save it
+    assert max(asked, default=0.0) < 8000.0
+    again.release()
+    other = Prairie.load(SCENE | streaming(2.0))
+    other.restore(state, partly=True)
+    np.testing.assert_allclose(other.height_at([(9000.5, 40.5), (9003.0, 40.0), (-25.0, 0.0)]), [-1.0, 0.0, 2.0])
+    where = "between (-32, 0) and (-16, 16), where it lies otherwise now"
+    assert caplog.messages == [
+        f"a state was restored without what has no place in this scene: the ground that was dug {where}"
+    ]
+    saved = other.state()
+    other.set_heights((9000.0, 40.0), [[5.0]])
+    other.restore(saved)
+    assert other.height_at([(9000.5, 40.5)])[0] == -1.0
+    other.release()
+
+
 @pytest.mark.parametrize("other", [{"wind": [{"kind": "breeze"}]}], indirect=True)
 def test_a_wind_that_no_package_brings_any_more_is_left_out_alone(
     state: bytes, other: Prairie, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
