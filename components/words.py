@@ -56,6 +56,8 @@ else:
 
         def __call__(cls, *args: Any, **values: Any) -> Any:
             """Return an object of the class."""
+            if args and cls.__init__ is BaseModel.__init__:
+                raise TypeError(f"a {cls.__name__} takes its values by name, such as {[*cls.model_fields][-1]}=...")
             try:
                 return super().__call__(*args, **values)
             except ValidationError as error:
