@@ -303,18 +303,21 @@ def test_what_is_no_farther_towards_the_sun_than_a_maps_bias_casts_no_shadow(
 def test_n12_blades_on_their_way_to_strips_lie_in_shadow_as_those_that_stand(
     ctx: moderngl.Context, stage: Stage, night: ShadowMap
 ) -> None:
-    prairie, aim, darker = Prairie.load(SCENE, ctx=ctx, live=False), Camera((0.0, 2.0, 6.0), 0.0, -0.5, 0.6), []
+    prairie, aim = Prairie.load(SCENE, ctx=ctx, live=False), Camera((0.0, 2.0, 6.0), 0.0, -0.5, 0.6)
     stage.shot(prairie, aim)
-    outlook = prairie.viewers["main"]
+    outlook, darker = prairie.viewers["main"], []
     for hold in (None, "strips"):
         for entity in filter(None, outlook.patches.entity[outlook.patches.shown].tolist()):
             esper.component_for_entity(entity, Lod).hold = hold
         stage.shot(prairie, aim)
         prairie.advance(0.6)
-        lit = stage.shot(prairie, aim)
+        lit = stage.shot(prairie, aim).mean()
         prairie.shadows([night])
-        darker.append(stage.shot(prairie, aim).mean() / lit.mean())
+        darker.append([stage.shot(prairie, aim).mean() / lit])
         prairie.shadows([])
+        prairie.shine(clouds=1.0)
+        darker[-1].append(stage.shot(prairie, aim).mean() / lit)
+        prairie.shine(clouds=0.0)
     moved = outlook.appearance.morph[outlook.patches.shown & (outlook.appearance.morph > 0.0)]
     assert len(moved) > 4
     assert 0.3 < moved.min() <= moved.max() < 1.0

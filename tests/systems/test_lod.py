@@ -121,9 +121,9 @@ def test_x1_going_away_changes_one_patch_later_than_coming_back() -> None:
 def test_x1_a_patch_that_was_not_visible_takes_its_representation_at_once(*, seen_again: bool) -> None:
     walk = Walk(0)
     walk.go(0, visible=False)
-    walk.go(8, visible=seen_again)
+    walk.go(farthest(REACH)[0], visible=seen_again)  # pools still have room here, so it could change slowly
     assert walk.settled()
-    assert walk.shown.tolist() == [0, 0, 1]
+    assert walk.shown.tolist() == [0, 1, 0]
 
 
 def test_x1_a_change_that_turns_back_in_its_middle_goes_back_from_where_it_is() -> None:

@@ -88,6 +88,12 @@ def test_x5_strips_grow_before_the_carpet_sinks(part: float, kept: float) -> Non
         assert found["carpet"] > 0.0 or found["growth"] == 1.0
 
 
+def test_x5_strips_grow_from_the_ground_to_their_full_height() -> None:
+    first, *others, last = (shown(0.0, part, 1 - part)["growth"] for part in (0.001, 0.2, 0.4, 1.0))
+    assert first < 0.01
+    assert first < others[0] < others[1] < last == 1.0
+
+
 @given(parts)
 def test_x5_strips_that_grow_never_fade(part: float) -> None:
     assert shown(0.0, part, 1 - part)["strips"] == (1.0 if part > 0.0 else 0.0)
