@@ -1,6 +1,6 @@
 """A rival to measure against: the same scene, drawn by common techniques, without this engine's."""
 
-from math import ceil, cos, radians, sin
+from math import cos, radians, sin
 
 import moderngl
 import numpy as np
@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 
 from ...components.arrays import Floats
 from ...engine.camera import View
-from ...engine.gl.stream import release_all
-from ...engine.gl.texture import by_texel
+from ...engine.gl.stream import Records, release_all
 from ...engine.terrain.sample import height_at
 from ...systems.features import UNITS
 from ...systems.frame.block import joined
@@ -34,6 +33,8 @@ CHUNK = 32
 WIDTH = 2048
 """Width of the data textures [texels]."""
 
+TEXEL = np.dtype([("texel", "4f4")])
+
 
 class ByHand:
     """Grass on tiles culled to the frustum and thinned by distance: three levels of segments, an instanced draw each.
@@ -47,8 +48,8 @@ class ByHand:
         (stock,) = (each.stock for each in site.representations if isinstance(each, BladeRepresentation))
         order = np.argsort(stock.rank, axis=1, kind="stable")
         self._rank: Floats = np.take_along_axis(stock.rank, order, axis=1).min(axis=0)
-        self._blades = _packed(self._ctx, _blade_texels(stock, order))
-        self._chunks = _packed(self._ctx, np.zeros((1, 4), np.float32))
+        self._blades, self._chunks = (Records(self._ctx, TEXEL, WIDTH) for _ in range(2))
+        self._blades.write(_blade_texels(stock, order))
         self._lay_tiles()
         segments = (max(site.finest, 3), 3, 1)
         self._programs = [self._program(each) for each in segments]
@@ -101,15 +102,15 @@ class ByHand:
         texels[:, 0, 3] = (np.arange(len(texels)) - np.repeat(start, chunks)) * CHUNK
         ends = np.append(start, len(texels))[np.searchsorted(away, [NEAR, MIDDLE, np.inf])]
         self._instances = np.diff(ends, prepend=0).tolist()
-        self._chunks = _packed(self._ctx, texels.reshape(-1, 4), self._chunks)
+        self._chunks.write(texels.view(TEXEL).reshape(-1))
 
     def draw(self, view: View, *, time: float) -> None:
         """Draw the frame of an instant [s] into the bound framebuffer, on the carpet that was laid last."""
         self.cull(view)
         self._painter.draw(view, blades=[])
         self._ctx.enable_only(moderngl.DEPTH_TEST)
-        self._blades.use(0)
-        self._chunks.use(1)
+        self._blades.texture.use(0)
+        self._chunks.texture.use(1)
         first = 0
         for level, count in enumerate(self._instances):
             program = self._programs[level]
@@ -124,8 +125,8 @@ class ByHand:
         release_all(*self._arrays, *self._programs, self._blades, self._chunks)
 
 
-def _blade_texels(stock: BladeStock, order: NDArray[np.intp]) -> Floats:
-    """Return the texels of all tiles' blades, shape (n, 4), in the `order` in which thinning keeps them longest."""
+def _blade_texels(stock: BladeStock, order: NDArray[np.intp]) -> NDArray[np.void]:
+    """Return the texels of all tiles' blades, shape (n,), in the `order` in which thinning keeps them longest."""
     turns = np.repeat(order, 4, axis=0)
     records = np.take_along_axis(stock.records, turns, axis=1)
     texels = np.zeros((*records.shape, 3, 4), np.float32)
@@ -134,16 +135,4 @@ def _blade_texels(stock: BladeStock, order: NDArray[np.intp]) -> Floats:
     texels[..., 1, :2], texels[..., 1, 2:] = records["rest"], records["facing"]
     texels[..., 2, 0] = records["kind"]
     texels[..., 2, 1] = np.take_along_axis(np.repeat(stock.rank, 4, axis=0), turns, axis=1)
-    return texels.reshape(-1, 4)
-
-
-def _packed(ctx: moderngl.Context, texels: Floats, texture: moderngl.Texture | None = None) -> moderngl.Texture:
-    """Write texels (n, 4) row by row into `texture`, or into a larger one that replaces it; return the texture."""
-    rows = max(1, ceil(len(texels) / WIDTH))
-    if texture is None or texture.height < rows:
-        release_all(texture)
-        texture = by_texel(ctx.texture((WIDTH, rows if texture is None else rows * 3 // 2 + 1), 4, dtype="f4"))
-    padded = np.zeros((rows * WIDTH, 4), np.float32)
-    padded[: len(texels)] = texels
-    texture.write(padded, viewport=(0, 0, WIDTH, rows))
-    return texture
+    return texels.view(TEXEL).reshape(-1)

@@ -13,6 +13,7 @@ from ...components.arrays import Doubles
 from ...components.shadow_map import ShadowMap, texture_number
 from ...engine.gl.functions import functions_of
 from ...engine.gl.guest import borrow, guest_clip
+from ...engine.gl.stream import release_all
 from ...engine.gl.texture import is_released
 from ...engine.gl.units import BORROWED
 from ..around.outlook import Outlook
@@ -106,9 +107,7 @@ class ShadowPart(Part):
 
     def release(self) -> None:
         """Release samplers and the stand-in texture."""
-        for each in self._samplers:
-            each.release()
-        self._none.release()
+        release_all(*self._samplers, self._none)
 
 
 def is_reversed_depth(matrix: Doubles, sun: Doubles, /) -> bool:

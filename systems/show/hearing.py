@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Mapping
 import moderngl
 
 from ...engine.gl.shaders import set_uniform
+from ...engine.gl.stream import release_all
 from .representation import Canvas
 
 VERTEX = "engine/gl/fill.vert"
@@ -59,6 +60,5 @@ class Hearing:
 
     def release(self) -> None:
         """Release the vertex array; the winds own its program."""
-        if self._array is not None:
-            self._array.release()
-            self._array = None
+        release_all(self._array)
+        self._array = None

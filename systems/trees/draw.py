@@ -37,6 +37,19 @@ EVERY_LEAF = -2.0, -1.0
 class TreePart(Part):
     """Draws trees; a scene without kinds of trees costs nothing."""
 
+    leaves_from: float | None = None
+    """Height of their own pictures from which all trees are drawn leaf by leaf, for a reference, and lower ones as
+    pictures [pixels]; None lets the size of leaves decide."""
+
+    detail_eyes: Sequence[Point] = ()
+    """Eyes that `leaves_from` is measured from: the nearest counts [m]. Without any, the viewer's does."""
+
+    held = False
+    """Whether level of detail stays as for the last eye where this was False."""
+
+    hidden = False
+    """Whether trees are left out, for a picture of what is behind them; their shade stays."""
+
     def __init__(
         self, ctx: moderngl.Context, block: FrameBlock, units: Mapping[str, int], standing: Callable[[], Standing],
         shading: Callable[[], Standing], *, live: bool,
@@ -58,28 +71,19 @@ class TreePart(Part):
         self._choices: dict[str, tuple[Standing, Choice]] = {}
         """The trees of a frame to choose from, by viewer."""
         self._batches: Sequence[Batch] = []
-        """Batches that are drawn."""
+        """Batches of trees that are drawn."""
         self._filled: Sequence[Segment] = []
-        """Segments of these."""
+        """Segments of the vertex buffers that hold them, in the same order."""
         self._shown: Shown | None = None
-        """What these were chosen as."""
+        """The choice that they come from."""
         self._woods = 0
-        """Its number of changes of wood that has been chosen for."""
+        """Its count `woods` when wood was last chosen."""
         self._calls: Calls | None = None
         self._soft_left: list[DrawCall] = []
         """Draw calls of soft edges that this frame has still to make."""
         self._segments: Segments | None = None
         self._air: WindTextures | None = None
         self._wind: MeanWind | None = None
-        self.leaves_from: float | None = None
-        """Height of their own pictures from which all trees are drawn leaf by leaf, for a reference, and lower ones as
-        pictures [pixels]; None lets the size of leaves decide."""
-        self.detail_eyes: Sequence[Point] = ()
-        """Eyes that `leaves_from` is measured from: the nearest counts [m]. Without any, the viewer's does."""
-        self.held = False
-        """Whether level of detail stays as for the last eye where this was False."""
-        self.hidden = False
-        """Whether trees are left out, for a picture of what is behind them; their shade stays."""
         self._detail_eye: Doubles = np.zeros(3)
         """Eye that level of detail was chosen for [m]."""
 
@@ -90,9 +94,8 @@ class TreePart(Part):
         declared = tuple(scene.trees.values()), scene.seed
         if declared == self._declared:
             return
-        release_all(*self._kinds)
+        release_all(*self._kinds, self._segments)
         self._declared = declared
-        release_all(self._segments)
         self._segments, self._kinds = None, []
         if scene.trees:
             self._segments = segments = Segments(self._ctx)
@@ -120,9 +123,8 @@ class TreePart(Part):
 
     def _forget(self) -> None:
         self._inputs, self._batches, self._shown, self._calls = None, [], None, None
-        if self._programs is not None:
-            self._programs.release()
-            self._programs = None
+        release_all(self._programs)
+        self._programs = None
         if self._shade is not None:
             self._shade.lose()
 

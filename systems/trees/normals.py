@@ -21,16 +21,16 @@ TREE_NORMALS = SIDES * NORMALS
 """Number of clusters of a tree."""
 
 UPWARD = 1e-6
-"""What is added to the direction out of a crown, so that there is one in its middle, too: up."""
+"""Upward part added to the direction out of a crown: in the very middle, where there is none, it decides."""
 
 LEAST_COVER = 128
-"""Coverage from which on a texel's normal counts, of 255: fainter ones have too few bits of it."""
+"""Least coverage, of 255, of a texel whose normal counts: fainter texels store it in too few bits."""
 
 LEAST_FACING = 0.2
 """Least facing of a leaf in its area's estimate: one texel edge-on must not count for all."""
 
 LEAST_AREA = 1e-3
-"""Part of the leaf area added to that in a picture, as that is a divisor."""
+"""Part of the leaf area added to the area seen in a picture, by which normals are divided."""
 
 GLSL = {"NORMALS": NORMALS, "TREE_NORMALS": TREE_NORMALS}
 
@@ -39,7 +39,7 @@ Normals = list[tuple[float, float, float, float]]
 """Mean normals, and the share of the leaf area that each stands for."""
 
 Depths = list[tuple[float, float, float, float]]
-"""Mean optical depths outwards of the leaves of each, as `crown.shading` has them."""
+"""Mean optical depths outwards of the leaves of each cluster, as `crown.shading` returns them."""
 
 CARD_TURNS = 4
 """Angles around a twig of needles that its card is sampled at, as it turns to the eye."""

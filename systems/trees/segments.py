@@ -10,8 +10,8 @@ from ...engine.gl.stream import Stream, release_all
 from .standing import INSTANCE, STOOD, WORDS
 
 SPARE_PART, SPARE_TREES = 8, 4
-"""A segment has room for one part in `SPARE_PART` more trees than it needs, and for `SPARE_TREES` more: it seldom
-moves."""
+"""Spare room of a segment, so that it seldom moves: a tree for each `SPARE_PART` that it holds, and `SPARE_TREES`
+more."""
 
 
 class Segment:
@@ -22,7 +22,7 @@ class Segment:
         self._buffers, self._arrays = buffers, list[moderngl.VertexArray]()
 
     def bindings(self, program: moderngl.Program) -> list[tuple[moderngl.Buffer | str, ...]]:
-        """Return the buffers as content of a vertex array, which `lead` has to know then."""
+        """Return the buffers as content of a vertex array; hand that array to `lead`."""
         return [each.binding(program) for each in self._buffers]
 
     def lead(self, array: moderngl.VertexArray) -> None:

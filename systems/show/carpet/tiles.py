@@ -68,13 +68,10 @@ def tiles_around(
     of the finest tiles that no rim asks for comes as four quarters of half the spacing and the same take-over distance.
     """
     extra_levels = 0 if rims is None else max(int(np.ceil(np.log2(spacing / terrain.cell))), 0)
-    side = spacing * GRID
     edge, size = np.asarray(terrain.origin) - terrain.beyond, np.asarray(terrain.size) + 2.0 * terrain.beyond
-    levels = max(0, int(np.ceil(np.log2(max(size) / side))))
-    side *= 2.0**levels
-    low = np.floor(edge / side) * side
-    counts = np.ceil((edge + size - low) / side).astype(int)
-    corners = low + side * np.stack(np.meshgrid(*map(np.arange, counts)), -1).reshape(-1, 2)
+    levels = max(0, int(np.ceil(np.log2(max(size) / (spacing * GRID)))))
+    side = spacing * GRID * 2.0**levels
+    corners = _covering(edge, size, side)
     done: list[Tiles] = []
     for level in range(levels, -1 - extra_levels, -1):
         corners = corners[((corners < edge + size) & (corners + side > edge)).all(axis=1)]
@@ -91,6 +88,13 @@ def tiles_around(
         corners = _in_four(corners[split], side)
         side /= 2.0
     return np.concatenate(done)
+
+
+def _covering(edge: Tiles, size: Tiles, side: float) -> Tiles:
+    """Return the low corners (n, 2) of the squares of a side that cover a rectangle from the corner `edge` on [m]."""
+    low = np.floor(edge / side) * side
+    counts = np.ceil((edge + size - low) / side).astype(int)
+    return np.asarray(low + side * np.stack(np.meshgrid(*map(np.arange, counts)), -1).reshape(-1, 2))
 
 
 def _rows(corners: Tiles, side: float, far: float) -> Tiles:
