@@ -16,7 +16,7 @@ from .scatter import SQUARE
 from .standing import Standing
 
 NEAR = 160.0
-"""Distance from a viewer of squares whose trees become entities [m]; they stay until a square farther off."""
+"""Distance from a viewer within which the trees of a square become entities [m]; they stay up to one square farther."""
 
 MOST_VIEWERS = 8
 """Greatest number of viewers; of more, those count that looked last."""
@@ -114,7 +114,7 @@ class Wild:
             self._forest.gone.pop(square, None)
 
     def standing(self, viewer: str, eye: Point, rows: Rows, /) -> Standing:
-        """Return the trees that a viewer is shown; `rows` are all that are entities."""
+        """Return the trees that a viewer is shown; `rows` are those that are entities."""
         inputs = id(rows), self._viewer_squares.get(viewer), tuple(self._planted), self._forest.version
         known = self._standing.get(viewer)
         if known is not None and known[0][1] != inputs[1] and self._live and self._still_growing(viewer, eye):

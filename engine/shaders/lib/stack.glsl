@@ -54,10 +54,10 @@ vec2 laid_back(vec2 run, vec3 foot, vec3 top, float height, int strips) {
 const float FLATTEST_SIGHT = 1e-3;  // least slope of a line of sight to the ground
 const float LEAST_LEAVES = 0.1;  // least leaf area index, and least optical depth from strip to strip
 
-// Factor on the depth at which leaves are seen on strips, to light them as if they stood anywhere. A line of sight goes deeper, in
-// the mean, where strips at a spacing stop it, each with an optical depth x: by half a spacing times 1 / tanh(x / 2) in place of
-// 2 / x; half of that counts from the top of the grass on. `run` is along the strips; `strips` stand on a patch; `tall` is the
-// height of the grass [m].
+// Factor on the depth at which leaves are seen on strips, to light them as if they stood anywhere. Among leaves that stand anywhere, a
+// line of sight comes in the mean half a spacing of strips times 2 / x far, where x is a strip's optical depth; among strips it comes
+// half a spacing times 1 / tanh(x / 2) far. Half of the difference counts, from the top of the grass on. `run` is along the strips;
+// `strips` stand on a patch; `tall` is the height of the grass [m].
 float depth_correction(vec2 run, vec3 foot, int strips, ByKind densities, float tall) {
     tall = max(tall, LOWEST_CROWN);
     vec2 off = normalize(vec2(-run.y, run.x)), ray = foot.xz - eye.xz;
@@ -75,7 +75,7 @@ float breadth_ratio(float whole, float painted) {
 }
 
 // Factor on the coverage of painted blades: the ratio of the breadths that the eye sees of real blades, which face all ways and lean
-// to `top`, and of painted ones, which face as their strip does. That runs along `run` and leans to `top` and `back`.
+// to `top`, and of painted ones, which face as their strip does. The strip runs along `run` and leans to `top` and `back`.
 float coverage_factor(int kind, vec2 run, vec3 middle, vec3 top, vec2 back) {
     vec3 ray = normalize(middle - eye), painted_across = cross(top + vec3(back.x, 0.0, back.y), ray);
     vec2 all = cross(top, ray).xz;
