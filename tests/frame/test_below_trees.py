@@ -94,9 +94,10 @@ def test_f4_below_a_felled_tree_grass_comes_back_into_the_sun_by_and_by(stage: S
     assert max(np.diff(light_then)) < 0.6 * (light_then[4] - light_then[0])
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("prairie", ["strips"], indirect=True)
-def test_f4_grass_on_strips_lies_in_a_trees_shade(
+@pytest.mark.parametrize(
+    "prairie", [None, *(pytest.param(lod, marks=pytest.mark.slow) for lod in ("strips", "carpet"))], indirect=True
+)
+def test_f4_grass_in_every_representation_lies_in_a_trees_shade(
     stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(TreePart, "draw_solid", lambda _: 0)
@@ -105,8 +106,9 @@ def test_f4_grass_on_strips_lies_in_a_trees_shade(
     tree = esper.create_entity(Tree("tree", 12.0), Pose(7.0, 0.0))  # towards the sun
     shaded = stage.shot(prairie, OVER)[..., 1]
     esper.delete_entity(tree, immediate=True)
-    green = in_the_sun > np.median(in_the_sun)
-    assert shaded[green].mean() < 0.8 * in_the_sun[green].mean()
+    green = in_the_sun > 0.5 * in_the_sun.max()
+    assert green.mean() > 0.02
+    assert shaded[green].mean() < 0.7 * in_the_sun[green].mean()  # without its shadow it is 0.75, as it hides sky
 
 
 @pytest.mark.slow
