@@ -25,7 +25,7 @@ def test_a_misspelt_attribute_is_refused_with_a_similar_one(thing: Any) -> None:
 
 def test_a_wind_that_is_given_values_without_their_names_says_so() -> None:
     with pytest.raises(TypeError, match=r"^a Gust takes its values by name, such as \w+=\.\.\.$"):
-        Gust([3, 4])  # type: ignore[call-arg, misc]
+        Gust([3, 4])  # type: ignore[arg-type, call-arg]
 
 
 def test_a_class_of_a_game_that_derives_from_a_component_may_have_attributes_of_its_own() -> None:
