@@ -29,10 +29,13 @@ class Start:
 
 
 class WindTextures(Protocol):
-    """The wind around a viewer: textures of the messages to each patch, which wraps round, and of their mean."""
+    """The wind around a viewer: textures of the messages to each patch, which wraps round, and of those beyond.
+
+    The last row of the latter begins with the mean message.
+    """
 
     texture: moderngl.Texture
-    mean: moderngl.Texture
+    far: moderngl.Texture
 
 
 class Part:

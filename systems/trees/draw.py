@@ -271,7 +271,7 @@ class TreePart(Part):
         if not self._kinds or programs is None or self._calls is None:
             return 0
         air.texture.use(self._units["tree_air"])
-        air.mean.use(self._units["tree_mean"])
+        air.far.use(self._units["tree_mean"])
         assert self._segments is not None
         instances, stood = self._segments.instances, self._segments.stood
         if self._batches:

@@ -2,7 +2,7 @@
 #include "systems/trees/tree.glsl"
 
 uniform sampler2D tree_air;  // messages of the patches around the viewer, wrapping round
-uniform sampler2D tree_mean; // their mean
+uniform sampler2D tree_mean; // the mean message is in its last row
 uniform vec2 middle;         // of the viewer's patch [m]
 in float crown_at;           // height of its crown's middle over its root [m]
 in float hertz;              // frequency of its trunk [Hz]
@@ -35,7 +35,7 @@ vec2 message_here() {
     float side = float(textureSize(tree_air, 0).x) * patch_side;
     vec2 apart = abs(root.xz - middle) / side;
     float far = smoothstep(AIR_FADES.x, AIR_FADES.y, max(apart.x, apart.y));
-    return mix(textureLod(tree_air, root.xz / side, 0.0).xy, texelFetch(tree_mean, ivec2(0), 0).xy, far);
+    return mix(textureLod(tree_air, root.xz / side, 0.0).xy, texelFetch(tree_mean, ivec2(0, textureSize(tree_mean, 0).y - 1), 0).xy, far);
 }
 
 void main() {

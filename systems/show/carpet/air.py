@@ -1,38 +1,94 @@
-"""The wind's messages at the middles of the patches around the viewer, as a texture that wraps round."""
+"""The wind's messages at the middles of the patches around the viewer, as a texture that wraps round, and beyond."""
+
+from math import ceil, cos, floor, pi, sin
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ....components.arrays import Floats
+from ....components.viewer import Viewer
 from ....engine.gl.shaders import program, set_uniform
 from ....engine.gl.stream import release_all
+from ....engine.gl.texture import interpolated
 from ..hearing import VERTEX, Hearing
 from ..representation import Canvas
 
+FAR_SIDE, FAR_LEVELS = 128, 2
+"""Texels along a side of each window beyond the patch table; number of these windows. Texels of the first one are two
+patches wide, and those of each next one twice as wide: so messages are about as fine as the carpet's mesh, whose
+spacing grows with distance, too."""
+
+GLSL = {"FAR_SIDE": FAR_SIDE, "FAR_LEVELS": FAR_LEVELS}
+
+MESH = 0.12
+"""Greatest spacing of the carpet's mesh, as a part of the distance: so far beside the picture are vertices of what is
+seen [rad]."""
+
+BESIDE = 3
+"""Texels beside what is seen that are computed, too: of interpolation, and as windows move by whole texels."""
+
+
+def seen_within(on: tuple[float, float], cone: tuple[float, float], /) -> tuple[int, int, int, int]:
+    """Return the rectangle (x, z, width, depth) of a far window's texels that may be seen in a view cone.
+
+    The eye is `on` the window, (x, z) [texels].
+    """
+    middle, half = cone[0], cone[1] + MESH
+    ends = [middle - half, middle + half, *(quarter * 0.5 * pi for quarter in range(-8, 9))]
+    rays = [end for end in ends if abs(end - middle) <= half] if half < pi else ends
+    rectangle: list[int] = []
+    for here, ways in zip(on, ([sin(ray) for ray in rays], [-cos(ray) for ray in rays]), strict=True):
+        low = here + 2.0 * FAR_SIDE * min(0.0, *ways) - BESIDE
+        high = here + 2.0 * FAR_SIDE * max(0.0, *ways) + BESIDE
+        first, last = max(floor(low), 0), min(ceil(high), FAR_SIDE)
+        rectangle += [first, max(last - first, 0)]
+    return rectangle[0], rectangle[2], rectangle[1], rectangle[3]
+
 
 class Air:
-    """The messages on the rows of the patch table, and their mean for all that is farther away."""
+    """The messages on the rows of the patch table, and what is read farther away: coarser ones, and their mean."""
 
-    def __init__(self, canvas: Canvas, side: int) -> None:
-        ctx = canvas.ctx
-        self.units, self.side = canvas.units, side
-        self.texture, self.mean = ctx.texture((side, side), 2, dtype="f4"), ctx.texture((1, 1), 2, dtype="f4")
-        self._target, self._mean_target = ctx.framebuffer([self.texture]), ctx.framebuffer([self.mean])
+    def __init__(self, canvas: Canvas, side: int, patch: float) -> None:
+        ctx, high = canvas.ctx, FAR_LEVELS * FAR_SIDE
+        self.units, self.side, self._patch = canvas.units, side, patch
+        self.texture = ctx.texture((side, side), 2, dtype="f4")
+        self.far = interpolated(ctx.texture((FAR_SIDE, high + 1), 2, dtype="f4"))
+        """Windows one above another; the last row begins with the mean message."""
+        self._target, self._far_target = ctx.framebuffer([self.texture]), ctx.framebuffer([self.far])
         self.hearing = Hearing(canvas, "systems/show/carpet/receivers.frag", {}, lambda _: None)
+        self.hearing_far = Hearing(canvas, "systems/show/carpet/far.frag", {}, lambda _: None)
         self._program = program(ctx, VERTEX, "systems/show/carpet/mean.frag")
         self._program["air"] = canvas.units["air"]
         self._array = ctx.vertex_array(self._program, [])
 
-    def hear(self, centre: NDArray[np.int32], first: int) -> int:
-        """Compute the messages of all patches around a cell; return the number of draw calls.
+    def hear(self, viewer: Viewer, first: int) -> int:
+        """Compute the messages of all patches around a viewer, and beyond; return the number of draw calls.
 
         `first` is the number of the first patch's receiver among all receivers.
         """
+        around = int(viewer.centre[0]), int(viewer.centre[1]), self.side, first
         array = self.hearing.array()
-        set_uniform(array.program, "around", int(centre[0]), int(centre[1]), self.side, first)
+        set_uniform(array.program, "around", *around)
         self._target.use()
         array.render(moderngl.TRIANGLES, vertices=3)
-        return 1
+        array = self.hearing_far.array()
+        set_uniform(array.program, "around", *around)
+        for level in range(FAR_LEVELS):
+            self._hear_far(array, level, viewer)
+        return 1 + FAR_LEVELS
+
+    def _hear_far(self, array: moderngl.VertexArray, level: int, viewer: Viewer) -> None:
+        patches = 2.0 ** (level + 1)
+        x, z = (
+            at / (self._patch * patches) - floor(cell / patches) + FAR_SIDE // 2
+            for at, cell in zip(viewer.eye[::2], viewer.centre.tolist(), strict=True)
+        )
+        left, first, width, depth = seen_within((x, z), viewer.cone)
+        set_uniform(array.program, "level", level)
+        self._far_target.viewport = left, level * FAR_SIDE + first, width, depth
+        self._far_target.use()
+        array.render(moderngl.TRIANGLES, vertices=3)
 
     def write(self, row: int, message: NDArray[np.float32]) -> None:
         """Replace the message (2,) of a row of the patch table."""
@@ -41,15 +97,23 @@ class Air:
     def average(self) -> int:
         """Compute the mean of all messages; return the number of draw calls."""
         self.texture.use(self.units["air"])
-        self._mean_target.use()
+        self._far_target.viewport = 0, FAR_LEVELS * FAR_SIDE, 1, 1
+        self._far_target.use()
         self._array.render(moderngl.TRIANGLES, vertices=3)
         return 1
 
+    def mean(self) -> Floats:
+        """Return the mean message (2,)."""
+        texels: Floats = np.frombuffer(self.far.read(), np.float32).reshape(-1, FAR_SIDE, 2)
+        mean: Floats = texels[-1, 0]
+        return mean
+
     def use(self) -> None:
-        """Bind the messages and their mean."""
+        """Bind the messages and those beyond."""
         self.texture.use(self.units["air"])
-        self.mean.use(self.units["mean_air"])
+        self.far.use(self.units["far_air"])
 
     def release(self) -> None:
         """Release all GL objects."""
-        release_all(self.hearing, self._array, self._program, self._target, self._mean_target, self.texture, self.mean)
+        hearing = self.hearing, self.hearing_far
+        release_all(*hearing, self._array, self._program, self._target, self._far_target, self.texture, self.far)

@@ -12,7 +12,10 @@ vec3 bent_entry(int kind, float index, float away, float slope) {
     vec2 size = vec2(textureSize(bents, 0).xy), column = ((0.5 + 0.5 * vec2(-index, index)) * (size.x - 1.0) + 0.5) / size.x;
     float row = (log(clamp(slope, FLATTEST, STEEPEST) / FLATTEST) / STEEPER * (size.y - 1.0) + 0.5) / size.y;
     vec4 towards = textureLod(bents, vec3(column.x, row, kind), 0.0);
-    return mix(towards, textureLod(bents, vec3(column.y, row, kind), 0.0), away).xyz;
+    vec4 from = textureLod(bents, vec3(column.y, row, kind), 0.0);
+    vec3 along = mix(towards.xyz, from.xyz, away);
+    float with = 2.0 * away - 1.0, aside = 1.0 - with * with;  // cosine of the angle from the line of sight; square of its sine
+    return vec3(along.x + aside * from.w, along.yz * (1.0 + aside * towards.w));
 }
 
 // Additional leaves that a line of sight meets in a kind with this bending, and factors of the places along blades and the heights at

@@ -53,7 +53,7 @@ void evaluate(float slope) {
 #if KINDS > 4
     strips_before = 1.0;
     slow_noise = slow_noise_at(leaf_place(place, slope, tall, leaf_area).xz);
-    vec2 message = message_at(place.xz);
+    vec2 message = near_message_at(place.xz);
     stands = lodged(message);
     sway = sway_of(leaf_areas(densities_here), message);
 #endif

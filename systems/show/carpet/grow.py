@@ -40,9 +40,10 @@ class Carpet:
 
     bent: Floats
     """Changes of what lines of sight meet in a bent field, relative to the field at rest, shape (`BENT_SLOPES`,
-    `BENDS`, 3): number of leaves met more; factors of the mean place along blades and of the mean height in the canopy
+    `BENDS`, 4): number of leaves met more; factors of the mean place along blades and of the mean height in the canopy
     of the leaves that stop them. Rows are slopes, columns posture indices from -1, towards the eye, to 1, away from
-    it."""
+    it. The fourth number tells how grass that bends aside differs from the mean of both ways: in columns of positive
+    indices by leaves met more, in those of negative ones by the relative increase of place and height."""
 
 
 SLOPES = (0.02, 0.07, 0.25, 0.9, 3.2)
@@ -123,16 +124,21 @@ def _bent(blades: Blades, postures: Postures, /, *, patch: float, taper: float, 
     """
     at_rest = np.geomspace(FLATTEST, STEEPEST, BENT_SLOPES)
     linear = replace(postures, give=LENGTHS.astype(np.float32))  # messages are posture indices
-    table = np.zeros((BENT_SLOPES, BENDS, 3))
+    table = np.zeros((BENT_SLOPES, BENDS, 4))
     for heading in _HEADINGS[:2]:
         met = partial(first_met, blades, linear, heading=heading, patch=patch, taper=taper, section=section)
         still = met(0.0 * heading, slopes=at_rest)
         for away, bend in enumerate(np.linspace(0.0, 1.0, BENDS // 2 + 1).tolist()):
             slopes, middle = at_rest * lodged(bend), BENDS // 2
             both = met(bend * heading, slopes=np.concatenate([slopes, -slopes]))
-            for column, bent in ((middle + away, both[:BENT_SLOPES]), (middle - away, both[BENT_SLOPES:])):
+            from_eye, to_eye = both[:BENT_SLOPES], both[BENT_SLOPES:]
+            for column, bent in ((middle + away, from_eye), (middle - away, to_eye)):
                 table[:, column, 0] += 0.5 * (bent[:, 0] - still[:, 0])
-                table[:, column, 1:] += 0.5 * bent[:, 1:] / (still[:, 1:] * (1.0, lodged(bend)))
+                table[:, column, 1:3] += 0.5 * bent[:, 1:] / (still[:, 1:] * (1.0, lodged(bend)))
+            aside, mean = met(bend * heading[::-1], slopes=slopes), 0.5 * (from_eye + to_eye)
+            if away:
+                table[:, middle + away, 3] += 0.5 * (aside[:, 0] - mean[:, 0])
+                table[:, middle - away, 3] += 0.5 * (aside[:, 1] / mean[:, 1] - 1.0)
     table[:, BENDS // 2] *= 0.5  # the middle was added twice
     return table.astype(np.float32)
 

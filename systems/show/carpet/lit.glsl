@@ -2,11 +2,12 @@
 #include "lib/light.glsl"
 #include "lib/shares.glsl"
 #include "lib/posture.glsl"
+#include "systems/show/carpet/air.py"
 #include "systems/show/carpet/bent.glsl"
 #include "systems/show/carpet/sight.glsl"
 
 uniform sampler2D air;  // the wind's message in the middle of each patch, wrapping round
-uniform sampler2D mean_air;
+uniform sampler2D far_air;  // messages beyond: windows one above another, each twice as coarse, then a texel with the mean message
 
 struct Canopy {
     Light light;  // on the leaves that are met
@@ -16,7 +17,8 @@ struct Canopy {
 
 const float SWAYS = 0.35;  // displacement of the leaves that are seen, in canopy heights, per posture index
 const vec2 LAID = vec2(0.96, 0.22);  // sine of the lean of blades per posture index; its decrease by the index's square
-const vec2 FAR_AIR = vec2(0.35, 0.48);  // distances between which the mean message takes over, in widths of the window
+const vec2 FAR_AIR = vec2(0.4, 0.47);  // distances between which the next message takes over, in widths of a window
+const float FAR_TAKES = log2(FAR_AIR.y / FAR_AIR.x);
 
 // Vector from foot to tip of leaves with this bending, in heights at rest.
 vec3 lean_direction(vec2 bend) {
@@ -29,11 +31,40 @@ vec3 turned_pigment(int kind, vec3 lean, vec3 ray) {
     return azimuth_tint(kind, seen_azimuth(kind, lean, ray) - seen_azimuth(kind, vec3(0.0, 1.0, 0.0), ray));
 }
 
-// The wind's message; far away, where there are no receivers, the mean message.
+// Distance of a place from the middle of the viewer's patch, along x or z [patches].
+float patches_apart(vec2 at) {
+    vec2 apart = abs(at * patches_per_metre - carpet_window.xy - 0.5);
+    return max(apart.x, apart.y);
+}
+
+// The wind's message near by; far away, where there are no receivers, the mean message.
+vec2 near_message_at(vec2 at) {
+    float far = smoothstep(FAR_AIR.x, FAR_AIR.y, patches_apart(at) * windows_per_patch);
+    vec2 mean = texelFetch(far_air, ivec2(0, FAR_LEVELS * FAR_SIDE), 0).xy;
+    return mix(textureLod(air, at * (patches_per_metre * windows_per_patch), 0.0).xy, mean, far);
+}
+
+// The wind's message in one of the windows beyond.
+vec2 far_message_at(vec2 at, float level) {
+    if (level > float(FAR_LEVELS) - 0.5)
+        return texelFetch(far_air, ivec2(0, FAR_LEVELS * FAR_SIDE), 0).xy;
+    float side = float(FAR_SIDE), spacing = exp2(level + 1.0);
+    vec2 on = at * patches_per_metre / spacing - floor(carpet_window.xy / spacing) + 0.5 * side;
+    on = clamp(on, 0.5, side - 0.5) + vec2(0.0, level * side);
+    return textureLod(far_air, on / vec2(textureSize(far_air, 0)), 0.0).xy;
+}
+
+// The wind's message. Only vertices can afford it.
 vec2 message_at(vec2 at) {
-    vec2 on = at * (patches_per_metre * windows_per_patch), apart = abs(on - (carpet_window.xy + 0.5) * windows_per_patch);
-    float far = smoothstep(FAR_AIR.x, FAR_AIR.y, max(apart.x, apart.y));
-    return mix(textureLod(air, on, 0.0).xy, texelFetch(mean_air, ivec2(0), 0).xy, far);
+    float apart = patches_apart(at), far = smoothstep(FAR_AIR.x, FAR_AIR.y, apart * windows_per_patch);
+    vec2 message = textureLod(air, at * (patches_per_metre * windows_per_patch), 0.0).xy;
+    if (far <= 0.0)
+        return message;
+    float beyond = max(log2(apart / (2.0 * float(FAR_SIDE) * FAR_AIR.x)), 0.0), level = min(floor(beyond), float(FAR_LEVELS) - 1.0);
+    vec2 next = far_message_at(at, level);
+    if (beyond > 0.0)
+        next = mix(next, far_message_at(at, level + 1.0), smoothstep(0.0, FAR_TAKES, beyond - level));
+    return mix(message, next, far);
 }
 
 // Mean over the kinds that are met of their light and bending, each bent by its own message.

@@ -68,9 +68,9 @@ class CarpetPainter(RepresentationPainter):
         )
         self._staged: tuple[CarpetStock, moderngl.TextureArray] | None = None
         """The next stock and its images, already in GL."""
-        self.air = Air(canvas, side)
-        self._heard: tuple[NDArray[np.int32], int, CarpetKept] | None = None
-        """The viewer's cell, the number of the first receiver, and the receivers that `hear` serves."""
+        self.air = Air(canvas, side, ground.patch)
+        self._heard: tuple[Viewer, int, CarpetKept] | None = None
+        """The viewer, the number of the first receiver, and the receivers that `hear` serves."""
         self.ground = GroundPainter(
             canvas.ctx, canvas.block, stock, canvas.units, side=side, seed=canvas.seed, coarse=coarse
         )
@@ -115,7 +115,8 @@ class CarpetPainter(RepresentationPainter):
 
     def making_for_winds(self) -> Iterator[None]:
         """Make the programs that compute the wind's messages to receivers, one at a time."""
-        return self.air.hearing.making()
+        yield from self.air.hearing.making()
+        yield from self.air.hearing_far.making()
 
     def rehearse(self, record: NDArray[np.void], /) -> None:
         """Draw with every program, as if grass were trodden and ended somewhere."""
@@ -129,15 +130,15 @@ class CarpetPainter(RepresentationPainter):
         """Upload the tiles of the ground and the carpet's share of each patch; return 0, as it has no blades."""
         self.lay(outlook, outlook.appearance.cover[-1])
         self.ground.tread(is_trodden=bool(outlook.noted(Trodden, UNTRODDEN)))
-        self._heard = outlook.viewer.centre, first["carpet"][0], outlook.keeps(CarpetKept)
+        self._heard = outlook.viewer, first["carpet"][0], outlook.keeps(CarpetKept)
         return 0
 
     def hear(self) -> int:
         """Compute the wind's messages at the middles of all patches; return the number of draw calls."""
         if self._heard is None:
             return 0
-        centre, first, kept = self._heard
-        calls = self.air.hear(centre, first)
+        viewer, first, kept = self._heard
+        calls = self.air.hear(viewer, first)
         for row, message in kept.receiving[0].messages.written():
             self.air.write(row, message[0])
         return calls + self.air.average()

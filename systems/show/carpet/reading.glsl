@@ -50,7 +50,7 @@ float sway_of(ByKind met, vec2 message) {
 Patch patch_at(vec2 at, float sway, float stands) {
     ivec2 cell = ivec2(floor(at * patches_per_metre));
     uint random_bits = hash3(stock.y, cell.x, cell.y);
-    vec2 message = message_at((vec2(cell) + 0.5) * patch_side);
+    vec2 message = near_message_at((vec2(cell) + 0.5) * patch_side);
     return Patch(cell, int(random_bits % uint(stock.x)), int(random_bits >> UPPER_HALF) & (HEADINGS - 1), vec3(sway * message, stands));
 }
 

@@ -30,7 +30,7 @@ class CarpetRepresentation(Representation):
     label: ClassVar[str] = "2D carpet"
     programs = 18
     color: ClassVar[Color] = (0.72, 0.45, 0.95)
-    samplers: ClassVar[tuple[str, ...]] = ("images", "bents", "shares", "mean_air", "earth", "rims")
+    samplers: ClassVar[tuple[str, ...]] = ("images", "bents", "shares", "far_air", "earth", "rims")
     pass_samplers: ClassVar[tuple[str, ...]] = ("air",)
     record: ClassVar[type | None] = Carpet
 

@@ -59,7 +59,7 @@ vec4 lamps_seen(Sight sight) {
     for (int other = 1; other < KINDS; other++)
         kind = OF(met, other) > OF(met, kind) ? other : kind;
     vec3 there = leaf_place(place, sight.slope, tall, leaf_area);
-    vec2 bend = bending(kind, message_at(place.xz));
+    vec2 bend = bending(kind, near_message_at(place.xz));
     there.y -= sight.share * tall;
     vec3 ray = vec3(sight.heading, (there.y - eye.y) / max(distance(there.xz, eye.xz), TINY)).xzy;
     vec3 turned = turned_pigment(kind, lean_direction(bend), ray);

@@ -46,9 +46,8 @@ def _whole(images: Bytes) -> Bytes:
 
 
 def bents_of(growths: Sequence[Growth], /) -> Floats:
-    """Return `Carpet.bent` of all kinds, averaged over models and padded by a channel, (kinds, slopes, bends, 4)."""
-    tables = np.stack([np.mean([carpet_of(model).bent for model in growth.models], axis=0) for growth in growths])
-    return np.pad(tables, ((0, 0), (0, 0), (0, 0), (0, 1)))
+    """Return `Carpet.bent` of all kinds, averaged over models, (kinds, slopes, bends, 4)."""
+    return np.stack([np.mean([carpet_of(model).bent for model in growth.models], axis=0) for growth in growths])
 
 
 def bent_texture(ctx: moderngl.Context, texels: NDArray[np.float16]) -> moderngl.TextureArray:

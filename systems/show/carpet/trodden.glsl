@@ -6,7 +6,7 @@ const float HARDLY = 1e-3;  // least length of pressing that counts
 
 // The canopy of the vertices, changed by pressing.
 Canopy trodden(Canopy canopy, ByKind met, vec3 place, float slope, float on_level, vec3 there) {
-    vec2 message = message_at(place.xz), messages[KINDS], blown[KINDS];
+    vec2 message = near_message_at(place.xz), messages[KINDS], blown[KINDS];
     float most = 0.0;
     for (int kind = 0; kind < KINDS; kind++) {
         vec2 pressed = pressing(place.xz, kind);

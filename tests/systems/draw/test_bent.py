@@ -33,3 +33,17 @@ def test_f6_grass_is_met_as_it_is_bent_away_from_the_eye_or_towards_it_at_the_sl
         assert along.tolist() == pytest.approx([0.5, -0.5, 0.0], abs=0.01)
         assert high == pytest.approx(np.log(slope), abs=0.02)
     bents.release()
+
+
+def test_f6_grass_that_bends_aside_is_met_otherwise_than_the_mean_of_both_ways_along_the_view(
+    ctx: moderngl.Context, probe: Probe
+) -> None:
+    table = np.zeros((1, BENT_SLOPES, BENDS, 4), np.float16)
+    table[..., 1:3], table[..., 3] = 1.0, np.linspace(-1.0, 1.0, BENDS)
+    bents = bent_texture(ctx, table)
+    ways = np.array([(0.6, -0.8), (-0.6, 0.8), (0.8, 0.6), (-0.8, -0.6)])  # along the view, and aside
+    rows = np.column_stack([0.5 * ways, np.full((4, 2), 0.3)])
+    told = probe(ASK, rows.astype(np.float32), np.zeros(1, FRAME), {"bents": bents}, 3)
+    bents.release()
+    assert told[:2] == pytest.approx(np.array([(0.0, 1.0, 1.0)] * 2), abs=0.01)
+    assert told[2:] == pytest.approx(np.array([(0.5, 0.5, 0.5)] * 2), abs=0.01)

@@ -179,11 +179,21 @@ def test_g5_a_coarser_carpet_has_the_same_means(carpet: Carpet, texels: int) -> 
     assert apart.max() < 0.03, "from the side, few blades show which patches stand in line, to a texel"
 
 
-@pytest.mark.parametrize("bend", [-0.75, -0.5, 0.5, 0.75])
-def test_g5_of_bent_grass_as_much_is_met_as_its_own_images_show(dense: Carpet, bend: float) -> None:
+def bent_as(carpet: Carpet, bend: float, *, aside: bool) -> NDArray[Any]:
+    """Return the columns of leaves met more, and of the factors of place and height, for a bend, (slopes, 3)."""
+    towards, away = (carpet.bent[:, round((1.0 + each) * (BENDS // 2))] for each in (-bend, bend))
+    if not aside:
+        return away[:, :3]
+    mean = 0.5 * (towards + away)[:, :3]
+    return np.column_stack([mean[:, 0] + away[:, 3], mean[:, 1:] * (1.0 + towards[:, 3:])])
+
+
+@pytest.mark.parametrize(("bend", "way"), [*((each, "along") for each in (-0.75, -0.5, 0.5, 0.75)), (0.75, "aside")])
+def test_g5_of_bent_grass_as_much_is_met_as_its_own_images_show(dense: Carpet, bend: float, way: str) -> None:
     blades = grow_blades(KIND, count=240, patch=PATCH, variants=4, seed=4)
-    leant = replace(blades, rest=np.array([0.0, -bend], np.float32) + blades.rest * np.float32(1.0 - abs(bend)))
-    rows = dense.bent[:, round((1.0 + bend) * (BENDS // 2))]
+    bends = np.array([bend, 0.0] if way == "aside" else [0.0, -bend], np.float32)
+    leant = replace(blades, rest=bends + blades.rest * np.float32(1.0 - abs(bend)))
+    rows = bent_as(dense, bend, aside=way == "aside")
     at_rest = 0.1, 0.3, 1.0
     slopes = tuple(slope * lodged(bend) for slope in at_rest)
     truth, still = (
