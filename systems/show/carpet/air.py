@@ -14,7 +14,7 @@ from ....engine.gl.texture import interpolated
 from ..hearing import VERTEX, Hearing
 from ..representation import Canvas
 
-FAR_SIDE, FAR_LEVELS = 128, 2
+FAR_SIDE, FAR_LEVELS = 96, 2
 """Texels along a side of each window beyond the patch table; number of these windows. Texels of the first one are two
 patches wide, and those of each next one twice as wide: so messages are about as fine as the carpet's mesh, whose
 spacing grows with distance, too."""

@@ -1,6 +1,7 @@
 // The carpet: what varies little over a few pixels is computed at the vertices of the mesh. With EDGED, where grass ends or has been cut,
 // pixels compute themselves what is PER_VERTEX otherwise.
 #define PIXELS_ASK  // pools of light and shadows are smaller than the mesh
+#define SPLINES  // of the wind, where leaves are lit
 #include "lib/light.glsl"
 #include "systems/show/carpet/lifted.glsl"
 #include "systems/show/carpet/met.glsl"

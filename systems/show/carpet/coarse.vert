@@ -1,5 +1,6 @@
 // The carpet of cheaper presets, without lamps: all that does not vary from leaf to leaf is computed at the vertices of the mesh.
 #define PIXELS_ASK  // shadow maps are finer than the mesh
+#define SPLINES  // of the wind, where leaves are lit
 #include "lib/light.glsl"
 #include "lib/tone.glsl"
 #include "systems/show/carpet/among.glsl"

@@ -18,7 +18,7 @@ struct Canopy {
 const float SWAYS = 0.35;  // displacement of the leaves that are seen, in canopy heights, per posture index
 const vec2 LAID = vec2(0.96, 0.22);  // sine of the lean of blades per posture index; its decrease by the index's square
 const vec2 FAR_AIR = vec2(0.4, 0.47);  // distances between which the next message takes over, in widths of a window
-const float FAR_TAKES = log2(FAR_AIR.y / FAR_AIR.x);
+const float FAR_TAKES = log2(FAR_AIR.y / FAR_AIR.x);  // the same, in octaves of distance
 
 // Vector from foot to tip of leaves with this bending, in heights at rest.
 vec3 lean_direction(vec2 bend) {
@@ -44,27 +44,57 @@ vec2 near_message_at(vec2 at) {
     return mix(textureLod(air, at * (patches_per_metre * windows_per_patch), 0.0).xy, mean, far);
 }
 
-// The wind's message in one of the windows beyond.
-vec2 far_message_at(vec2 at, float level) {
-    if (level > float(FAR_LEVELS) - 0.5)
-        return texelFetch(far_air, ivec2(0, FAR_LEVELS * FAR_SIDE), 0).xy;
+// The message at a place in texels.
+vec2 linear_at(sampler2D messages, vec2 on) {
+    return textureLod(messages, on / vec2(textureSize(messages, 0)), 0.0).xy;
+}
+
+#ifdef SPLINES
+// The same by cubic splines (Catmull and Rom, 1974): fronts of gusts are only a few texels wide, and lines between texels would flatten
+// them. Instead of sixteen texels five places between them are read, without the corners, which hardly weigh.
+// The weights of four texels in a line are polynomials of the place between the two in the middle.
+const vec4 SPLINE_BEFORE = vec4(0.0, -0.5, 1.0, -0.5), SPLINE_HERE = vec4(1.0, 0.0, -2.5, 1.5);
+const vec4 SPLINE_NEXT = vec4(0.0, 0.5, 2.0, -1.5), SPLINE_LAST = vec4(0.0, 0.0, -0.5, 0.5);
+
+vec2 spline_at(sampler2D messages, vec2 on) {
+    vec2 from = floor(on - 0.5) + 0.5, f = on - from;
+    vec4 x = vec4(1.0, f.x, f.x * f.x, f.x * f.x * f.x), y = vec4(1.0, f.y, f.y * f.y, f.y * f.y * f.y);
+    vec2 before = vec2(dot(x, SPLINE_BEFORE), dot(y, SPLINE_BEFORE)), last = vec2(dot(x, SPLINE_LAST), dot(y, SPLINE_LAST));
+    vec2 next = vec2(dot(x, SPLINE_NEXT), dot(y, SPLINE_NEXT)), both = vec2(dot(x, SPLINE_HERE), dot(y, SPLINE_HERE)) + next;
+    vec2 middle = from + next / both, low = from - 1.0, high = from + 2.0;
+    vec2 sum = both.x * both.y * linear_at(messages, middle);
+    sum += both.x * (before.y * linear_at(messages, vec2(middle.x, low.y)) + last.y * linear_at(messages, vec2(middle.x, high.y)));
+    sum += both.y * (before.x * linear_at(messages, vec2(low.x, middle.y)) + last.x * linear_at(messages, vec2(high.x, middle.y)));
+    return sum / (both.x + both.y - both.x * both.y);
+}
+#else
+#define spline_at linear_at
+#endif
+
+// Place of the ground on one of the windows beyond, in texels.
+vec2 on_far(vec2 at, float level) {
     float side = float(FAR_SIDE), spacing = exp2(level + 1.0);
     vec2 on = at * patches_per_metre / spacing - floor(carpet_window.xy / spacing) + 0.5 * side;
-    on = clamp(on, 0.5, side - 0.5) + vec2(0.0, level * side);
-    return textureLod(far_air, on / vec2(textureSize(far_air, 0)), 0.0).xy;
+    return clamp(on, 2.0, side - 2.0) + vec2(0.0, level * side);
+}
+
+// The wind's message beyond the window around the viewer, from distances of `apart` patches.
+vec2 far_message_at(vec2 at, float apart) {
+    float beyond = max(log2(apart / (2.0 * float(FAR_SIDE) * FAR_AIR.x)), 0.0), level = min(floor(beyond), float(FAR_LEVELS) - 1.0);
+    vec2 message = spline_at(far_air, on_far(at, level));
+    if (beyond <= 0.0)
+        return message;
+    vec2 next = texelFetch(far_air, ivec2(0, FAR_LEVELS * FAR_SIDE), 0).xy;
+    if (level < float(FAR_LEVELS) - 1.0)
+        next = linear_at(far_air, on_far(at, level + 1.0));
+    return mix(message, next, smoothstep(0.0, FAR_TAKES, beyond - level));
 }
 
 // The wind's message. Only vertices can afford it.
 vec2 message_at(vec2 at) {
     float apart = patches_apart(at), far = smoothstep(FAR_AIR.x, FAR_AIR.y, apart * windows_per_patch);
-    vec2 message = textureLod(air, at * (patches_per_metre * windows_per_patch), 0.0).xy;
-    if (far <= 0.0)
-        return message;
-    float beyond = max(log2(apart / (2.0 * float(FAR_SIDE) * FAR_AIR.x)), 0.0), level = min(floor(beyond), float(FAR_LEVELS) - 1.0);
-    vec2 next = far_message_at(at, level);
-    if (beyond > 0.0)
-        next = mix(next, far_message_at(at, level + 1.0), smoothstep(0.0, FAR_TAKES, beyond - level));
-    return mix(message, next, far);
+    vec2 message = spline_at(air, at * patches_per_metre);
+    return far > 0.0 ? mix(message, far_message_at(at, apart), far) : message;
 }
 
 // Mean over the kinds that are met of their light and bending, each bent by its own message.
