@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .arrays import Floats
+from .words import in_words
 
 
 class Messages(Protocol):
@@ -82,4 +83,8 @@ class Receivers:
     def message(self, message: ArrayLike) -> None:
         kept = self._messages.ask(self._slot)
         if message is not kept:  # `message *= 2` has written to it already
-            kept[:] = message
+            try:
+                kept[:] = message
+            except (TypeError, ValueError):
+                due = f"the messages of {len(kept)} receivers have the shape {kept.shape}, or are one for all, (x, z)"
+                raise ValueError(f"{due}; they were given {in_words(message)}") from None

@@ -85,6 +85,8 @@ class Flatten(esper.Processor):
         for entity, receivers in esper.get_component(Receivers):
             if self.patch in {entity, receivers.patch}:
                 receivers.message = (0.2, -0.85)
+                with pytest.raises(ValueError, match=r"^the messages of \d+ receivers .* an array of shape \(1, 3\)$"):
+                    receivers.message = np.ones((1, 3))
 
 
 @pytest.mark.parametrize("name", PLACES)
