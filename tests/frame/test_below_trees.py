@@ -1,6 +1,7 @@
 """Grass below trees: it grows as it gets light, in all representations, and again once they are felled (F3, F4)."""
 
 from collections.abc import Iterator
+from typing import Literal
 
 import esper
 import moderngl
@@ -19,9 +20,18 @@ tallgrass: 2
 seed: 5
 terrain: { noise: flat, size: [80, 80] }
 grass: { turf: { height: [0.2, 0.3], width: 0.02, blades: 1500, root: "#1fa01f", tip: "#1fa01f", understorey: 0.0 } }
-trees: { tree: { habit: oak, height: [12, 12] } }
+trees: { tree: { habit: hawthorn, height: [12, 12] } }  # a habit whose pictures other tests draw too
 wind: [{ kind: breeze, strength: 0.2, speed: 4 }]
 light: { azimuth: 90, elevation: 60, haze: 1e6, ground: "#e01010" }
+"""
+COARSE = """\
+quality:
+  models: 1
+  blade_rings: [{ to: 1, segments: 2 }]
+  strip_rings: [{ to: 2, strips: 2, texel: 0.05 }]
+  carpet_to: 16
+  carpet: 64
+  coarse: true
 """
 OVER = looking(0.0, 12.0, 14.0, pitch=-40.0, view=20.0)
 
@@ -33,10 +43,12 @@ def stage(ctx: moderngl.Context) -> Stage:
 
 @pytest.fixture
 def prairie(ctx: moderngl.Context, request: pytest.FixtureRequest) -> Iterator[Prairie]:
-    lod: LodName | None = getattr(request, "param", None)
-    # Where none is looked at; and a habit whose pictures other tests draw too.
-    scene = SCENE if lod else SCENE.replace("blades: 1500", "blades: 60").replace("habit: oak", "habit: hawthorn")
-    with private_world(), little_prairie(scene=scene, ctx=ctx, lod=lod or "blades") as made:
+    param: LodName | Literal["coarse"] | None = getattr(request, "param", None)
+    lod: LodName = "blades" if param is None else "carpet" if param == "coarse" else param
+    scene = SCENE if param else SCENE.replace("blades: 1500", "blades: 60")  # where none is looked at
+    if param == "coarse":
+        scene = SCENE.replace("blades: 1500", "blades: 400") + COARSE
+    with private_world(), little_prairie(scene=scene, ctx=ctx, lod=lod) as made:
         yield made
 
 
@@ -95,7 +107,9 @@ def test_f4_below_a_felled_tree_grass_comes_back_into_the_sun_by_and_by(stage: S
 
 
 @pytest.mark.parametrize(
-    "prairie", [None, *(pytest.param(lod, marks=pytest.mark.slow) for lod in ("strips", "carpet"))], indirect=True
+    "prairie",
+    [None, "coarse", *(pytest.param(lod, marks=pytest.mark.slow) for lod in ("strips", "carpet"))],
+    indirect=True,
 )
 def test_f4_grass_in_every_representation_lies_in_a_trees_shade(
     stage: Stage, prairie: Prairie, monkeypatch: pytest.MonkeyPatch
@@ -108,7 +122,7 @@ def test_f4_grass_in_every_representation_lies_in_a_trees_shade(
     esper.delete_entity(tree, immediate=True)
     green = in_the_sun > 0.5 * in_the_sun.max()
     assert green.mean() > 0.02
-    assert shaded[green].mean() < 0.7 * in_the_sun[green].mean()  # without its shadow it is 0.75, as it hides sky
+    assert shaded[green].mean() < 0.6 * in_the_sun[green].mean()  # without its shadow it is 0.68, as it hides sky
 
 
 @pytest.mark.slow
@@ -125,4 +139,4 @@ def test_f4_more_soil_is_seen_below_a_tree_in_every_representation_and_less_once
     esper.delete_entity(tree, immediate=True)
     assert np.array_equal(stage.shot(prairie, OVER), open_ground)
     red = [float((each[..., 0] / each[..., :2].sum(axis=-1))[24:72, 24:72].mean()) for each in (open_ground, below)]
-    assert red == pytest.approx([0.66, 0.82], abs=0.025)  # soil is red, and grass green
+    assert red == pytest.approx([0.66, 0.84], abs=0.02)  # soil is red, and grass green
