@@ -2,7 +2,7 @@
 #include "lib/canopy.glsl"
 #include "lib/mown.glsl"
 
-const float HIDDEN = 3.0;  // optical depth beyond which the rest of a line of sight is left out: 5 % comes through, of dark roots
+const float HIDDEN = 2.0;  // optical depth beyond which the rest of a line of sight is left out: 14 % comes through, of dark roots
 const float TRAIL = 0.5;  // greatest width of a trail right in front, on which all grass lies [m]
 const int SPANS = 5;  // spans of a line of sight, from the trail on, each twice as long as the one before it
 const float MIDDLE = 1.5;  // distance to the middle of a span, over the distance to its beginning, which is also its length
