@@ -121,7 +121,7 @@ HALF = 0.5
 
 PRESETS: dict[str, Quality] = {
     "minimal": _quality(100, [(1, 3), (7, 3)], [(12, 1, 1, 1, 0.012)], 32, coarse=True, pixels=HALF),
-    "low": _quality(160, [(1, 3), (7, 3)], [(12, 1, 1, 1, 0.012)], 32, coarse=True, edge=0.33),
+    "low": _quality(160, [(1, 3), (8, 3)], [(12, 1, 1, 1, 0.012)], 32, coarse=True, edge=0.33),
     "medium": _quality(320, [(1, 4), (6, 4)], [(6, 4, 1, 2, 0.012), (16, 2, 1, 1, 0.012)], 36, coarse=True),
     "high": _quality(
         500,
