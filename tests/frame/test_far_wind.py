@@ -12,7 +12,7 @@ from tallgrass.components.wind import WindPrimitive
 from tallgrass.engine.camera import Camera
 from tallgrass.systems.prairie import Prairie
 from tallgrass.systems.reference import carpet_painter
-from tallgrass.systems.show.carpet.air import FAR_LEVELS, FAR_SIDE, seen_within
+from tallgrass.systems.show.carpet.air import FAR_LEVELS, FAR_SIDE, reach_of, seen_within
 from tallgrass.systems.wind.breeze import Breeze
 from tallgrass.systems.wind.gust import Gust
 from tallgrass.testing import Stage
@@ -47,10 +47,20 @@ def told_far(prairie: Prairie, level: int) -> tuple[Floats, Floats]:
     texels = np.frombuffer(carpet_painter(prairie.painter).air.far.read(), np.float32).reshape(-1, FAR_SIDE, 2)
     patches = 2.0 ** (level + 1)
     low = np.floor(viewer.centre / patches) - FAR_SIDE // 2
-    x, z, width, depth = seen_within(tuple(np.array(viewer.eye[::2]) / (patch * patches) - low), viewer.cone)
+    x, z, width, depth = seen_within(tuple(np.array(viewer.eye[::2]) / (patch * patches) - low), reach_of(viewer.cone))
     on = np.stack(np.meshgrid(np.arange(x, x + width), np.arange(z, z + depth)), -1)
     found = texels[level * FAR_SIDE + on[..., 1], on[..., 0]]
     return ((on + 0.5 + low) * patch * patches).reshape(-1, 2).astype(np.float32), found.reshape(-1, 2)
+
+
+@pytest.mark.parametrize("half", [0.0, 0.10451706097138791, 0.8, 2.9, np.pi])
+def test_r1_what_is_computed_far_off_holds_all_of_the_view_cone(half: float) -> None:
+    """Ends of a cone are in it, whatever rounding says of them."""
+    for middle in [*np.linspace(-7.0, 7.0, 57).tolist(), 1.8325957183859378]:
+        rays = np.linspace(middle - half, middle + half, 101)
+        ways = np.column_stack([np.sin(rays), -np.cos(rays)])
+        least, most = np.split(np.array(reach_of((middle, half))), 2)
+        assert ((-least <= ways.min(axis=0)) & (ways.max(axis=0) <= most)).all()
 
 
 def test_w1_windows_beyond_the_patches_are_told_the_wind_where_they_are_seen(stage: Stage, load: Load) -> None:

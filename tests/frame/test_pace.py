@@ -10,6 +10,7 @@ from tallgrass.app.studio.timing import timed
 from tallgrass.engine.camera import Camera, camera_at, view_of
 from tallgrass.engine.gl.rasteriser import draws_in_software
 from tallgrass.systems.prairie import Prairie
+from tallgrass.systems.show.carpet.air import FAR_LEVELS
 from tallgrass.testing import Stage
 
 Load = Callable[..., Prairie]
@@ -63,4 +64,4 @@ def test_r3_receivers_are_asked_in_one_draw_a_pool_however_many_patches_there_ar
     assert prairie.painter is not None
     pools = sum(len(each.receivers(prairie.viewers["main"])) for each in prairie.painter.painters.values())
     calls = prairie.painter.hear(view_of(*stage.matrices(camera(0.6, 3, 20, pitch=-10))))
-    assert calls <= pools + 2
+    assert calls <= pools + 2 + FAR_LEVELS

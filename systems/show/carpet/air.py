@@ -25,25 +25,33 @@ MESH = 0.12
 """Greatest spacing of the carpet's mesh, as a part of the distance: so far beside the picture are vertices of what is
 seen [rad]."""
 
+QUARTER = 0.5 * pi
+
 BESIDE = 3
 """Texels beside what is seen that are computed, too: of interpolation, and as windows move by whole texels."""
 
 
-def seen_within(on: tuple[float, float], cone: tuple[float, float], /) -> tuple[int, int, int, int]:
-    """Return the rectangle (x, z, width, depth) of a far window's texels that may be seen in a view cone.
+def reach_of(cone: tuple[float, float], /) -> tuple[float, float, float, float]:
+    """Return how far the unit vectors of a view cone reach along (-x, -z, x, z), each at least 0.
 
-    The eye is `on` the window, (x, z) [texels].
+    They reach farthest at its two ends, or where they lie along an axis.
     """
-    middle, half = cone[0], cone[1] + MESH
-    ends = [middle - half, middle + half, *(quarter * 0.5 * pi for quarter in range(-8, 9))]
-    rays = [end for end in ends if abs(end - middle) <= half] if half < pi else ends
-    rectangle: list[int] = []
-    for here, ways in zip(on, ([sin(ray) for ray in rays], [-cos(ray) for ray in rays]), strict=True):
-        low = here + 2.0 * FAR_SIDE * min(0.0, *ways) - BESIDE
-        high = here + 2.0 * FAR_SIDE * max(0.0, *ways) + BESIDE
-        first, last = max(floor(low), 0), min(ceil(high), FAR_SIDE)
-        rectangle += [first, max(last - first, 0)]
-    return rectangle[0], rectangle[2], rectangle[1], rectangle[3]
+    middle, half = cone[0], min(cone[1] + MESH, pi)
+    first, last = ceil((middle - half) / QUARTER), floor((middle + half) / QUARTER)
+    rays = middle - half, middle + half, *[quarter * QUARTER for quarter in range(first, last + 1)]
+    x, z = [sin(ray) for ray in rays], [-cos(ray) for ray in rays]
+    return max(0.0, -min(x)), max(0.0, -min(z)), max(0.0, *x), max(0.0, *z)
+
+
+def seen_within(on: tuple[float, float], reach: tuple[float, float, float, float], /) -> tuple[int, int, int, int]:
+    """Return the rectangle (x, z, width, depth) of a far window's texels that may be seen.
+
+    The eye is `on` the window, (x, z) [texels], and sees as far as `reach_of` says.
+    """
+    (x, z), far = on, 2.0 * FAR_SIDE
+    left, right = max(floor(x - far * reach[0]) - BESIDE, 0), min(ceil(x + far * reach[2]) + BESIDE, FAR_SIDE)
+    first, last = max(floor(z - far * reach[1]) - BESIDE, 0), min(ceil(z + far * reach[3]) + BESIDE, FAR_SIDE)
+    return left, first, max(right - left, 0), max(last - first, 0)
 
 
 class Air:
@@ -74,21 +82,17 @@ class Air:
         array.render(moderngl.TRIANGLES, vertices=3)
         array = self.hearing_far.array()
         set_uniform(array.program, "around", *around)
+        reach = reach_of(viewer.cone)
         for level in range(FAR_LEVELS):
-            self._hear_far(array, level, viewer)
+            patches = 2 << level
+            x, z = (at / (self._patch * patches) for at in viewer.eye[::2])
+            corner = around[0] // patches - FAR_SIDE // 2, around[1] // patches - FAR_SIDE // 2
+            left, low, width, depth = seen_within((x - corner[0], z - corner[1]), reach)
+            set_uniform(array.program, "level", level)
+            self._far_target.viewport = left, level * FAR_SIDE + low, width, depth
+            self._far_target.use()
+            array.render(moderngl.TRIANGLES, vertices=3)
         return 1 + FAR_LEVELS
-
-    def _hear_far(self, array: moderngl.VertexArray, level: int, viewer: Viewer) -> None:
-        patches = 2.0 ** (level + 1)
-        x, z = (
-            at / (self._patch * patches) - floor(cell / patches) + FAR_SIDE // 2
-            for at, cell in zip(viewer.eye[::2], viewer.centre.tolist(), strict=True)
-        )
-        left, first, width, depth = seen_within((x, z), viewer.cone)
-        set_uniform(array.program, "level", level)
-        self._far_target.viewport = left, level * FAR_SIDE + first, width, depth
-        self._far_target.use()
-        array.render(moderngl.TRIANGLES, vertices=3)
 
     def write(self, row: int, message: NDArray[np.float32]) -> None:
         """Replace the message (2,) of a row of the patch table."""

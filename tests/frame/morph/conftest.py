@@ -48,7 +48,7 @@ grass:
 wind:
   - { kind: breeze, strength: 0.8, gustiness: 0.9 }
 quality:
-  blades: 40
+  blades: 28
   models: 2
   blade_rings: [{ to: 2, segments: 4 }]
   strip_rings:
