@@ -25,31 +25,6 @@ Load = Callable[..., Prairie]
 PLACES = np.random.default_rng(0).uniform(-25.0, 25.0, (50, 2)).astype(np.float32)
 
 
-def test_time_comes_no_farther_than_what_can_be_asked_and_saved(prairie: Prairie) -> None:
-    prairie.advance(9e8)
-    with pytest.raises(ValueError, match=r"^a prairie advances to 0 s to 1e\+09 s, not to 1800000000.0$"):
-        prairie.advance(9e8)
-    assert prairie.time == 9e8
-    prairie.advance(1e8)
-    assert np.isfinite(prairie.wind_at(PLACES)).all()
-    prairie.restore(prairie.state())
-    assert prairie.time == 1e9
-
-
-@pytest.mark.parametrize("dt", [-0.01, float("nan"), float("inf"), 1e308])
-def test_time_does_not_go_back_or_leap(prairie: Prairie, dt: float) -> None:
-    with pytest.raises(ValueError, match=r"^a prairie advances by 0 s to 1e\+09 s, not by "):
-        prairie.advance(dt)
-    assert prairie.time == 0.0
-
-
-@pytest.mark.parametrize("dt", ["0.1", None, [0.1]])
-def test_time_goes_on_by_numbers_alone(prairie: Prairie, dt: Any) -> None:
-    with pytest.raises(TypeError, match=r"^a prairie advances by a number of seconds, not by "):
-        prairie.advance(dt)
-    assert prairie.time == 0.0
-
-
 @pytest.mark.parametrize("time", ["1", [0.0, 1.0], np.zeros(2), 1j, -1.0, float("nan"), float("inf")])
 def test_a_bad_time_is_refused_in_a_sentence_and_no_wind_is_blamed_for_it(prairie: Prairie, time: Any) -> None:
     felt = prairie.wind_at(PLACES, 2.0)

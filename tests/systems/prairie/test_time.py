@@ -1,6 +1,7 @@
 """Setting the time: a scene's winds, pressers and light are as after running to that time."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import esper
 import numpy as np
@@ -135,3 +136,28 @@ def test_f4_time_that_goes_on_after_a_state_is_the_same_to_the_microsecond(world
     assert again.time == made.time == 0.123457
     for each in (made, again):
         each.release()
+
+
+def test_time_comes_no_farther_than_what_can_be_asked_and_saved(prairie: Prairie) -> None:
+    prairie.advance(9e8)
+    with pytest.raises(ValueError, match=r"^a prairie advances to 0 s to 1e\+09 s, not to 1800000000.0$"):
+        prairie.advance(9e8)
+    assert prairie.time == 9e8
+    prairie.advance(1e8)
+    assert np.isfinite(prairie.wind_at(PLACES)).all()
+    prairie.restore(prairie.state())
+    assert prairie.time == 1e9
+
+
+@pytest.mark.parametrize("dt", [-0.01, float("nan"), float("inf"), 1e308])
+def test_time_does_not_go_back_or_leap(prairie: Prairie, dt: float) -> None:
+    with pytest.raises(ValueError, match=r"^a prairie advances by 0 s to 1e\+09 s, not by "):
+        prairie.advance(dt)
+    assert prairie.time == 0.0
+
+
+@pytest.mark.parametrize("dt", ["0.1", None, [0.1]])
+def test_time_goes_on_by_numbers_alone(prairie: Prairie, dt: Any) -> None:
+    with pytest.raises(TypeError, match=r"^a prairie advances by a number of seconds, not by "):
+        prairie.advance(dt)
+    assert prairie.time == 0.0
