@@ -139,4 +139,5 @@ def test_f4_more_soil_is_seen_below_a_tree_in_every_representation_and_less_once
     esper.delete_entity(tree, immediate=True)
     assert np.array_equal(stage.shot(prairie, OVER), open_ground)
     red = [float((each[..., 0] / each[..., :2].sum(axis=-1))[24:72, 24:72].mean()) for each in (open_ground, below)]
-    assert red == pytest.approx([0.66, 0.84], abs=0.02)  # soil is red, and grass green
+    assert red[1] == pytest.approx(0.84, abs=0.02)  # soil is red, and grass green
+    assert 0.64 < red[0] < 0.74  # from above, strips hide less of it
