@@ -6,7 +6,6 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ....components.arrays import Floats
 from ....components.viewer import Viewer
 from ....engine.gl.shaders import program, set_uniform
 from ....engine.gl.stream import release_all
@@ -26,6 +25,7 @@ MESH = 0.12
 seen [rad]."""
 
 QUARTER = 0.5 * pi
+"""A quarter of a turn [rad]."""
 
 BESIDE = 3
 """Texels beside what is seen that are computed, too: of interpolation, and as windows move by whole texels."""
@@ -105,12 +105,6 @@ class Air:
         self._far_target.use()
         self._array.render(moderngl.TRIANGLES, vertices=3)
         return 1
-
-    def mean(self) -> Floats:
-        """Return the mean message (2,)."""
-        texels: Floats = np.frombuffer(self.far.read(), np.float32).reshape(-1, FAR_SIDE, 2)
-        mean: Floats = texels[-1, 0]
-        return mean
 
     def use(self) -> None:
         """Bind the messages and those beyond."""
